@@ -9,6 +9,7 @@
 #include "core/data/views.hpp"
 #include "core/grid/grid.hpp"
 #include "core/simulation/component.hpp"
+#include "core/tasks/marks.hpp"
 #include "core/tasks/task_list.hpp"
 
 namespace tushar {
@@ -47,7 +48,10 @@ using tasks::computes;
 using tasks::computesOwn;
 using tasks::creates;
 using tasks::keepsFlux;
+using tasks::Marks;
+using tasks::marks;
 using tasks::modifies;
+using tasks::newCells;
 using tasks::offers;
 using tasks::ParticleMaker;
 using tasks::RankPatches;

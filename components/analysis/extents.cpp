@@ -44,8 +44,6 @@ std::string problemOfName(const std::string& name) {
 /// What is wrong with the points; empty where the grid has cells between them.
 std::string problemOf(const Extent& extent, int axes, const Level& level) {
   const Vec3 lower = level.domain().lower, upper = level.domain().upper;
-  if (level.domain().refinement.levels > 1)
-    return "it needs a grid of one level; take the module out, or the finer Levels and <AMR>";
   int along = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double from = extent.start[axis], to = extent.end[axis];
@@ -97,12 +95,13 @@ void checkExtents(const std::vector<Extent>& extents, int axes, const Level& lev
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-Box cellsOf(const Extent& extent, const Level& level) {
+Box cellsOf(const Extent& extent, const Level& level, int coarser) {
   Box box = level.cells();
   for (int d = 0; d < level.dimension(); ++d) {
-    const int axis = level.axis(d), cells = level.cells().extent(d);
-    const double from = (extent.start[axis] - level.nodePosition(d, 0)) / level.spacing(d);  // in cells
-    const double to = (extent.end[axis] - level.nodePosition(d, 0)) / level.spacing(d);
+    const int axis = level.axis(d), cells = level.cells().extent(d) >> coarser;
+    const double spacing = std::ldexp(level.spacing(d), coarser);
+    const double from = (extent.start[axis] - level.nodePosition(d, 0)) / spacing;  // in cells
+    const double to = (extent.end[axis] - level.nodePosition(d, 0)) / spacing;
     box.lower[d] = std::clamp(static_cast<int>(std::floor(from + slack)), 0, cells - 1);
     box.upper[d] = std::clamp(static_cast<int>(std::ceil(to - slack)), box.lower[d] + 1, cells);
   }
@@ -116,8 +115,26 @@ ExtentModule::ExtentModule(const ExtentSettings& settings, int axes, const Level
 
 std::vector<collect::Window> ExtentModule::windows() const {
   std::vector<collect::Window> windows;
-  for (const Extent& extent : extents_) windows.push_back({cellsOf(extent, *level_), cellsOf(extent, *level_)});
+  for (const Extent& extent : extents_) {
+    const Box coarsest = cellsOf(extent, *level_, level_->number());
+    windows.push_back({coarsest, coarsest});
+    for (int number = 1; number <= level_->number(); ++number)
+      windows.back().finer.push_back(cellsOf(extent, *level_, level_->number() - number));
+  }
   return windows;
+}
+
+std::vector<LevelBox> ExtentModule::boxesOf(std::size_t extent, const output::Snapshot& part) const {
+  if (level_->number() == 0) return {{0, cellsOf(extents_[extent], *level_)}};
+  std::vector<LevelBox> boxes;
+  for (const output::GridBox& given : part.grid.boxes) {
+    boxes.push_back({given.level, {Index3{}, Index3::filled(1)}});
+    for (int d = 0; d < level_->dimension(); ++d) {
+      boxes.back().cells.lower[d] = given.lower[level_->axis(d)];
+      boxes.back().cells.upper[d] = given.upper[level_->axis(d)];
+    }
+  }
+  return boxes;
 }
 
 int axisOf(const Extent& line) {
@@ -132,11 +149,12 @@ Index3 sceneIndex(const Index3& cell, const Level& level) {
   return index;
 }
 
-Vec3 placeOf(const Index3& cell, bool isCorner, const Level& level) {
+Vec3 placeOf(const Index3& cell, bool isCorner, const Level& level, int coarser) {
   Vec3 place = 0.5 * (level.domain().lower + level.domain().upper);
-  for (int d = 0; d < level.dimension(); ++d)
-    place[level.axis(d)] = isCorner ? level.nodePosition(d, cell[d])
-                                    : 0.5 * (level.nodePosition(d, cell[d]) + level.nodePosition(d, cell[d] + 1));
+  for (int d = 0; d < level.dimension(); ++d) {
+    const auto node = [&](int at) { return level.nodePosition(d, at << coarser); };
+    place[level.axis(d)] = isCorner ? node(cell[d]) : 0.5 * (node(cell[d]) + node(cell[d] + 1));
+  }
   return place;
 }
 

@@ -35,8 +35,14 @@ const input::Schema<ExtentList>& planesSchema();
 void checkExtents(const std::vector<Extent>& extents, int axes, const grid::Level& level);
 
 /// The cells that it goes through, as a box; where it lies between two cells those above it. Nodes are those at the
-/// lower corners of these cells.
-grid::Box cellsOf(const Extent& extent, const grid::Level& level);
+/// lower corners of these cells. `level`: the finest; the cells are of one `coarser` by so many.
+grid::Box cellsOf(const Extent& extent, const grid::Level& level, int coarser = 0);
+
+/// Cells of a level, 0 the coarsest.
+struct LevelBox {
+  int level;
+  grid::Box cells;
+};
 
 /// The tags of a module that looks at variables in extents.
 struct ExtentSettings : Sampling {
@@ -51,6 +57,9 @@ class ExtentModule : public SamplingModule {
   std::vector<collect::Window> windows() const override;
 
  protected:
+  /// The boxes of cells that a part has values of, in their order.
+  std::vector<LevelBox> boxesOf(std::size_t extent, const output::Snapshot& part) const;
+
   std::vector<Extent> extents_;
   const grid::Level* level_;
 };
@@ -61,6 +70,7 @@ int axisOf(const Extent& line);
 /// The number of a cell along x, y, z: 0 along the axes that the grid leaves out.
 Index3 sceneIndex(const Index3& cell, const grid::Level& level);
 /// The middle of a cell, or its lower corner; the middle of the domain along the axes that the grid leaves out [m].
-Vec3 placeOf(const Index3& cell, bool isCorner, const grid::Level& level);
+/// `coarser`: as of cellsOf.
+Vec3 placeOf(const Index3& cell, bool isCorner, const grid::Level& level, int coarser = 0);
 
 }  // namespace tushar::analysis

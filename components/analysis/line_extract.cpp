@@ -36,29 +36,42 @@ class LineExtract : public ExtentModule {
         return std::pair(a.field->centring, a.field->array.components) <
                std::pair(b.field->centring, b.field->array.components);
       });
-      if (!columns.empty()) write(extents_[k], parts[k], columns, archive / extents_[k].name / "L-0");
+      if (!columns.empty()) write(k, parts[k], columns, archive / extents_[k].name);
     }
   }
 
  private:
   /// Every how many cells of a line are written.
-  int strideOf(const Extent& line) const {
-    const double width = level_->cellWidth(axisOf(line));
+  int strideOf(const Extent& line, int level) const {
+    const double width = std::ldexp(level_->cellWidth(axisOf(line)), level_->number() - level);
     return width > 0 ? std::max(1, static_cast<int>(std::ceil(line.step / width - 1e-9))) : 1;
   }
 
-  void write(const Extent& line, const Snapshot& part, const std::vector<Found>& columns,
+  void write(std::size_t line, const Snapshot& part, const std::vector<Found>& columns,
              const std::filesystem::path& folder) {
-    output::makeFolder(folder);
+    std::size_t before = 0;
+    for (const LevelBox& box : boxesOf(line, part)) {
+      const auto ofLevel = folder / fmt::format("L-{}", box.level);
+      output::makeFolder(ofLevel);
+      write(line, part, columns, box, before, ofLevel);
+      before += box.cells.size();
+    }
+  }
+
+  /// The cells of a box, of which the first is entry `before` of the part.
+  void write(std::size_t line, const Snapshot& part, const std::vector<Found>& columns, const LevelBox& box,
+             std::size_t before, const std::filesystem::path& folder) {
     const bool isOfNodes = columns.front().field->centring == output::Centring::node;
     const std::string header = headerOf(columns);
-    const int stride = strideOf(line);
-    std::size_t entry = 0;
-    grid::forEach<3>(cellsOf(line, *level_), [&](const Index3& cell) {
+    const int stride = strideOf(extents_[line], box.level);
+    const Index3 first = cellsOf(extents_[line], *level_, level_->number() - box.level).lower;
+    std::size_t entry = before;
+    grid::forEach<3>(box.cells, [&](const Index3& cell) {
       const std::size_t here = entry++;
-      if (here % static_cast<std::size_t>(stride) != 0) return;
+      const Index3 along = cell - first;
+      if ((along[0] + along[1] + along[2]) % stride != 0) return;  // it is 0 but for one axis
       const Index3 index = sceneIndex(cell, *level_);
-      const Vec3 place = placeOf(cell, isOfNodes, *level_);
+      const Vec3 place = placeOf(cell, isOfNodes, *level_, level_->number() - box.level);
       std::string text =
           fmt::format("{:<16E} {:<16E} {:<16E} {:<16} {:<16E}", place[0], place[1], place[2], part.step, part.time);
       for (const Found& column : columns) {

@@ -107,8 +107,6 @@ char nameOf(int axis) { return "xyz"[axis]; }
 /// Why a grid has no cells on a plane; empty where it has.
 std::string problemOf(const Plane& plane, const Level& level) {
   const double lower = level.domain().lower[plane.axis], upper = level.domain().upper[plane.axis];
-  if (level.domain().refinement.levels > 1)
-    return "a slice needs a grid of one level; take the module out, or the finer Levels and <AMR>";
   if (level.dimension() < 2) return "a slice of a grid along one axis would be a point; take the module out";
   bool isUsed = false;
   for (int d = 0; d < level.dimension(); ++d) {
@@ -210,11 +208,14 @@ std::optional<Plane> planeOf(const std::string& text) {
 Layer layerAt(const Plane& plane, const Level& level) {
   int d = 0;
   while (level.axis(d) != plane.axis) ++d;
-  const int cells = level.cells().extent(d);
+  const int cells = level.cells().extent(d), finest = level.number();
   const double place = (plane.at - level.nodePosition(d, 0)) / level.spacing(d);  // in cells
-  const int cell = std::clamp(static_cast<int>(std::ceil(place)) - 1, 0, cells - 1);
-  const int node = std::clamp(static_cast<int>(std::ceil(place - .5)), 0, cells);
-  return {d, cell, node};
+  const auto cellAt = [&](int coarser) {
+    return std::clamp(static_cast<int>(std::ceil(std::ldexp(place, -coarser))) - 1, 0, (cells >> coarser) - 1);
+  };
+  Layer layer{d, cellAt(finest), std::clamp(static_cast<int>(std::ceil(place - .5)), 0, cells)};
+  for (int number = 1; number <= finest; ++number) layer.finer.push_back(cellAt(finest - number));
+  return layer;
 }
 
 AnalysisKind sliceKind() {

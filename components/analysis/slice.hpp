@@ -21,7 +21,8 @@ struct Plane {
 /// Parses a plane such as `z = 0.5`; none for any other text.
 std::optional<Plane> planeOf(const std::string& text);
 
-/// The layer of the grid that a plane shows. The grid uses the plane's axis, and the plane is within its sides.
+/// The layer of the grid that a plane shows; `level`: the finest. The grid uses the plane's axis, and the plane is
+/// within its sides.
 collect::Layer layerAt(const Plane& plane, const grid::Level& level);
 
 }  // namespace tushar::analysis

@@ -5,6 +5,7 @@
 #include "components/euler/tasks/diagnose.hpp"
 #include "components/euler/tasks/initialize.hpp"
 #include "components/euler/tasks/measure_error.hpp"
+#include "components/euler/tasks/mend_new_cells.hpp"
 
 namespace tushar::euler {
 
@@ -46,6 +47,11 @@ void Euler<D>::scheduleDiagnostics(TaskList& tasks) const {
                  requiresOld(c::momentum<D>), requiresOld(c::totalEnergy), computes(c::mach<D>));
   tasks.perPatch("euler::computeInternalEnergy", computeInternalEnergy<D>, requiresOld(c::density),
                  requiresOld(c::momentum<D>), requiresOld(c::totalEnergy), computes(c::internalEnergy));
+}
+
+template <int D>
+void Euler<D>::scheduleRefine(TaskList& tasks) const {
+  tasks.perPatch("euler::mendNewCells", mendNewCells<D>, with(settings_.gas), newCells(), all<ChangedState<D>>());
 }
 
 /// Two gases that part have equal densities and pressures at first: the velocity must be looked at, too.

@@ -21,6 +21,7 @@ class Euler : public Component, public reference::GasSolution {
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
+  void scheduleRefine(TaskList& tasks) const override;
   std::vector<simulation::Criterion> criteria() const override;
   std::string advice() const override {
     return "a smaller Euler/cfl, Euler/limiter minmod, or Euler/reconstruction first_order";

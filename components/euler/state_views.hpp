@@ -31,4 +31,12 @@ struct NewState : StateViews<D, double> {
   }
 };
 
+/// The state that a task changes.
+template <int D>
+struct ChangedState : StateViews<D, double> {
+  static ChangedState from(auto& take) {
+    return {{take(modifies(c::density)), take(modifies(c::momentum<D>)), take(modifies(c::totalEnergy))}};
+  }
+};
+
 }  // namespace tushar::euler

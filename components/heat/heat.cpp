@@ -26,6 +26,13 @@ void Heat<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("heat::sumEnergy", sumEnergy<D>, with(settings_), requiresOld(c::temperature), computes(totalEnergy));
 }
 
+template <int D>
+void Heat<D>::scheduleErrorEstimate(TaskList& tasks) const {
+  if (settings_.refinementTolerance > 0)
+    tasks.perPatch("heat::estimateError", estimateError<D>, with(settings_.refinementTolerance),
+                   requiresOld(c::temperature, 1), marks());
+}
+
 simulation::ComponentKind kind() {
   static const input::Schema<Settings> schema = [] {
     input::Schema<Settings> section("Heat", "Heat conduction, explicit in time.");
@@ -36,7 +43,11 @@ simulation::ComponentKind kind() {
         .value("specific_heat", &Settings::specificHeat, 1, "J/(kg K)", "c", input::positive())
         .value("cfl", &Settings::cfl, 0.9, "1", "part of the greatest stable time step", input::positive(),
                input::atMost(1))
-        .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime());
+        .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime())
+        .value("refinement_tolerance", &Settings::refinementTolerance, 0, "K",
+               "on an adaptive grid cells get finer where a straight line between them is wrong by more; 0: only a "
+               "<Variable> of <AMR> says where",
+               input::nonNegative());
     input::refuseOtherValues(section, "time_integrator", {"explicit"},
                              "for implicit steps, use <SimulationComponent type=\"implicit_heat\"/>");
     input::refuseTag(section, "Solver",

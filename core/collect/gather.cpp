@@ -34,6 +34,25 @@ GridOrder orderOf(const Label& label, const grid::Grid& grid) {
   return collect::orderOf(grid, label.centring == Centring::node);
 }
 
+/// The cells of several levels in a window.
+GridOrder orderIn(const grid::Grid& grid, const Window& window) {
+  std::vector<Box> boxes{window.cells};
+  boxes.insert(boxes.end(), window.finer.begin(), window.finer.end());
+  return {grid, mostCellsOfBox, std::move(boxes)};
+}
+
+Window windowOf(const grid::Grid& grid, const Layer& layer) {
+  const auto at = [&](Box box, int place) {
+    box.lower[layer.axis] = place;
+    box.upper[layer.axis] = place + 1;
+    return box;
+  };
+  Window window{at(grid.level().cells(), layer.cell), at(grid.level().nodesOfCells(), layer.node)};
+  for (std::size_t k = 0; k < layer.finer.size(); ++k)
+    window.finer.push_back(at(grid.level(static_cast<int>(k) + 1).cells(), layer.finer[k]));
+  return window;
+}
+
 struct HashFree {
   void operator()(XXH64_state_t* state) const { XXH64_freeState(state); }
 };
@@ -91,20 +110,20 @@ output::Array Gather::stream(Generation generation, int number, const GridOrder&
 }
 
 output::Array Gather::stream(Generation generation, int number, const Layer& layer) {
-  const grid::Level& level = warehouse_->grid().level();
-  Window window{level.cells(), level.nodesOfCells()};
-  for (const auto& [box, at] : {std::pair{&window.cells, layer.cell}, {&window.nodes, layer.node}}) {
-    box->lower[layer.axis] = at;
-    box->upper[layer.axis] = at + 1;
-  }
-  return stream(generation, number, window);
+  return stream(generation, number, windowOf(warehouse_->grid(), layer));
 }
 
 output::Array Gather::stream(Generation generation, int number, const Window& window) {
   const Label& label = *warehouse_->table()[number].label;
   output::Array array = emptyArray(label);
   if (!warehouse_->isHeld(generation, number)) return array;
-  streamGrid(generation, number, GridOrder(label.centring == Centring::node ? window.nodes : window.cells), array);
+  const grid::Grid& grid = warehouse_->grid();
+  const bool isNode = label.centring == Centring::node;
+  if (grid.levels() == 1) {
+    streamGrid(generation, number, GridOrder(isNode ? window.nodes : window.cells), array);
+  } else if (!isNode) {
+    streamGrid(generation, number, orderIn(grid, window), array);
+  }
   return array;
 }
 
@@ -127,12 +146,12 @@ output::GridInfo gridInfo(const grid::Level& level) {
   return info;
 }
 
-output::GridInfo gridInfo(const grid::Grid& grid) {
+namespace {
+
+output::GridInfo withBoxes(const grid::Grid& grid, const GridOrder& order) {
   const grid::Level& level = grid.level();
   output::GridInfo info = gridInfo(level);
   info.levels = grid.levels();
-  if (grid.levels() == 1) return info;
-  const GridOrder order = collect::orderOf(grid, false);
   for (const grid::Tile& tile : order.boxes()) {
     output::GridBox box{tile.level, {}, Index3::filled(1)};
     for (int d = 0; d < level.dimension(); ++d) {
@@ -144,9 +163,24 @@ output::GridInfo gridInfo(const grid::Grid& grid) {
   return info;
 }
 
-output::GridInfo gridInfo(const grid::Level& level, const Layer& layer) {
-  output::GridInfo info = gridInfo(level);
+}  // namespace
+
+output::GridInfo gridInfo(const grid::Grid& grid) {
+  return grid.levels() == 1 ? gridInfo(grid.level()) : withBoxes(grid, collect::orderOf(grid, false));
+}
+
+output::GridInfo gridInfo(const grid::Grid& grid, const Window& window) {
+  return grid.levels() == 1 ? gridInfo(grid.level()) : withBoxes(grid, orderIn(grid, window));
+}
+
+output::GridInfo gridInfo(const grid::Grid& grid, const Layer& layer) {
+  const grid::Level& level = grid.level();
+  output::GridInfo info = gridInfo(grid, windowOf(grid, layer));
   const int axis = level.axis(layer.axis);
+  for (output::GridBox& box : info.boxes) {
+    box.lower[axis] = 0;
+    box.upper[axis] = 1;
+  }
   info.lower[axis] = level.nodePosition(layer.axis, layer.cell);
   info.cells[axis] = 1;
   --info.dimension;

@@ -12,14 +12,17 @@
 
 namespace tushar::collect {
 
-/// The cells between two neighbouring planes of nodes across a kernel axis, and the nodes of one of the two.
+/// The cells between two neighbouring planes of nodes across a kernel axis, and the nodes of one of the two; on a grid
+/// of several levels, the cells of each level between two planes of its nodes, and no nodes.
 struct Layer {
   int axis = 0, cell = 0, node = 0;
+  std::vector<int> finer{};  ///< cells of levels 1, 2, …
 };
 
-/// A box of cells and a box of nodes of a grid of one level.
+/// A box of cells and a box of nodes; on a grid of several levels, a box of the cells of each level, and no nodes.
 struct Window {
   grid::Box cells, nodes;
+  std::vector<grid::Box> finer{};  ///< cells of levels 1, 2, …
 };
 
 /// Variables over the whole grid, in an order that no layout changes: particles by id, nodes and cells with x fastest.
@@ -56,7 +59,9 @@ class Gather {
 output::GridInfo gridInfo(const grid::Grid& grid);
 output::GridInfo gridInfo(const grid::Level& level);
 /// The geometry of a layer: the axis across it has one cell and is not in use.
-output::GridInfo gridInfo(const grid::Level& level, const Layer& layer);
+output::GridInfo gridInfo(const grid::Grid& grid, const Layer& layer);
+/// The geometry of the grid; of several levels, with the boxes of cells that are in the window.
+output::GridInfo gridInfo(const grid::Grid& grid, const Window& window);
 
 /// Hash of the old values of the named variables of all materials, in the order above: 16 hexadecimal digits. Two runs
 /// agree in it only if they agree in every bit. Only rank 0 has it. Collective.

@@ -15,9 +15,10 @@ class GridOrder {
   /// The cells or nodes of a box of the only level.
   explicit GridOrder(const grid::Box& all) : all_(all) {}
   /// All cells of several levels, in boxes of up to `most` cells along an axis; 0: block by block along the curve.
-  GridOrder(const grid::Grid& grid, int most);
+  /// `windows`: of each level, a box of the only cells that are in the order; all, if there are none.
+  GridOrder(const grid::Grid& grid, int most, std::vector<grid::Box> windows = {});
 
-  std::size_t size() const { return boxes_ ? boxes_->cells() : all_.size(); }
+  std::size_t size() const { return boxes_ ? size_ : all_.size(); }
   /// The cells or nodes that a patch contributes, of those that it has.
   grid::Box givenBy(const grid::Box& own) const { return boxes_ ? own : own.intersect(all_); }
   /// Calls `visit(place in the order, first cell or node, count)` for each row of a box of a level, as far as it is in
@@ -25,11 +26,13 @@ class GridOrder {
   template <class Visit>
   void forEachRow(int level, const grid::Box& box, Visit&& visit) const {
     if (!boxes_) return rowsOf(0, all_, box.intersect(all_), visit);
-    for (const grid::Tile& tile : boxes_->overlapping(level, box))
-      rowsOf(before_[tile.id], tile.cells, box.intersect(tile.cells), visit);
+    for (const grid::Tile& tile : boxes_->overlapping(level, box)) {
+      const grid::Box cells = shown(tile);
+      rowsOf(before_[tile.id], cells, box.intersect(cells), visit);
+    }
   }
 
-  /// The boxes of several levels, in the order.
+  /// The boxes of several levels, in the order; none is empty.
   std::vector<grid::Tile> boxes() const;
 
  private:
@@ -38,10 +41,16 @@ class GridOrder {
     collect::forEachRow(part, [&](const Index3& first) { visit(before + all.offset(first), first, part.extent(0)); });
   }
 
+  grid::Box shown(const grid::Tile& tile) const {
+    return windows_.empty() ? tile.cells : tile.cells.intersect(windows_[tile.level]);
+  }
+
   grid::Box all_;
   bool is_by_level_ = false;
   std::shared_ptr<const grid::BlockTiling> boxes_;
   std::vector<std::size_t> before_;  ///< place of the first cell of a box
+  std::vector<grid::Box> windows_;   ///< by level
+  std::size_t size_ = 0;
 };
 
 /// All cells or nodes that a variable has a value for; of several levels in boxes that suit readers of files.

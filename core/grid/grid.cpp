@@ -85,13 +85,26 @@ std::unique_ptr<BlockTiling> Grid::cut(BlockTree tree) const {
   return std::make_unique<BlockTiling>(std::move(tree), blockCells(), mostCellsOfPatch(blockCells()));
 }
 
-std::unique_ptr<Tiling> Grid::refine(std::unique_ptr<BlockTiling> tiling) {
+std::unique_ptr<Tiling> Grid::refine(std::unique_ptr<BlockTiling> tiling, RankOffsets shares) {
   partition_.reset();
   blocks_ = tiling.get();
   std::unique_ptr<Tiling> before = std::exchange(tiling_, std::move(tiling));
-  partition_.emplace(*tiling_, share_.ranks);
+  if (shares.empty())
+    partition_.emplace(*tiling_, share_.ranks);
+  else
+    partition_.emplace(*tiling_, std::move(shares));
   makePatches();
+  findNewCells(*before);
   return before;
+}
+
+void Grid::findNewCells(const Tiling& before) {
+  for (std::size_t place = 0; place < patches_.size(); ++place) {
+    const Patch& patch = patches_[place];
+    if (patch.level().number() == 0) continue;
+    for (const Tile& coarser : before.overlapping(patch.level().number() - 1, patch.cells().coarsened(dimension())))
+      new_cells_[place].push_back(coarser.cells.refined(dimension()).intersect(patch.cells()));
+  }
 }
 
 RankOffsets Grid::rankOffsets() const {
@@ -117,6 +130,7 @@ void Grid::makePatches() {
       if (sharesUpperFace(patch, d)) own.upper[d] = patch.cells().upper[d];
     own_nodes_.push_back(own);
   }
+  new_cells_.assign(patches_.size(), {});
   rims_.clear();
   for (const Patch& patch : patches_)
     if (levels() > 1) rims_.push_back(rimsOf(*this, patch));

@@ -48,9 +48,11 @@ class Grid {
   const std::set<BlockId>& fixedBlocks() const { return fixed_blocks_; }
   /// The patches that another tree would make.
   std::unique_ptr<BlockTiling> cut(BlockTree tree) const;
-  /// Replaces the patches, in shares that are as equal in cells as they allow; returns the previous ones. What stands
-  /// on patches is the caller's to move: see tasks::regrid.
-  std::unique_ptr<Tiling> refine(std::unique_ptr<BlockTiling> tiling);
+  /// Replaces the patches, in the given shares or, without any, in such that are as equal in cells as they allow;
+  /// returns the previous ones. What stands on patches is the caller's to move: see tasks::regrid.
+  std::unique_ptr<Tiling> refine(std::unique_ptr<BlockTiling> tiling, RankOffsets shares = {});
+  /// Cells of one of this rank's patches that were part of coarser ones before the last call of refine().
+  const std::vector<Box>& newCells(int patch) const { return new_cells_[patch - first_patch_]; }
   /// The patches of this rank, by number.
   const std::vector<Patch>& patches() const { return patches_; }
   /// Number of cells of all patches.
@@ -96,6 +98,7 @@ class Grid {
   Index3 mostCellsOfPatch(const Index3& blockCells) const;
   Patch patchOf(const Tile& tile) const { return {level(tile.level), tile.id, tile.cells}; }
   void makePatches();
+  void findNewCells(const Tiling& before);
   bool sharesUpperFace(const Patch& patch, int kernelAxis) const;
 
   std::deque<Level> levels_;
@@ -108,6 +111,7 @@ class Grid {
   std::vector<Patch> patches_;
   std::vector<Box> own_nodes_;               ///< by place of the patch on this rank
   std::vector<std::vector<RimPiece>> rims_;  ///< likewise; empty where there is one level
+  std::vector<std::vector<Box>> new_cells_;  ///< by place of the patch on this rank
 };
 
 }  // namespace tushar::grid

@@ -7,9 +7,9 @@
 
 #include "core/input/refuse.hpp"
 #include "core/input/schema.hpp"
+#include "core/scene/component_lists.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_samples.hpp"
-#include "core/tasks/task_list.hpp"
 
 namespace tushar::scene {
 
@@ -285,25 +285,6 @@ void checkBlocks(const Element& amr, const std::optional<std::vector<Index3>>& b
             input::toText(*blocks)));
 }
 
-/// The materials of the variables of cells that a component has, by name; empty for one that belongs to none.
-std::map<std::string, std::vector<std::string>> cellVariables(const simulation::Component& component) {
-  tasks::TaskList initialize, advance, diagnose;
-  component.scheduleInitialize(initialize);
-  component.scheduleTimeAdvance(advance);
-  component.scheduleDiagnostics(diagnose);
-  std::map<std::string, std::vector<std::string>> found;
-  for (const tasks::TaskList* list : {&initialize, &advance, &diagnose})
-    for (const tasks::Task& task : list->tasks())
-      for (const tasks::Access& access : task.accesses)
-        if (access.writes() && access.label->centring == data::Centring::cell &&
-            access.label->number == data::Number::real)
-          for (std::vector<std::string>& materials = found[std::string(access.label->name)];
-               const std::string& material : task.materials)
-            if (std::find(materials.begin(), materials.end(), material) == materials.end())
-              materials.push_back(material);
-  return found;
-}
-
 /// What is wrong with the variable of a criterion, or nothing. `materials`: those that it belongs to.
 void checkMaterial(Criterion& criterion, const std::vector<std::string>& materials, Diagnostics& diagnostics) {
   if (!materials.empty())
@@ -316,13 +297,6 @@ void checkMaterial(Criterion& criterion, const std::vector<std::string>& materia
   diagnostics.note(criterion.where, criterion.path,
                    fmt::format("matl does nothing: '{}' belongs to no material", criterion.variable));
   criterion.material.clear();
-}
-
-bool hasParticles(const simulation::Component& component) {
-  tasks::TaskList initialize;
-  component.scheduleInitialize(initialize);
-  return std::any_of(initialize.tasks().begin(), initialize.tasks().end(),
-                     [](const tasks::Task& task) { return task.kind == tasks::TaskKind::newParticles; });
 }
 
 }  // namespace
@@ -364,7 +338,7 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
     std::erase_if(criteria, [](const Criterion& one) { return one.variable == cellsWithParticles; });
   if (criteria.empty() && !followsParticles) {
     criteria = component.criteria();
-    if (criteria.empty())
+    if (criteria.empty() && !estimatesErrors(component))
       diagnostics.error(
           *amr.tag->child("Regridder")->child("adaptive"),
           "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where to refine");

@@ -48,7 +48,7 @@ class Analysis {
   virtual OtherNames otherNames() const { return {}; }
   /// The layers of the grid in which sample() needs them, without particles; if there are none, everywhere.
   virtual std::vector<collect::Layer> layers() const { return {}; }
-  /// The parts of a grid of one level in which sample() needs them, likewise.
+  /// The parts of the grid in which sample() needs them, likewise.
   virtual std::vector<collect::Window> windows() const { return {}; }
   /// Over what sample() needs the least values, the greatest and the sums instead: a snapshot of each.
   virtual std::optional<collect::SummaryOver> summary() const { return {}; }

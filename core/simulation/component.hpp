@@ -39,6 +39,13 @@ class Component {
   virtual std::string whyOneLevel() const { return ""; }
   /// Where the grid is to be finer, if the scene refines it and does not say where.
   virtual std::vector<Criterion> criteria() const { return {}; }
+  /// Marks cells where finer ones are needed, from the old state and diagnostics: `perPatch` tasks with `marks()`. They
+  /// run beside the criteria of the scene before each regridding of an adaptive grid.
+  virtual void scheduleErrorEstimate(tasks::TaskList&) const {}
+  /// Gives cells that regridding has made finer other values than interpolated ones: tasks that modify variables of
+  /// cells, which have the interpolated values, on all patches; `newCells()` are those of the patch that are finer than
+  /// they were. At the start of a run cells of all levels are initialised instead.
+  virtual void scheduleRefine(tasks::TaskList&) const {}
   /// Diagnostics of the old state: totals, derived fields. Only those that are needed run.
   virtual void scheduleDiagnostics(tasks::TaskList&) const {}
 };

@@ -11,6 +11,7 @@
 #include "core/simulation/level_limits.hpp"
 #include "core/simulation/refinement_marks.hpp"
 #include "core/tasks/reflux.hpp"
+#include "core/tasks/take_over.hpp"
 
 namespace tushar::simulation {
 
@@ -72,6 +73,23 @@ std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>&
   return samples;
 }
 
+/// What lists read of the old state.
+Names requiredByAll(std::initializer_list<const Pruned*> lists) {
+  Names names;
+  for (const Pruned* list : lists) names.merge(requiredOfState(list->kept));
+  return names;
+}
+
+/// The tasks that mark cells, by criteria and by what a component itself finds.
+tasks::TaskList estimating(const tasks::TaskList& diagnostics, std::vector<BoundCriterion> criteria,
+                           const tasks::TaskList& estimate) {
+  tasks::TaskList list;
+  for (const tasks::Task& task : diagnostics.tasks()) list.add(task);
+  list.add(markTask(std::move(criteria)));
+  for (const tasks::Task& task : estimate.tasks()) list.add(task);
+  return list;
+}
+
 /// The time step, which every step has, and what tasks compute along with it.
 Names decidedBefore(const std::vector<tasks::Task>& stableTimeStep) {
   return united(producedBy(stableTimeStep), {std::string(data::delT.name)});
@@ -84,6 +102,10 @@ Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Ana
   component.scheduleComputeStableTimeStep(lists_.stableTimeStep);
   component.scheduleTimeAdvance(lists_.timeAdvance);
   component.scheduleDiagnostics(lists_.diagnostics);
+  component.scheduleErrorEstimate(lists_.errorEstimate);
+  tasks::TaskList refine;
+  component.scheduleRefine(refine);
+  lists_.refine = tasks::takingOver(refine);
   for (const auto& analysis : analyses) analysis->schedule(lists_.diagnostics);
   validateAll();
   noteMaterials();
@@ -97,6 +119,8 @@ void Phases::validateAll() const {
   tasks::validate(lists.stableTimeStep.tasks(), state);
   tasks::validate(lists.timeAdvance.tasks(), withDelT);
   tasks::validate(lists.diagnostics.tasks(), state);
+  tasks::validate(estimating(lists.diagnostics, {}, lists.errorEstimate).tasks(), state);
+  tasks::validate(lists.refine.tasks(), state);
 }
 
 void Phases::noteMaterials() {
@@ -223,9 +247,7 @@ void Phases::sortSaves(const std::vector<SaveRequest>& saves) {
 }
 
 tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
-  tasks::TaskList list;
-  if (!regrid.adaptive || regrid.criteria.empty()) return list;
-  for (const tasks::Task& task : lists_.diagnostics.tasks()) list.add(task);
+  if (!regrid.adaptive || (regrid.criteria.empty() && lists_.errorEstimate.tasks().empty())) return {};
   const Names diagnosed = producedBy(lists_.diagnostics.tasks());
   std::vector<std::string> known;
   for (const std::string& name : saveable())
@@ -245,8 +267,7 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
                        didYouMean(one.variable, known), known.size() == 1 ? "is" : "are", allOf(known))});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-  list.add(markTask(std::move(criteria)));
-  return list;
+  return estimating(lists_.diagnostics, std::move(criteria), lists_.errorEstimate);
 }
 
 namespace {
@@ -273,14 +294,19 @@ void checkOnLevels(std::initializer_list<const Pruned*> lists, const grid::Grid&
 
 }  // namespace
 
-void Phases::refuseSavedNodes() const {
+void Phases::refuseSavedNodes(const std::vector<std::unique_ptr<Analysis>>& analyses) const {
   std::vector<InputProblem> problems;
-  for (const SaveRequest& save : saved_fields_)
-    if (save.label.starts_with(data::NodeLabel<double>::prefix()))
-      problems.push_back(
-          {save.where, "DataArchiver/save",
-           fmt::format("'{}' is a node variable; on several levels only cell and particle variables are saved",
-                       save.label)});
+  const auto refuse = [&](const std::vector<SaveRequest>& saves, const char* path) {
+    for (const SaveRequest& save : saves)
+      if (save.label.starts_with(data::NodeLabel<double>::prefix()))
+        problems.push_back(
+            {save.where, path,
+             fmt::format("'{}' is a node variable; on several levels only cell and particle variables are saved",
+                         save.label)});
+  };
+  refuse(saved_fields_, "DataArchiver/save");
+  for (const auto& analysis : analyses)
+    if (!analysis->layers().empty() || !analysis->windows().empty()) refuse(analysis->samples(), "DataAnalysis/Module");
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
@@ -303,7 +329,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
     throw InputError(std::move(problems));
   const std::vector<SaveRequest> samples = samplesOf(analyses);
   sortSaves(named(saves));
-  if (grid.levels() > 1) refuseSavedNodes();
+  if (grid.levels() > 1) refuseSavedNodes(analyses);
   if (grid.levels() > 1 && regrid.refluxes) lists_.timeAdvance = tasks::withRefluxing(lists_.timeAdvance);
   const Lists& lists = lists_;
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
@@ -321,17 +347,17 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned output = prune(lists.diagnostics.tasks(), wants.everyOutput, false);
   Pruned begin = prune(lists.diagnostics.tasks(), totals, false);
   Pruned end = prune(lists.diagnostics.tasks(), reported, false);
-  Pruned refine = prune(refinementTasks(regrid).tasks(), {std::string(refinementMark.name)}, false);
-  Names read = requiredOfState(stable.kept);
-  for (const Pruned* pruned : {&step, &output, &end, &refine}) read = united(read, requiredOfState(pruned->kept));
+  Pruned refine = prune(refinementTasks(regrid).tasks(), {std::string(tasks::refinementMark.name)}, false);
+  const tasks::TaskList mends = regrid.adaptive && !regrid.once ? lists.refine : tasks::TaskList();
+  Pruned mend = prune(mends.tasks(), stepped, false);
+  Names read = requiredByAll({&stable, &step, &output, &end, &refine, &mend});
   read.emplace(data::recomputeTimeStep.name);
-  Names always = united(requiredOfState(stable.kept), requiredOfState(begin.kept));
-  always = united(always, requiredOfState(refine.kept));
+  Names always = requiredByAll({&stable, &begin, &refine, &mend});
   always.emplace(data::recomputeTimeStep.name);
   const Pruned bare = prune(lists.timeAdvance.tasks(), always, true);
   Pruned advance = prune(lists.timeAdvance.tasks(), united(read, wants.ofState), true);
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
-  checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine}, grid, regrid.where);
+  checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine, &mend}, grid, regrid.where);
 
   state_ = namesOfState(bare.needed, decided, stepped);
   lasting_ = namesOfState(advance.needed, decided, stepped);
@@ -343,6 +369,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   startTotals = tasks::TaskGraph("totals of the start", std::move(begin), grid, table);
   report = tasks::TaskGraph("diagnostics of the report", std::move(end), grid, table);
   refinement = tasks::TaskGraph("refinement", std::move(refine), grid, table);
+  refined = tasks::TaskGraph("new finer cells", std::move(mend), grid, table);
   table.number(data::delT, -1);
   if (regrid.adaptive) widenForRegridding(lasting_, static_cast<int>(materials_.size()), table);
 }
@@ -352,7 +379,7 @@ void Phases::printSchedule(std::ostream& out) const {
     graph->print(out);
     graph->printLeftOut(out);
   }
-  for (const tasks::TaskGraph* graph : {&everyStep, &everyOutput, &report, &refinement})
+  for (const tasks::TaskGraph* graph : {&everyStep, &everyOutput, &report, &refinement, &refined})
     if (!graph->tasks().empty()) graph->print(out);
   out << "diagnostics that are never run\n";
   for (const tasks::LeftOut& task : everyStep.leftOut()) {

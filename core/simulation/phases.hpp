@@ -50,6 +50,7 @@ class Phases {
 
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
   tasks::TaskGraph refinement;  ///< where criteria ask for finer cells
+  tasks::TaskGraph refined;     ///< what a component does with cells that have become finer
 
   /// Names of the variables that a step and the totals need of the step before, sorted: the state of a run, whatever
   /// is saved and measured besides.
@@ -74,7 +75,7 @@ class Phases {
 
  private:
   struct Lists {
-    tasks::TaskList initialize, stableTimeStep, timeAdvance, diagnostics;
+    tasks::TaskList initialize, stableTimeStep, timeAdvance, diagnostics, errorEstimate, refine;
   };
   void validateAll() const;
   void noteMaterials();
@@ -85,7 +86,8 @@ class Phases {
   /// The diagnostics, followed by the task that marks cells to refine; nothing if the grid does not change. Throws
   /// InputError for a criterion whose variable is not one of cells.
   tasks::TaskList refinementTasks(const RegridSettings& regrid) const;
-  void refuseSavedNodes() const;
+  /// Throws InputError for node variables that are saved, or sampled in parts of the grid.
+  void refuseSavedNodes(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
   /// The saved and sampled variables: of diagnostics in every step and at outputs, and of the state.
   struct Wants {
     tasks::Names everyStep, everyOutput, ofState;

@@ -161,7 +161,7 @@ tasks::Task markTask(std::vector<BoundCriterion> criteria) {
   for (const BoundCriterion& one : criteria)
     task.accesses.push_back(
         {one.label, one.isDiagnosed ? tasks::AccessKind::requiresNew : tasks::AccessKind::requiresOld, 1});
-  task.accesses.push_back({&refinementMark, tasks::AccessKind::computes});
+  task.accesses.push_back({&tasks::refinementMark, tasks::AccessKind::computes});
   task.body = [criteria = std::move(criteria)](const tasks::TaskContext& context) { findMarks(context, criteria); };
   return task;
 }

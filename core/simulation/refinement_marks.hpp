@@ -4,12 +4,10 @@
 #include <vector>
 
 #include "core/simulation/settings.hpp"
+#include "core/tasks/marks.hpp"
 #include "core/tasks/task_list.hpp"
 
 namespace tushar::simulation {
-
-/// Marks of the refinement criteria: 0 for nothing, 1 for no coarser cells, 2 for finer ones.
-inline constexpr data::CellLabel<int> refinementMark{"c.refinementMark", "1", "marks of the refinement criteria"};
 
 /// A criterion with its variable, and whether that is one of the diagnostics or part of the state.
 struct BoundCriterion {
@@ -30,7 +28,7 @@ struct Neighbours {
 double indicatorOf(Criterion::Indicator indicator, std::span<const Neighbours> axes, std::span<const double> spacing,
                    int components);
 
-/// The task that computes refinementMark by all criteria.
+/// The task that computes tasks::refinementMark by all criteria; 0 where there are none.
 tasks::Task markTask(std::vector<BoundCriterion> criteria);
 
 }  // namespace tushar::simulation

@@ -142,7 +142,7 @@ grid::BlockTree MarkedBlocks::tree() const {
 void Regridder::addMarks(MarkedBlocks& marked) {
   if (run_.phases.refinement.tasks().empty()) return;
   run_.diagnose(run_.phases.refinement);
-  const int number = run_.table.find(refinementMark.name, -1);
+  const int number = run_.table.find(tasks::refinementMark.name, -1);
   for (const grid::Patch& patch : run_.problem.grid->patches()) {
     const data::Variable marks = run_.warehouse.variable(data::Generation::fresh, number, patch.id());
     marked.add(patch, reinterpret_cast<const int*>(marks.values), marks.stored);
@@ -204,6 +204,9 @@ void Regridder::change(grid::BlockTree tree) {
   tasks::regrid(*run_.problem.grid, std::move(tree), run_.warehouse, variables);
   run_.scheduler.forgetLayout();
   ++regrids_;
+  tasks::TaskGraph& mend = run_.phases.refined;
+  run_.scheduler.run(mend, {run_.time.step(), run_.time.time()});
+  run_.scheduler.commit(mend);
 }
 
 }  // namespace tushar::simulation

@@ -121,9 +121,9 @@ std::vector<output::Snapshot> partsOf(RunState& run, const Analysis& analysis) {
   if (const auto over = analysis.summary()) return summarySnapshots(run, requests, *over);
   std::vector<output::Snapshot> parts;
   for (const collect::Layer& layer : analysis.layers())
-    parts.push_back(snapshotIn(run, requests, collect::gridInfo(grid.level(), layer), layer));
+    parts.push_back(snapshotIn(run, requests, collect::gridInfo(grid, layer), layer));
   for (const collect::Window& window : analysis.windows())
-    parts.push_back(snapshotIn(run, requests, collect::gridInfo(grid), window));
+    parts.push_back(snapshotIn(run, requests, collect::gridInfo(grid, window), window));
   if (parts.empty())
     parts.push_back(snapshotWith(run, requests, [&](int material) {
       return std::any_of(requests.begin(), requests.end(),

@@ -63,6 +63,8 @@ class TaskContext {
   }
   /// Where the patch meets other levels.
   const std::vector<grid::RimPiece>& rims() const { return warehouse_->grid().rims(patch_->id()); }
+  /// The cells of the patch that regridding has just made of coarser ones.
+  const std::vector<grid::Box>& newCells() const { return warehouse_->grid().newCells(patch_->id()); }
   template <class T>
   data::RimFlux<T> flux(int access) const {
     return {reinterpret_cast<T*>(variable(access).values), rims()};

@@ -104,6 +104,34 @@ TEST(Heat, LetsANeumannFaceGiveHeat) {
   EXPECT_EQ(after[0], 0);
 }
 
+TEST(Heat, MarksCellsBesideWhichAStraightLineIsWrong) {
+  grid::Domain domain = slab<1>(6, false);
+  domain.patches = {{1, 1, 1}};
+  const Grid grid(domain);
+  const Box& cells = grid.level().cells();
+  std::vector<double> temperature{3, 0, 0, 8, 17, 26};  // second differences from the second cell on: 3, 8, 1, 0
+  std::vector<int> marks(6, 0);
+
+  estimateError<1>(grid.patches().front(), 0.5, CellView<const double>(temperature.data(), cells),
+                   Marks(CellView<int>(marks.data(), cells)));
+
+  EXPECT_EQ(marks, (std::vector<int>{0, 1, 2, 0, 0, 0}));
+}
+
+TEST(Heat, LeavesFinerMarksOfOthersAsTheyAre) {
+  grid::Domain domain = slab<1>(4, false);
+  domain.patches = {{1, 1, 1}};
+  const Grid grid(domain);
+  const Box& cells = grid.level().cells();
+  std::vector<double> temperature{0, 0, 2, 2};
+  std::vector<int> marks{0, 2, 0, 1};
+
+  estimateError<1>(grid.patches().front(), 0.5, CellView<const double>(temperature.data(), cells),
+                   Marks(CellView<int>(marks.data(), cells)));
+
+  EXPECT_EQ(marks, (std::vector<int>{0, 2, 1, 1}));
+}
+
 TEST(Heat, LimitsTheTimeStepByVonNeumann) {
   const Grid grid(slab<2>(10, true));
   Settings settings;

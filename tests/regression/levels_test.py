@@ -14,7 +14,7 @@ ensure("h5py", "numpy")
 
 import numpy as np
 
-from sus import run
+from sus import ROOT, run
 from tushar.archive import Archive
 from uda import FolderTest
 
@@ -25,6 +25,8 @@ PLANE = (BASE + "[16,16,1]", REGRIDDER + "min_patch_size=[[4,4,1]]", REGRIDDER +
 # Scene -> what makes it small, and steps in which its grid changes several times, unless it stays.
 SCENES = {"ups/euler/sod_levels.ups": ((), 60), "ups/euler/lax_liu_3_levels.ups": (PLANE, 80),
           "ups/euler/blast_levels.ups": (PLANE, 120), "ups/heat/levels.ups": ((), 60),
+          "ups/heat/spot_levels.ups": (("Heat/refinement_tolerance=.004", REGRIDDER + "min_patch_size=[[4,4,1]]",
+                                        REGRIDDER + "min_timestep_interval=4"), 60),
           "ups/burgers/levels.ups": ((), 60)}
 SIDE_WALLS = "".join(f'<Face side="{side}"><BCType id="all" label="Symmetric" var="symmetry"/></Face>'
                      for side in ("x-", "x+", "y-", "y+", "z-", "z+"))
@@ -34,14 +36,14 @@ def steps(count):
     return f"Time/max_Timesteps={count}"
 
 
-def scene_of(levels="", amr="", pressure="1", density="1", velocity="[0,0,0]", cells=16):
-    """A gas between walls, in a square around the origin whose cells have middles without rounding."""
+def scene_of(levels="", amr="", pressure="1", density="1", velocity="[0,0,0]", cells=16, sides=SIDE_WALLS):
+    """A gas, between walls if nothing else is said, in a square whose cells have middles without rounding."""
     return f"""<Uintah_specification>
   <Meta><title>levels</title></Meta>
   <SimulationComponent type="euler"/>
   <Time><maxTime>0.2</maxTime></Time>
   <Grid>
-    <BoundaryConditions>{SIDE_WALLS}</BoundaryConditions>
+    <BoundaryConditions>{sides}</BoundaryConditions>
     <Level>
       <Box><lower>[-.5,-.5,0]</lower><upper>[.5,.5,1]</upper><resolution>[{cells},{cells},1]</resolution></Box>
     </Level>
@@ -74,14 +76,14 @@ def levels_like(grid):
     """<Level>s that make the grid of an output: of each level the boxes that are as fine, or finer."""
     text = ""
     for level in range(1, grid.levels):
-        spacing = grid.level(level).spacing
+        spacing = list(map(float, grid.level(level).spacing))
         boxes = ""
         for row in grid.boxes[grid.boxes[:, 0] >= level]:
             width = grid.level(int(row[0])).spacing
             corners = [grid.lower + width * ends for ends in (row[1:4], row[4:])]
             lower, upper = ("[" + ",".join(map(repr, map(float, corner))) + "]" for corner in corners)
             boxes += f"<Box><lower>{lower}</lower><upper>{upper}</upper></Box>"
-        text += f"<Level>{boxes}<spacing>[{spacing[0]!r},{spacing[1]!r},1]</spacing></Level>".replace("np.float64", "")
+        text += f"<Level>{boxes}<spacing>[{spacing[0]!r},{spacing[1]!r},1]</spacing></Level>"
     return text
 
 
@@ -229,6 +231,35 @@ class Levels(FolderTest):
             errors.append(report["errors"]["temperature"]["cell"]["L1"])
             self.assertLessEqual(errors[-1], coarse["errors"]["temperature"]["cell"]["L1"])
         self.assertGreaterEqual(np.log2(errors[1] / errors[2]), 1.9)
+
+    def test_heat_marks_the_cells_of_a_spot_itself(self):
+        """Of those of the finest everywhere, two fifths of the updates leave the error as it is."""
+        report = run("ups/heat/spot_levels.ups").report
+        text = re.sub("<AMR>.*</AMR>", "", (ROOT / "ups/heat/spot_levels.ups").read_text(), flags=re.S)
+        fine = self.ran(text, BASE + "[128,128,1]")[1]
+        error, limit = (one["errors"]["temperature"]["cell"]["L1"] for one in (report, fine))
+        self.assertLessEqual(error, 1.05 * limit)
+        self.assertLessEqual(report["updates"], .45 * 128 * 128 * fine["steps"])
+        refused = run("ups/heat/spot_levels.ups", "Heat/refinement_tolerance=0")
+        self.assertIn("<adaptive> true needs a <Variable>", refused.err)
+
+    def test_a_stream_that_interpolation_would_leave_without_pressure_goes_on(self):
+        """Cold gas that flies apart: on the cells that get finer once it is thin, energy and momentum that are
+        interpolated each by itself leave less than the motion takes."""
+        thin = '<Variable name="c.density" value=".9" type="below"/>'
+        amr = (f"<max_levels>2</max_levels><min_timestep_interval>4</min_timestep_interval></Regridder><Euler>"
+               f"<Refinement_Criteria_Thresholds>{thin}</Refinement_Criteria_Thresholds></Euler>")
+        open_sides = re.sub('<Face side="[xy].*?</Face>', "", SIDE_WALLS)
+        text = scene_of(amr=amr, velocity="[100*x,100*y,0]", pressure=".1", sides=open_sides)
+        found = set()
+        for options in ((), ("-layout", "1x1x1", "-nthreads", "2"), ("-layout", "3x2x1")):
+            here = self.folder(2 if "3x2x1" in options else 1)
+            scene = here.path / "stream.ups"
+            scene.write_text(text)
+            report = self.well(here.finish([scene, "--output", here.path, *options], [steps(30)]))
+            self.assertEqual((report["levels"], report["regrids"]), ([0, 1024], 1))
+            found.add(report["fingerprint"])
+        self.assertEqual(len(found), 1)
 
     def test_a_vortex_that_is_carried_through_a_periodic_box_is_as_good_as_on_fine_cells(self):
         sets = (BASE + "[32,32,1]", REGRIDDER + "max_levels=2", "Time/maxTime=2")

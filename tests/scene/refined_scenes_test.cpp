@@ -122,15 +122,16 @@ TEST(RefinedScenes, SaveNoFluxesThroughRims) {
   EXPECT_EQ(problems.find("and 'rim"), std::string::npos) << problems;
 }
 
-TEST(RefinedScenes, AreRefusedToSlices) {
-  const std::string slice =
-      "<Module name=\"slice\"><plane>x = .5</plane><label>c.temperature</label>"
-      "<outputTimestepInterval>1</outputTimestepInterval></Module>";
-  const std::string path = changed("ups/heat/sine.ups", "<DataAnalysis>", slice);
-  const std::string refined = withLevel(path);
+TEST(RefinedScenes, ShowNoNodesOnLines) {
+  const std::string line =
+      "<DataAnalysis><Module name=\"lineExtract\"><samplingFrequency>1</samplingFrequency><timeStart>0</timeStart>"
+      "<timeStop>1</timeStop><Variables><analyze label=\"g.mass\"/></Variables><lines><line name=\"axis\">"
+      "<startingPt>[0,0,0]</startingPt><endingPt>[.1,0,0]</endingPt></line></lines></Module></DataAnalysis>"
+      "</Uintah_specification>";
+  const std::string path = changed("ups/solid/penetration_levels.ups", "</Uintah_specification>", line);
 
-  EXPECT_EQ(problemsOf(refined),
-            "a slice needs a grid of one level; take the module out, or the finer Levels and <AMR>\n");
+  EXPECT_EQ(problemsOf(path),
+            "'g.mass' is a node variable; on several levels only cell and particle variables are saved\n");
 }
 
 TEST(RefinedScenes, CanBePlannedForManyRanks) {

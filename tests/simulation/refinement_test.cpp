@@ -174,6 +174,66 @@ TEST(Regridding, HasGhostsOfAllCellsThatOutliveAStep) {
   EXPECT_EQ(table.ghost(table.find("c.heatOfGas", 0)), 1);
 }
 
+namespace {
+
+/// Cells that cool down, of which it wants a finer one on the left, and fills new cells with 7 J.
+class MarkingItself : public test::Cooling {
+ public:
+  void scheduleErrorEstimate(TaskList& tasks) const override {
+    tasks.perPatch(
+        "mark",
+        [](const Patch& patch, CellView<const double> warm, Marks marks) {
+          forEach<1>(patch.cells(), [&](const Index<1>& cell) {
+            if (patch.level().number() == 0 && cell[0] == 3 && warm[cell] < 1) marks.refine(cell);
+          });
+        },
+        requiresOld(test::heat, 1), tasks::marks());
+  }
+  void scheduleRefine(TaskList& tasks) const override {
+    tasks.perPatch(
+        "fill",
+        [](const Patch&, const std::vector<Box>& cells, CellView<double> warm) {
+          for (const Box& box : cells) forEach<1>(box, [&](const Index<1>& cell) { warm[cell] += 6.5; });
+        },
+        newCells(), modifies(test::heat));
+  }
+};
+
+/// The heat of all cells, along the curve.
+std::vector<double> heatOf(RunState& run) {
+  std::vector<double> all;
+  for (const grid::Patch& patch : run.problem.grid->patches()) {
+    const data::Variable warm = run.warehouse.variable(data::Generation::old, run.table.find("c.heat", -1), patch.id());
+    grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
+      all.push_back(reinterpret_cast<const double*>(warm.values)[warm.stored.offset(cell)]);
+    });
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST(Regridding, RefinesWhereAComponentMarksAndFillsNewCellsAsItSays) {
+  Problem problem = test::cooling();
+  problem.grid = std::make_unique<grid::Grid>(row());
+  problem.component = std::make_unique<MarkingItself>();
+  problem.regrid.adaptive = true;
+  problem.regrid.interval = 1;
+  problem.regrid.dilation = 0;
+  test::CoolingRun run(std::move(problem));
+  Regridder regridder(run);
+  run.initialize();
+  EXPECT_FALSE(regridder.refinedStart());  // all cells are warm
+
+  run.step();
+  regridder.regridIfDue();
+
+  EXPECT_EQ(levelsOfLeaves(run.problem.grid->tree()), (std::vector<int>{1, 1, 0, 0, 0}));
+  std::vector<double> expected(40, 0.5);
+  std::fill_n(expected.begin(), 16, 7);
+  EXPECT_EQ(heatOf(run), expected);
+}
+
 TEST(MarkedBlocks, KeepRegionsOfTheScene) {
   grid::Domain domain = row();
   domain.refinement.regions.push_back({1, Vec3(0.3, 0, 0), Vec3(0.4, 0, 0)});

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "core/tasks/access.hpp"
+
+namespace tushar::tasks {
+
+/// Marks of cells: 0 for nothing, 1 for no coarser cells, 2 for finer ones.
+inline constexpr data::CellLabel<int> refinementMark{"c.refinementMark", "1", "marks of the refinement criteria"};
+
+/// Says where the cells of a patch must be finer. Several criteria mark the same cells: of a cell the finest counts.
+class Marks {
+ public:
+  explicit Marks(const data::CellView<int>& marks) : marks_(marks) {}
+
+  /// Finer cells are needed here.
+  template <int D>
+  void refine(const Index<D>& cell) const {
+    marks_[cell] = 2;
+  }
+  /// No coarser cells here.
+  template <int D>
+  void keep(const Index<D>& cell) const {
+    marks_[cell] = std::max(marks_[cell], 1);
+  }
+
+ private:
+  data::CellView<int> marks_;
+};
+
+struct MarksAccess {
+  int index = -1;
+
+  void declare(std::vector<Access>& accesses) {
+    index = static_cast<int>(accesses.size());
+    accesses.push_back({&refinementMark, AccessKind::modifies});
+  }
+  Marks bind(const TaskContext& context) const {
+    return Marks(context.grid<data::Centring::cell, int>(index, refinementMark));
+  }
+};
+/// Hands the body Marks. For perPatch tasks of Component::scheduleErrorEstimate.
+inline MarksAccess marks() { return {}; }
+
+struct NewCellsAccess {
+  void declare(std::vector<Access>&) {}
+  const std::vector<grid::Box>& bind(const TaskContext& context) const { return context.newCells(); }
+};
+/// Hands the body the boxes of the patch's cells that regridding has made of coarser ones, a const std::vector<Box>&.
+/// For tasks of Component::scheduleRefine.
+inline NewCellsAccess newCells() { return {}; }
+
+}  // namespace tushar::tasks
