@@ -60,7 +60,7 @@ simulation::Restart findRestart(const Arguments& arguments, const mpi::Communica
   return restart;
 }
 
-/// Adds what the command line asks for. A scene without <DataArchiver> has no name for the folder of its run.
+/// Adds what the command line requests. A scene without <DataArchiver> has no name for the folder of its run.
 void addCheckpoints(const Arguments& arguments, const std::filesystem::path& name,
                     simulation::ArchiveSettings& archive) {
   if (arguments.checkpointInterval) simulation::addWallTimeInterval(archive.checkpoint, *arguments.checkpointInterval);
@@ -99,7 +99,7 @@ std::string sizeOf(simulation::Simulation& run, long particles) {
          (particles > 0 ? fmt::format(" and {} at the start", counted(particles, "particle")) : "");
 }
 
-/// Where --json of a scene that is only checked asks for it.
+/// If --json requests it, for a scene that is only checked.
 void writeProblems(const Arguments& arguments, const std::vector<InputProblem>& problems) {
   const std::string text =
       report::toJson(problems, [](const InputProblem& problem) { return messageNumber(problem.text()); });

@@ -33,8 +33,8 @@ struct SideRules : GhostRule<D> {
 template <int D>
 using GhostRules = std::array<std::array<SideRules<D>, 2>, D>;
 
-/// A place at a side of the grid where conditions are asked for: a part of the side, or the rest of it. Where formulas
-/// stand for values they count at a point [m] and a time [s].
+/// A place at a side of the grid that has conditions: a part of the side, or the rest of it. Where formulas stand for
+/// values they count at a point [m] and a time [s].
 struct Place {
   const Level& level;
   int axis = 0, side = 0, part = grid::restOfSide;

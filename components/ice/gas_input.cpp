@@ -106,7 +106,7 @@ void noteIdle(const Element& root, const IceSection& ice, Diagnostics& diagnosti
                      "does nothing: steps follow from <cfl>, the sound and the diffusion in each cell");
 }
 
-/// Uintah's scenes ask for residuals as small as 1e-22; rounding leaves more.
+/// Uintah's scenes require residuals as small as 1e-22; rounding leaves more.
 constexpr double leastTolerance = 1e-12;
 
 ImplicitPressure implicitPressureOf(const IceSection& ice) {

@@ -16,7 +16,7 @@ constexpr double kRoundOff = 2 * std::numeric_limits<double>::epsilon();
 constexpr int kMostIterations = 500;
 
 /// One side seen so that its wave runs to the left: the right side is mirrored, u -> -u. Its own pressure has the
-/// stiffness in it; those that it is asked about have not.
+/// stiffness in it; pressures that are passed in have not.
 struct Side {
   double density, velocity, pressure, gamma, stiffness;
 

@@ -13,7 +13,7 @@ namespace tushar {
 enum class ExitCode : int {
   success = 0,
   failure = 1,         ///< anything not named below: a file that cannot be written, memory, a defect of ours
-  badCommandLine = 2,  ///< an option that sus does not know
+  badCommandLine = 2,  ///< an unknown option
   badInput = 3,        ///< the scene cannot be run as it is written
   numerical = 4,       ///< a value became impossible during the run
   interrupted = 5,     ///< ended early by Ctrl-C or SIGTERM, after writing its output

@@ -3,7 +3,7 @@
 namespace tushar {
 
 /// From now on the first Ctrl-C or SIGTERM ends the run after the current step, and the second ends it at once. SIGUSR1
-/// asks for the state to be saved after the step.
+/// requests that the state be saved after the step.
 void catchInterrupts();
 /// Whether such a signal has arrived.
 bool isInterrupted();

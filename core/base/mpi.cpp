@@ -36,7 +36,7 @@ int wordsOf(const Bytes& words) { return static_cast<int>(words.size() / wordByt
 /// What the operation below does; MPI hands it nothing of ours.
 const std::function<void(const std::byte*, std::byte*)>* merging = nullptr;
 
-/// MPI asks for inout = in ∘ inout, in the order of the ranks.
+/// MPI requires inout = in ∘ inout, in the order of the ranks.
 void mergeValues(void* in, void* inout, int*, MPI_Datatype* type) {
   int bytes = 0;
   MPI_Type_size(*type, &bytes);

@@ -138,8 +138,9 @@ class Session {
 
   /// Called by a rank that cannot go on, for whatever reason; `isKnown` where it has a sentence of its own. Where the
   /// others come here too, within some seconds, all may end in order, and the first that has a sentence is to say it:
-  /// true for that one, whose exit code all get. Where they do not, this rank is to say what it knows and to end them
-  /// by `abort`: each in its turn, in the order of the ranks, so that of several that fail at the same time one speaks.
+  /// true for that one, whose exit code all get. Where they do not, this rank is to report its own error and to end
+  /// them by `abort`: each in its turn, in the order of the ranks, so that of several that fail at the same time one
+  /// speaks.
   bool speaks(bool isKnown, int& exitCode);
   /// Whether all ranks have come to `speaks`.
   bool isAgreed() const { return is_agreed_; }

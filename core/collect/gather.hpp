@@ -26,7 +26,7 @@ struct Window {
 };
 
 /// Variables over the whole grid, in an order that no layout changes: particles by id, nodes and cells with x fastest.
-/// Vectors come out in x, y, z. All ranks ask for the same, while the state is as it is.
+/// Vectors come out in x, y, z. All ranks make the same calls, while the state is as it is.
 class Gather {
  public:
   explicit Gather(data::Warehouse& warehouse) : warehouse_(&warehouse) {}

@@ -14,7 +14,7 @@ namespace tushar::collect {
 
 /// The order (cell, id) of the old particles of a material over the whole grid, which no layout changes, and where the
 /// patches of this rank have theirs. Cells come with the first axis fastest; where there are several levels, block by
-/// block. A rank knows the counts of its own cells alone.
+/// block. A rank stores the counts of its own cells alone.
 class ParticleOrder {
  public:
   /// Orders the particles that the warehouses of all ranks hold. Collective.

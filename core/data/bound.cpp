@@ -10,7 +10,7 @@ namespace {
 
 /// What is looked at of many numbers at once.
 struct Look {
-  double least;  ///< of those that are numbers, or 1; looked for only where it is asked for
+  double least;  ///< of those that are numbers, or 1; computed only where it is needed
   double sum;    ///< not finite where one is not finite, or where they overflow together
 };
 

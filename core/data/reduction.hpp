@@ -133,7 +133,7 @@ struct VectorSum {
 };
 
 /// Norms of an error, unweighted over whatever it is added for: L1 = mean |e|, L2 = sqrt(mean e²), max |e|, and L1 over
-/// the mean magnitude of the exact values, where they are told.
+/// the mean magnitude of the exact values, where they are given.
 struct Norm {
   Sum absolute, squared, count, exact;
   double max = 0;
@@ -163,8 +163,8 @@ struct Norm {
 inline constexpr ReductionLabel<Minimum> delT{"delT", "s", "time step"};
 
 /// The factor by which the time step may be multiplied without breaking a bound. A task of scheduleTimeAdvance that
-/// computes less than 1 asks for the step to be undone and repeated with a smaller one; the reason names the bound. The
-/// step ends with that task: none after it sees what must not be. The old state stays as it is.
+/// computes less than 1 has the step undone and repeated with a smaller one; the reason names the bound. The step ends
+/// with that task: none after it sees what must not be. The old state stays as it is.
 inline constexpr ReductionLabel<Minimum> recomputeTimeStep{"recomputeTimeStep", "1",
                                                            "factor on the time step that keeps every bound"};
 

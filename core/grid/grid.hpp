@@ -18,11 +18,11 @@ namespace tushar::grid {
 /// The grid of a run: its levels and its patches, as one of the ranks that share it sees them.
 ///
 /// Patches are numbered along Morton's curve; a rank has consecutive ones. Where there is one level, only these are
-/// kept: any other is made when it is asked for, so that a grid of a million patches takes no more memory on a rank
-/// than its own.
+/// kept: any other is made when it is needed, so that a grid of a million patches takes no more memory on a rank than
+/// its own.
 class Grid {
  public:
-  /// One level is split into patches as the domain says; along an axis with fewer cells than patches asked for, a patch
+  /// One level is split into patches as the domain says; along an axis with fewer cells than requested patches, a patch
   /// per cell. Several are cut into blocks, the regions of `domain.refinement` refined, and patches are boxes of
   /// blocks.
   explicit Grid(const Domain& domain, Share share = {});

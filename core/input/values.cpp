@@ -19,7 +19,7 @@ std::string expected(std::string_view text, std::string_view what) {
   return fmt::format("{}, expected {}", found(text), what);
 }
 
-/// Without the leading '+' that std::from_chars does not know.
+/// Without a leading '+', which std::from_chars does not accept.
 std::string_view withoutPlus(std::string_view text) {
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+';
   return plus ? text.substr(1) : text;

@@ -39,7 +39,7 @@ class CellSystem {
   void freeConstant() { unknowns_.constantIsFree = true; }
 
   /// Solves for the unknowns, from the values in `guess` of each patch. `equationOf(p, cell)` gives the CellEquation of
-  /// a cell of patch number p of the rank; on several levels it is asked twice for cells at the faces of a patch.
+  /// a cell of patch number p of the rank; on several levels it is called twice for cells at the faces of a patch.
   template <class EquationOf>
   solvers::Outcome solve(const solvers::LinearSettings& settings,
                          const std::vector<data::CellView<const double>>& guess, EquationOf&& equationOf) {

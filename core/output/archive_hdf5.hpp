@@ -46,8 +46,8 @@ class Hdf5File {
   /// attributes unit and description. The groups above it are made. Values of a source are written piece by piece.
   void dataset(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape,
                Precision precision = Precision::asAsked);
-  /// The same for an array whose values are written later, as asked: makes room for them, without gaps, and says where
-  /// in the file that begins; of a compressed file 0, as there each chunk gets its room when it comes.
+  /// The same for an array whose values are written later: makes room for them, without gaps, and says where in the
+  /// file that begins; of a compressed file 0, as there each chunk gets its room when it comes.
   std::uint64_t room(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape);
   /// Writes a packed chunk of a dataset that has been given room; `corner` is where its first number stands, `skipped`
   /// HDF5's mask of filters.

@@ -54,7 +54,7 @@ pugi::xml_node addGrid(pugi::xml_node parent, const std::string& name, const cha
   return grid;
 }
 
-/// The readers know no 8-byte unsigned integers, so ids are read as signed ones.
+/// The readers have no 8-byte unsigned integers, so ids are read as signed ones.
 void addHeavyItem(pugi::xml_node parent, const Context& context, const std::string& path, const Array& array,
                   Shape shape) {
   if (array.components > 1) shape.push_back(static_cast<std::uint64_t>(array.components));

@@ -13,7 +13,7 @@ namespace tushar::output {
 ///
 ///     sod.uda.001/checkpoints/LATEST     the name of the newest, `t00050`
 ///                             t00040/    the one before
-///                             t00050/    files, and the manifest that tells whether they are as they were written
+///                             t00050/    files, and the manifest, which shows whether they are as they were written
 ///
 /// A checkpoint is written under a temporary name, brought to the disk, and then renamed; only then LATEST is replaced
 /// (by a rename, too), and only then the oldest is removed. So a run that is killed, or finds the disk full, leaves the

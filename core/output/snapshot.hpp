@@ -79,7 +79,7 @@ struct Snapshot {
   GridInfo grid;
   std::vector<ParticleBlock> particles;
   std::vector<FieldBlock> fields;
-  std::vector<Array> totals;     ///< numbers of the whole grid that were asked for, one entry each; for no archive
+  std::vector<Array> totals;     ///< requested numbers of the whole grid, one entry each; not for archives
   std::vector<Array> reference;  ///< table of exact values: columns of 1 component, `x` first; often empty
 };
 

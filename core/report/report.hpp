@@ -77,7 +77,7 @@ struct Report {
   std::vector<ErrorNorms> errors;
   std::vector<std::string> unmeasured;  ///< why errors are left out, a sentence for each module that has none
   std::vector<Drift> drifts;
-  EnergyBudget energies;  ///< empty where nobody asked
+  EnergyBudget energies;  ///< empty if not requested
   std::vector<std::string> kept;
   std::vector<tasks::LeftOut> leftOut;
   std::string fingerprint;

@@ -33,7 +33,7 @@ class Checkpoints {
  private:
   RunState& run_;
   Outputs& outputs_;
-  std::optional<CheckpointControl> control_;  ///< empty if the scene asks for none
+  std::optional<CheckpointControl> control_;  ///< empty if the scene has none
   int last_ = -1;                             ///< step of the last that was written or read
   double seconds_ = 0, memory_ = 0;
 };

@@ -66,7 +66,7 @@ class Outputs {
   std::string folder_;
   Milestones times_;
   int last_ = -1;       ///< step of the last output
-  bool saves_ = false;  ///< whether the scene asks for outputs, globals or samples
+  bool saves_ = false;  ///< whether the scene has outputs, globals or samples
   double seconds_ = 0, memory_ = 0;
 };
 

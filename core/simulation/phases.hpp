@@ -49,8 +49,8 @@ class Phases {
                const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid = {});
 
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
-  tasks::TaskGraph refinement;  ///< where criteria ask for finer cells
-  tasks::TaskGraph refined;     ///< what a component does with cells that have become finer
+  tasks::TaskGraph refinement;  ///< where criteria require finer cells
+  tasks::TaskGraph refined;     ///< what a component computes in cells that have become finer
 
   /// Names of the variables that a step and the totals need of the step before, sorted: the state of a run, whatever
   /// is saved and measured besides.

@@ -57,7 +57,7 @@ class Simulation {
   void saveLastGood();
   /// Wall time of outputs and checkpoints, s.
   double outputSeconds() const { return outputs_.seconds() + checkpoints_.seconds(); }
-  /// Writes an output and a checkpoint between steps, as a signal or a file has asked for.
+  /// Writes an output and a checkpoint between steps, as a signal or a file has requested.
   void saveNow();
   /// Writes what is to be saved at the end.
   void saveEnd();

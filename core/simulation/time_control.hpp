@@ -37,21 +37,21 @@ class TimeControl {
   bool done() const;
 
   /// The next time step [s] from what the physics allow: timestep_multiplier times `stable`, within max_delt_increase,
-  /// delt_min and delt_max; at the start no longer than delt_init, be that below delt_min; and (where the scene asks)
-  /// up to maxTime or the next output exactly. Throws NumericalError for a step that is not positive or too small to
-  /// move time on.
+  /// delt_min and delt_max; at the start no longer than delt_init, be that below delt_min; and (where the scene
+  /// requests it) up to maxTime or the next output exactly. Throws NumericalError for a step that is not positive or
+  /// too small to move time on.
   double next(const data::Minimum& stable, double nextOutput);
-  /// A shorter time step [s] from where `next` started: times the factor that was `asked` for, but at least 0.1 and at
-  /// most 0.9. Throws NumericalError for the 21st time in a step, for less than delt_min, and for a step too small to
-  /// move time on.
+  /// A shorter time step [s] from where `next` started: times the factor `asked`, but at least 0.1 and at most 0.9.
+  /// Throws NumericalError for the 21st time in a step, for less than delt_min, and for a step too small to move time
+  /// on.
   double repeat(const data::Minimum& asked);
   /// Goes on from where another run was: after `step` steps, the last of `delT` [s], at `time` [s].
   void resume(int step, double time, double delT);
   /// Moves time on by the step that `next` or `repeat` gave.
   void advance();
 
-  /// Whether a value that breaks its bound may have the step repeated with half the time step: where the scene asks
-  /// for it, and `repeat` would not throw.
+  /// Whether a value that breaks its bound may have the step repeated with half the time step: where the scene requests
+  /// it, and `repeat` would not throw.
   bool mayHalve() const;
   /// How often the step in progress was repeated.
   int repeats() const { return repeats_; }

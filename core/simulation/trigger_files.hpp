@@ -4,7 +4,7 @@
 
 namespace tushar::simulation {
 
-/// Files by which a run is asked for something from outside: `output_now` or `stop_now` in the folder of its archive.
+/// Files by which requests reach a run from outside: `output_now` or `stop_now` in the folder of its archive.
 class TriggerFiles {
  public:
   /// Removes files that an earlier run has left.

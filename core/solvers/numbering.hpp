@@ -60,7 +60,7 @@ class CellNumbering {
     const auto found = numbers_.find(key);
     return found == numbers_.end() ? -1 : found->second;
   }
-  /// Patch by patch, so that every rank knows the numbers of all.
+  /// Patch by patch, so that every rank can compute the numbers of all.
   void numberOwnPatches();
   void numberGhosts(const grid::Patch& patch, const std::vector<int>& firstOf);
   /// Of a cell of several levels: block by block on one rank, else patch by patch. Throws data::AccessError for one

@@ -151,7 +151,7 @@ class Search {
     });
   }
 
-  /// What the one rank says that knows; the others say nothing. Every rank asks.
+  /// The text of the one rank that has one; the others give an empty one. Collective.
   std::string said(const std::string& mine) const {
     if (warehouse_.ranks().isAlone()) return mine;
     for (const std::string& text : warehouse_.ranks().gather(mine))

@@ -13,8 +13,8 @@ namespace tushar::tasks {
 /// Which nodes of the patches of this rank stand near particles: of variables that count only there
 /// (data::Counts::nearParticles), patches give one another no others.
 ///
-/// A patch that computes a node sees all particles that touch it, so it alone knows whether any does. Where ghosts of
-/// particles are not settled, all nodes count as near.
+/// A patch that computes a node sees all particles that touch it, so it alone can decide whether any does. Where ghosts
+/// of particles are not settled, all nodes count as near.
 class NearRows {
  public:
   NearRows(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}

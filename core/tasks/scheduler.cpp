@@ -205,7 +205,7 @@ const mpi::Communicator& Scheduler::ranksWithPatches() {
   return *with_patches_;
 }
 
-/// A task that may ask runs for all materials, whatever happens on this rank: all that ask are heard.
+/// A task that may request a repetition runs for all materials, whatever happens on this rank: every request counts.
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   divideReductions(task);
   const bool mayAsk = task.recomputeTimeStep >= 0, isOnce = task.task.acrossMaterials || task.task.perRank;

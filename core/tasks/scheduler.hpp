@@ -15,7 +15,7 @@ struct StepInfo {
   double time = 0;         ///< s
   double delT = 0;         ///< s; 0 where it has no meaning
   int repeats = 0;         ///< of this step so far
-  bool mayRepeat = false;  ///< whether a NumericalError asks for the step to be repeated, instead of being thrown
+  bool mayRepeat = false;  ///< whether a NumericalError has the step repeated, instead of being thrown
 };
 
 /// Names where an error happened: task, patch (-1: on all at once), material (-1: none), step, time.

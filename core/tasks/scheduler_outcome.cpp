@@ -60,7 +60,7 @@ void Scheduler::agree(const TaskGraph& graph) {
   });
 }
 
-/// The sentence about a broken bound tells of values on all ranks, as they were after the task. Where other ranks have
+/// The sentence about a broken bound gives values of all ranks, as they were after the task. Where other ranks have
 /// gone on since, the graph is run once more up to there.
 NumericalError Scheduler::whatBroke(TaskGraph& graph, const StepInfo& at) {
   const Outcome outcome = outcome_;
