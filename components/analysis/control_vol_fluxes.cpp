@@ -95,6 +95,11 @@ class ControlVolFluxes : public Analysis {
     return requests;
   }
   bool isSampleDue(int) const override { return times_.isDue(); }
+  std::vector<simulation::OwnFile> files() const override {
+    std::vector<simulation::OwnFile> files;
+    for (const Extent& box : boxes_) files.push_back({box.name + ".dat", box.whereOfName});
+    return files;
+  }
 
   void sample(const std::vector<Snapshot>& parts, const std::filesystem::path& archive) override {
     for (std::size_t k = 0; k < boxes_.size(); ++k) {

@@ -113,6 +113,15 @@ ExtentModule::ExtentModule(const ExtentSettings& settings, int axes, const Level
   checkExtents(extents_, axes, level);
 }
 
+std::vector<simulation::OwnFile> ExtentModule::files() const {
+  std::vector<simulation::OwnFile> files;
+  for (const Extent& extent : extents_) {
+    files.push_back({extent.name, extent.whereOfName});
+    for (simulation::OwnFile& file : filesIn(extent.name)) files.push_back(std::move(file));
+  }
+  return files;
+}
+
 std::vector<collect::Window> ExtentModule::windows() const {
   std::vector<collect::Window> windows;
   for (const Extent& extent : extents_) {

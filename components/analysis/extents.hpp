@@ -55,6 +55,7 @@ class ExtentModule : public SamplingModule {
   ExtentModule(const ExtentSettings& settings, int axes, const grid::Level& level);
 
   std::vector<collect::Window> windows() const override;
+  std::vector<simulation::OwnFile> files() const override;
 
  protected:
   /// The boxes of cells that a part has values of, in their order.

@@ -33,13 +33,15 @@ class MinMax : public SamplingModule {
 
   std::optional<collect::SummaryOver> summary() const override { return collect::SummaryOver{}; }
 
+  std::vector<simulation::OwnFile> files() const override { return filesIn("MinMax"); }
+
   void sample(const std::vector<Snapshot>& parts, const std::filesystem::path& archive) override {
     const auto folder = archive / "MinMax" / "L-0";
     output::makeFolder(folder);
     for (const Found& found : findAll(parts[0])) {
       const auto* greatest = find(parts[1], *found.variable);
       const double time = parts[0].time;
-      files_.add(folder / fmt::format("{}_{}", output::nameInPath(found.variable->called), found.variable->material),
+      files_.add(folder / nameOf(*found.variable),
                  fmt::format("# {} [{}] of all {}\n#Time                      min                       max\n",
                              found.variable->called, found.field->array.unit,
                              found.field->centring == output::Centring::node ? "nodes" : "cells"),

@@ -30,17 +30,16 @@ struct Variable {
   std::string label;
 };
 
-struct ExtractSettings {
+struct Variables {
+  std::vector<Variable> list;
+};
+
+struct ExtractSettings : Times {
   std::string name;
   Location where;
   std::string material;
-  double frequency = 0, start = 0, stop = 0;  ///< 1/s, s, s
   double threshold = 0;
-  std::vector<Variable> variables;
-};
-
-struct Variables {
-  std::vector<Variable> list;
+  Variables variables;
 };
 
 const Schema<Variables>& variablesSchema() {
@@ -55,33 +54,16 @@ const Schema<Variables>& variablesSchema() {
 }
 
 const Schema<ExtractSettings>& extractSchema() {
-  static const Schema<ExtractSettings> schema =
-      Schema<ExtractSettings>("Module", "Variables of chosen particles over time, in a file for each.")
-          .requiredAttribute("name", &ExtractSettings::name, "1", "particleExtract")
-          .location(&ExtractSettings::where)
-          .value("material", &ExtractSettings::material, "", "1",
-                 "name of the material whose particles are looked at; the first")
-          .required("samplingFrequency", &ExtractSettings::frequency, "1/s", "samples per second of simulated time",
-                    input::positive())
-          .required("timeStart", &ExtractSettings::start, "s", "no sample before")
-          .required("timeStop", &ExtractSettings::stop, "s", "no sample after")
-          .required("colorThreshold", &ExtractSettings::threshold, "1",
-                    "particles whose p.color is greater are written")
-          .custom(
-              "Variables",
-              [](ExtractSettings& settings, const Element& element, Diagnostics& diagnostics) {
-                const auto tag = element.child("Variables");
-                if (!tag) return diagnostics.error(element, "missing tag <Variables> with <analyze label=\"…\"/>");
-                settings.variables = variablesSchema().read(*tag, diagnostics).list;
-              },
-              {"Variables"}, "what is written",
-              [](std::ostream& out, int indent) { variablesSchema().describeContents(out, indent); })
-          .forms({input::onceForm(
-              "Variables",
-              [] {
-                return std::vector<input::Alternative>{{&variablesSchema(), {}}};
-              },
-              1)});
+  static const Schema<ExtractSettings> schema = [] {
+    Schema<ExtractSettings> tags("Module", "Variables of chosen particles over time, in a file for each.");
+    addTimes(tags);
+    return tags.requiredAttribute("name", &ExtractSettings::name, "1", "particleExtract")
+        .location(&ExtractSettings::where)
+        .value("material", &ExtractSettings::material, "", "1",
+               "name of the material whose particles are looked at; the first")
+        .required("colorThreshold", &ExtractSettings::threshold, "1", "particles whose p.color is greater are written")
+        .requiredSection("Variables", &ExtractSettings::variables, variablesSchema(), "what is written");
+  }();
   return schema;
 }
 
@@ -91,23 +73,22 @@ const Array& column(const std::vector<Array>& columns, std::string_view label) {
 
 class ParticleExtract : public Analysis {
  public:
-  explicit ParticleExtract(ExtractSettings settings) : settings_(std::move(settings)) {}
+  explicit ParticleExtract(ExtractSettings settings) : settings_(std::move(settings)), times_(settings_) {}
 
   void schedule(tasks::TaskList&) const override {}
-  void setTime(double time, double) override {
+  void setTime(double time, double sinceStart) override {
     time_ = time;
-    const double count = std::floor((time - settings_.start) * settings_.frequency);
-    due_ = time >= settings_.start && time <= settings_.stop && count > last_count_;
-    if (due_) last_count_ = count;
+    times_.pass(time, sinceStart);
   }
 
   std::vector<SaveRequest> samples() const override {
     std::vector<SaveRequest> requests{request({settings_.where, std::string(colorLabel)}),
                                       request({settings_.where, std::string(data::particleId.name)})};
-    for (const Variable& variable : settings_.variables) requests.push_back(request(variable));
+    for (const Variable& variable : settings_.variables.list) requests.push_back(request(variable));
     return requests;
   }
-  bool isSampleDue(int) const override { return due_; }
+  bool isSampleDue(int) const override { return times_.isDue(); }
+  std::vector<simulation::OwnFile> files() const override { return {{"particleExtract", settings_.where}}; }
 
   void sample(const std::vector<output::Snapshot>& parts, const std::filesystem::path& archive) override {
     const output::Snapshot& snapshot = parts.front();
@@ -120,7 +101,7 @@ class ParticleExtract : public Analysis {
     const auto& color = std::get<std::vector<double>>(column(block->arrays, colorLabel).values);
     const auto& ids = std::get<std::vector<std::uint64_t>>(column(block->arrays, data::particleId.name).values);
     std::vector<Array> columns{block->arrays.front()};
-    for (const Variable& variable : settings_.variables) columns.push_back(column(block->arrays, variable.label));
+    for (const Variable& variable : settings_.variables.list) columns.push_back(column(block->arrays, variable.label));
     std::stable_sort(columns.begin() + 1, columns.end(),
                      [](const Array& a, const Array& b) { return a.components < b.components; });
     const std::string header = extractHeader(columns);
@@ -135,8 +116,8 @@ class ParticleExtract : public Analysis {
   }
 
   ExtractSettings settings_;
-  double time_ = 0, last_count_ = 0;
-  bool due_ = false;
+  double time_ = 0;
+  SampleTimes times_;
   SampleFiles files_;
 };
 

@@ -67,6 +67,12 @@ class PlaneAverage : public SamplingModule {
 
   std::optional<collect::SummaryOver> summary() const override { return collect::SummaryOver{across_}; }
 
+  std::vector<simulation::OwnFile> files() const override {
+    std::vector<simulation::OwnFile> files = filesIn("planeAverage");
+    std::erase_if(files, [&](const simulation::OwnFile& file) { return file.where.text() == weight_; });
+    return files;
+  }
+
   void sample(const std::vector<Snapshot>& parts, const std::filesystem::path& archive) override {
     const Snapshot& sums = parts[2];
     const auto folder = archive / "planeAverage" / output::stepName(sums.step) / "L-0";
@@ -80,9 +86,8 @@ class PlaneAverage : public SamplingModule {
       if (weighting == weightings_.end() || !isOfCells) continue;
       const bool isWeighted = weighting->second == Weighting::weight;
       if (isWeighted && weight == all.end()) continue;  // a note says that no task computes it
-      const std::string name = fmt::format("{}_{}", found.variable->called, found.variable->material);
-      output::replaceFile(folder / output::nameInPath(name), textOf(sums.time, found.field->array, weighting->second,
-                                                                    isWeighted ? &weight->field->array : nullptr));
+      output::replaceFile(folder / nameOf(*found.variable), textOf(sums.time, found.field->array, weighting->second,
+                                                                   isWeighted ? &weight->field->array : nullptr));
     }
   }
 

@@ -111,6 +111,17 @@ std::vector<SamplingModule::Found> SamplingModule::findAll(const output::Snapsho
   return all;
 }
 
+std::string SamplingModule::nameOf(const SampledVariable& variable) {
+  return output::nameInPath(fmt::format("{}_{}", variable.called, variable.material));
+}
+
+std::vector<simulation::OwnFile> SamplingModule::filesIn(const std::string& folder) const {
+  std::vector<simulation::OwnFile> files;
+  for (const SampledVariable& variable : variables_)
+    files.push_back({folder + '/' + nameOf(variable), variable.request.where});
+  return files;
+}
+
 std::string nameOfComponent(const std::string& name, int component, int components) {
   if (components == 1) return name;
   if (components == 3) return fmt::format("{}.{}", name, "xyz"[component]);

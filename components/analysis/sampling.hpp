@@ -132,6 +132,10 @@ class SamplingModule : public simulation::Analysis {
     const output::FieldBlock* field;
   };
   std::vector<Found> findAll(const output::Snapshot& snapshot) const;
+  /// What files call a variable: its name in the scene with the number of the material, as far as a path can have it.
+  static std::string nameOf(const simulation::SampledVariable& variable);
+  /// One for each variable.
+  std::vector<simulation::OwnFile> filesIn(const std::string& folder) const;
 
   std::vector<simulation::SampledVariable> variables_;
 

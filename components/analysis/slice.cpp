@@ -173,11 +173,22 @@ class Slice : public Analysis {
       if (archive) archive->flush();
   }
 
+  std::vector<simulation::OwnFile> files() const override {
+    std::vector<simulation::OwnFile> files;
+    for (const Word& plane : settings_.planes) files.push_back({folderOf(plane), plane.where});
+    return files;
+  }
+
  private:
+  /// In the archive.
+  static std::string folderOf(const Word& plane) {
+    const Plane at = *planeOf(plane.text);
+    return fmt::format("slice/{}={}", nameOf(at.axis), at.at);
+  }
+
   /// The archive of a plane, without what a run before has left that is now repeated.
   std::unique_ptr<Archive> open(std::size_t plane, const Snapshot& first, const std::filesystem::path& folder) const {
-    const Plane at = *planeOf(settings_.planes[plane].text);
-    const auto own = folder / "slice" / fmt::format("{}={}", nameOf(at.axis), at.at);
+    const auto own = folder / folderOf(settings_.planes[plane]);
     output::makeFolder(own);
     std::ostringstream scene;
     scene << std::ifstream(folder / "input.xml").rdbuf();

@@ -23,6 +23,7 @@ void catchInterrupts() {
   std::signal(SIGINT, noteInterrupt);
   std::signal(SIGTERM, noteInterrupt);
   std::signal(SIGUSR1, noteSaveSignal);
+  std::signal(SIGXFSZ, SIG_IGN);  // what is written then fails with a sentence
 }
 
 bool isInterrupted() { return interrupted != 0; }

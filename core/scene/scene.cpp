@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/input/schema.hpp"
+#include "core/scene/module_conflicts.hpp"
 #include "core/scene/scene_samples.hpp"
 #include "core/simulation/phases.hpp"
 
@@ -147,26 +148,15 @@ std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalo
   return modules;
 }
 
-/// A report has one place for the errors of a field, and for an energy budget. Throws InputError for a module that
-/// measures what is `measured` already, and adds to it.
-void refuseMeasuredTwice(const Analysis& analysis, const Element& module, std::set<std::string>& measured) {
-  for (const MeasuredError& error : analysis.errors())
-    if (const std::string what = error.field + ", " + error.place; !measured.insert(what).second)
-      throw InputError({{module.where(), module.path(),
-                         fmt::format("the errors of '{}' are measured by a module above already; keep one", what)}});
-  if (!analysis.energies().empty() && !measured.insert("energies").second)
-    throw InputError({{module.where(), module.path(), "a module above keeps the energy budget already; keep one"}});
-}
-
 std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>& modules, const Component& component,
                                                    const grid::Level& level) {
   std::vector<std::unique_ptr<Analysis>> analyses;
   std::vector<InputProblem> problems;
-  std::set<std::string> measured;
+  TakenByModules taken;
   for (const ReadModule& module : modules) {
     try {
       analyses.push_back(module.make(component, level));
-      refuseMeasuredTwice(*analyses.back(), module.element, measured);
+      refuseTwice(*analyses.back(), module.element, taken);
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -274,6 +264,7 @@ void checkLabels(const Component& component, const std::vector<std::unique_ptr<A
       diagnostics.note(save.whereOfMaterial, "DataArchiver/save", remark);
   for (const std::vector<InputProblem>& problems : {phases.problemsOf(saves), phases.problemsOf(analyses)})
     for (const InputProblem& problem : problems) diagnostics.error(problem.where, problem.tagPath, problem.sentence);
+  refuseSharedFiles(analyses, saves, diagnostics);
 }
 
 /// Checks the labels even where the rest of the scene is wrong, too: those of a component and of its modules do not

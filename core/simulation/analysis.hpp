@@ -25,6 +25,12 @@ struct SampledVariable {
   int material = 0;    ///< the number of the material in the scene
 };
 
+/// A file of the archive that a module writes, or a folder.
+struct OwnFile {
+  std::string path;  ///< in the archive; of one at each output what does not change
+  Location where;    ///< what asks for it in the scene
+};
+
 /// A `DataAnalysis/Module`: it measures the state of a run by diagnostic tasks.
 class Analysis {
  public:
@@ -57,6 +63,8 @@ class Analysis {
   /// Processes the variables of samples(): in each of the layers() and windows(), as a summary(), or everywhere.
   /// Files of its own go to the folder of the archive.
   virtual void sample(const std::vector<output::Snapshot>&, const std::filesystem::path&) {}
+  /// The files that sample() writes. No two modules may write one; asked for once the names of variables() are settled.
+  virtual std::vector<OwnFile> files() const { return {}; }
   /// Completes its files, so that a run that goes on from here finds in them what was sampled so far. Called on the
   /// first rank before each checkpoint is written, and at the end of the run. May throw FileError.
   virtual void flush() {}

@@ -48,6 +48,18 @@ class ParticleExtract(unittest.TestCase):
             self.assertAlmostEqual(v, 2, delta=1e-6, msg="in free flight")
             self.assertGreater(x[1], x[0])
 
+    def test_the_first_sample_is_that_of_the_first_step_from_the_start_on(self):
+        """As Uintah's module has it: then one in every 1/samplingFrequency."""
+        module = MODULE.replace("1e10", "1e3").replace("<timeStart>0<", "<timeStart>.001<")
+        with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as each:
+            for place, text in ((folder, module), (each, MODULE)):
+                self.assertEqual(sus(scene(place, text), "--output", place, "--set",
+                                     "Time/max_Timesteps=40").returncode, 0)
+            rare, every = ([float(line.split()[0]) for line in next(iter(extracted(place).values()))[1:]]
+                           for place in (folder, each))
+        self.assertEqual(rare[0], next(time for time in every if time >= .001))
+        self.assertEqual([int(time * 1e3) for time in rare], list(range(1, int(every[-1] * 1e3) + 1)))
+
     def test_a_restart_leaves_the_same_lines(self):
         with tempfile.TemporaryDirectory() as whole, tempfile.TemporaryDirectory() as cut:
             sus(scene(whole), "--output", whole, "--set", "Time/max_Timesteps=20")

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/input/diagnostics.hpp"
+#include "core/input/element.hpp"
+#include "core/simulation/analysis.hpp"
+
+// What two modules of a scene cannot both have.
+
+namespace tushar::scene {
+
+/// What the modules above measure and compute.
+struct TakenByModules {
+  std::set<std::string> measured, computed;
+};
+
+/// Throws InputError for a module that measures or computes what one above does, and adds what it has. A report has one
+/// place for the errors of a field, and for an energy budget; a variable has one task that computes it.
+void refuseTwice(const simulation::Analysis& analysis, const input::Element& module, TakenByModules& taken);
+
+/// Names files of an archive that two modules would write, or a module and the archive itself for a saved global.
+void refuseSharedFiles(const std::vector<std::unique_ptr<simulation::Analysis>>& analyses,
+                       const std::vector<simulation::SaveRequest>& saves, input::Diagnostics& diagnostics);
+
+}  // namespace tushar::scene
