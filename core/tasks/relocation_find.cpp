@@ -133,6 +133,7 @@ void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x
   moves.arrivals.clear();
   moves.escape.reset();
   moves.leaving = 0;
+  if (set.owned() == 0) return;
   const grid::Level& level = warehouse_->grid().finest();
   set.forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
     Vec<D> lower, upper;
