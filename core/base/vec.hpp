@@ -32,7 +32,12 @@ struct Index {
 
   constexpr int& operator[](int axis) { return at[axis]; }
   constexpr int operator[](int axis) const { return at[axis]; }
-  friend constexpr bool operator==(const Index&, const Index&) = default;
+  /// Number by number: the comparison of arrays calls memcmp.
+  friend constexpr bool operator==(const Index& a, const Index& b) {
+    bool same = true;
+    for (int d = 0; d < D; ++d) same &= a[d] == b[d];
+    return same;
+  }
 
   friend constexpr Index operator+(Index a, const Index& b) {
     for (int d = 0; d < D; ++d) a[d] += b[d];

@@ -5,12 +5,14 @@
 namespace tushar::data {
 
 void ParticleSet::reset(const grid::Patch& patch, int reach) {
-  const Span none{patch.cellsWithin(reach).upper[0], patch.cellsWithin(reach).lower[0]};
-  if (owned_cells_ == patch.cells() && cells_ == patch.cellsWithin(reach)) {
+  const grid::Box within = patch.cellsWithin(reach);
+  const Span none{within.upper[0], within.lower[0]};
+  touched_.clear();
+  if (owned_cells_ == patch.cells() && cells_ == within) {
     for (std::size_t row = 0; row < spans_.size(); ++row) empty(row, none);
   } else {
     owned_cells_ = patch.cells();
-    cells_ = patch.cellsWithin(reach);
+    cells_ = within;
     stride_ = {{1, cells_.extent(0), cells_.extent(0) * cells_.extent(1)}};
     ranges_.assign(cells_.size(), {});
   }
@@ -40,7 +42,16 @@ void ParticleSet::setOwned(int count) {
   grid::forEach<3>(owned_cells_.rowStarts(), [&](const Index3& first) { closeRow(first); });
 }
 
+const TouchedRows& ParticleSet::touched(int ghost, int dimension) const {
+  static const TouchedRows none;
+  if (hasNone()) return none;
+  const auto [rows, isNew] = touched_.try_emplace(ghost);
+  if (isNew) rows->second = {*this, cells_, ghost, cells_.nodes(dimension).grown(ghost, dimension), dimension};
+  return rows->second;
+}
+
 void ParticleSet::closeRow(const Index3& cell) {
+  touched_.clear();
   const ParticleRange* range = row(cell);
   int first = 0, last = owned_cells_.extent(0);
   while (first < last && range[first].empty()) ++first;
@@ -57,6 +68,7 @@ void ParticleSet::widen(std::size_t row, const Span& cells, const ParticleRange&
 
 void ParticleSet::addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset) {
   if (theirs.owned_ == 0) return;
+  touched_.clear();
   grid::forEach<3>(box.rowStarts(), [&](Index3 cell) {
     Span span = theirs.own_spans_[theirs.rowOf(cell)];
     span = {std::max(span.first, cell[0]), std::min(span.last, box.upper[0])};
@@ -72,6 +84,7 @@ void ParticleSet::addGhosts(const grid::Box& box, const ParticleSet& theirs, int
 void ParticleSet::addCopies(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift, int to) {
   at(cell) = {to, to + there.size()};
   if (there.empty()) return;
+  touched_.clear();
   widen(rowOf(cell), {cell[0], cell[0] + 1}, at(cell));
   GhostRun* last = ghost_runs_.empty() ? nullptr : &ghost_runs_.back();
   if (last && last->patch == patch && last->shift == shift && last->first + last->count == there.first &&
@@ -83,7 +96,8 @@ void ParticleSet::addCopies(const Index3& cell, int patch, const ParticleRange& 
 
 void ParticleSet::forgetGhosts() {
   if (!has_ghosts_) return;
-  for (std::size_t row = 0; row < spans_.size() && !ghosts_.empty(); ++row) {
+  const std::size_t widened = ghosts_.empty() ? 0 : spans_.size();
+  for (std::size_t row = 0; row < widened; ++row) {
     if (spans_[row].first == own_spans_[row].first && spans_[row].last == own_spans_[row].last) continue;
     empty(row, own_spans_[row]);
     spans_[row] = own_spans_[row];
@@ -91,6 +105,7 @@ void ParticleSet::forgetGhosts() {
   ghosts_ = {};
   ghost_runs_.clear();
   has_ghosts_ = false;
+  touched_.clear();
 }
 
 }  // namespace tushar::data

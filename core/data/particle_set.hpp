@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "core/base/vec.hpp"
+#include "core/data/touched_rows.hpp"
 #include "core/grid/box.hpp"
 #include "core/grid/patch.hpp"
 
@@ -71,6 +73,7 @@ class ParticleSet {
   /// Calls `visit(cell, particles)` for the cells of a box that hold particles, in lexicographic order.
   template <int D, class Visit>
   void forEachOccupied(const grid::Box& box, Visit&& visit) const {
+    if (hasNone()) return;
     grid::forEach<D>(box.rowStarts(), [&](Index<D> cell) {
       const Span span = occupied(cell, box.upper[0]);
       cell[0] = span.first;
@@ -93,6 +96,10 @@ class ParticleSet {
     const int first = std::max(span.first, cell[0]);
     return {first, std::max(std::min(span.last, end), first)};
   }
+
+  /// The rows of nodes that particles of cells() touch: the nodes of their cells and `ghost` beyond, along the first
+  /// `dimension` axes. They are found when they are first asked for, which must not be by several threads at once.
+  const TouchedRows& touched(int ghost, int dimension) const;
 
   /// The ranges of consecutive cells along the first axis, from `cell` on.
   ParticleRange* row(const Index3& cell) { return &ranges_[offset(cell)]; }
@@ -145,6 +152,7 @@ class ParticleSet {
   ParticleRange ghosts_;  ///< from the least place of a ghost to behind the greatest
   int owned_ = 0;
   bool has_ghosts_ = false;
+  mutable std::map<int, TouchedRows> touched_;  ///< by how far beyond the cells, as far as asked for
 };
 
 }  // namespace tushar::data

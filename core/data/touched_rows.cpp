@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/data/particle_set.hpp"
+
 namespace tushar::data {
 
 using grid::Box;

@@ -3,10 +3,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/data/particle_set.hpp"
 #include "core/grid/box.hpp"
 
 namespace tushar::data {
+
+class ParticleSet;
 
 /// The rows of nodes along the first axis that particles touch: others are neither cleared nor looked at nor copied.
 class TouchedRows {

@@ -91,23 +91,25 @@ void Exchange::forEach(const Work& work) {
   const auto workOn = [&](int place) {
     const std::size_t at = place;
     const trace::Span span(trace::Kind::message, "fill ghosts", patches[at].id());
-    for (std::size_t k = 0; k < fills_.size(); ++k) work(fills_[k], resolves_[k], patches[at], at);
+    for (const BoundGhostFill& fill : fills_) work(fill, patches[at], at);
   };
   threads_->forEach(static_cast<int>(patches.size()), workOn, trace::Kind::message);
 }
 
 /// Ghosts of patches of this rank are settled by all patches at once; copies then get their places one after the other.
 void Exchange::fillFromHere() {
-  if (std::find(resolves_.begin(), resolves_.end(), true) != resolves_.end())
-    forEach([&](const BoundGhostFill& fill, bool resolves, const Patch& patch, std::size_t place) {
-      if (resolves) linkLocalGhosts(fill, patch, planOf(fill).into[place]);
-    });
+  for (std::size_t k = 0; k < fills_.size(); ++k)
+    if (resolves_[k]) linkLocalGhosts(fills_[k]);
   for (std::size_t k = 0; k < fills_.size(); ++k)
     if (resolves_[k]) placeGhostCopies(fills_[k], nullptr);
   for (const BoundGhostFill& fill : fills_)
     if (fill.particles) reserveCopies(fill);
-  forEach([&](const BoundGhostFill& fill, bool, const Patch& patch, std::size_t place) {
-    if (fill.particles) return fillCopies(fill, patch, nullptr);
+  const bool copies = warehouse_->grid().level().isPeriodic();  // else particles of this rank stand where they are
+  if (!copies && std::all_of(fills_.begin(), fills_.end(), [](const BoundGhostFill& fill) { return fill.particles; }))
+    return;
+  forEach([&](const BoundGhostFill& fill, const Patch& patch, std::size_t place) {
+    if (fill.particles && copies) fillCopies(fill, patch, nullptr);
+    if (fill.particles) return;
     for (const GhostCopy& copy : planOf(fill).into[place])
       if (isHere(copy) && copy.coarse < 0) copyGrid(fill, copy);
     if (planOf(fill).isLocal[place]) fillFromCoarser(fill, place, nullptr);
@@ -242,15 +244,26 @@ void Exchange::shareFaces(int variable, Generation set) {
   });
 }
 
-/// The set of a patch has the particles around it that other patches of this rank have.
-void Exchange::linkLocalGhosts(const BoundGhostFill& fill, const Patch& patch, const std::vector<GhostCopy>& copies) {
+/// The sets of all patches have the particles around them that other patches of this rank have.
+void Exchange::linkLocalGhosts(const BoundGhostFill& fill) {
   const int material = warehouse_->table()[fill.variable].material;
-  ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
-  for (const GhostCopy& copy : copies)
-    if (isHere(copy) && copy.shift == Index3{})
-      set.addGhosts(copy.box, warehouse_->particles(fill.set, material, copy.from),
-                    warehouse_->distance(fill.set, material, patch.id(), copy.from));
-  set.markGhosts();
+  const std::vector<Patch>& patches = warehouse_->grid().patches();
+  const int first = warehouse_->grid().firstPatch();
+  std::vector<char> hasSome;  // by place: most patches may be empty, and their neighbours need not look at their sets
+  for (const Patch& patch : patches)
+    hasSome.push_back(warehouse_->particles(fill.set, material, patch.id()).owned() > 0);
+  const GhostPlan& plan = planOf(fill);
+  const auto link = [&](int place) {
+    const Patch& patch = patches[static_cast<std::size_t>(place)];
+    const trace::Span span(trace::Kind::message, "link ghosts", patch.id());
+    ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
+    for (const GhostCopy& copy : plan.into[static_cast<std::size_t>(place)])
+      if (isHere(copy) && hasSome[static_cast<std::size_t>(copy.from - first)] && copy.shift == Index3{})
+        set.addGhosts(copy.box, warehouse_->particles(fill.set, material, copy.from),
+                      warehouse_->distance(fill.set, material, patch.id(), copy.from));
+    set.markGhosts();
+  };
+  threads_->forEach(static_cast<int>(patches.size()), link, trace::Kind::message);
 }
 
 /// Copies of ghosts have their places: of periodic images on this rank, or of what other ranks have sent.
@@ -283,9 +296,11 @@ void Exchange::reserveCopies(const BoundGhostFill& fill) {
 /// The copies that a patch has of particles of this rank, or of others from their messages.
 void Exchange::fillCopies(const BoundGhostFill& fill, const Patch& patch, ReceivedMessages* messages) {
   const auto [label, material] = warehouse_->table()[fill.variable];
+  const std::vector<data::GhostRun>& runs = warehouse_->particles(fill.set, material, patch.id()).ghostRuns();
+  if (runs.empty()) return;
   const grid::Grid& grid = warehouse_->grid();
   const Variable here = warehouse_->variable(fill.generation, fill.variable, patch.id());
-  for (const data::GhostRun& run : warehouse_->particles(fill.set, material, patch.id()).ghostRuns()) {
+  for (const data::GhostRun& run : runs) {
     if (grid.isMine(run.patch) == (messages != nullptr)) continue;
     const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
     const std::byte* from = messages ? messages->next(grid.ownerOf(run.patch), length)

@@ -71,13 +71,13 @@ class Exchange {
   const data::TouchedRows& nearRows(const BoundGhostFill& fill, int patch) const {
     return near_.of(fill.set, warehouse_->table()[fill.variable].material, patch);
   }
-  void linkLocalGhosts(const BoundGhostFill& fill, const grid::Patch& patch, const std::vector<GhostCopy>& copies);
+  void linkLocalGhosts(const BoundGhostFill& fill);
   void placeGhostCopies(const BoundGhostFill& fill, ReceivedMessages* messages);
   void reserveCopies(const BoundGhostFill& fill);
   void fillCopies(const BoundGhostFill& fill, const grid::Patch& patch, ReceivedMessages* messages);
   bool isHere(const GhostCopy& copy) const { return copy.rank == warehouse_->ranks().rank(); }
   void noteUnresolved();
-  /// Calls `work(fill, whether it resolves ghosts, patch, its place)` on several threads at once.
+  /// Calls `work(fill, patch, its place)` on several threads at once.
   template <class Work>
   void forEach(const Work& work);
   const GhostPlan& planOf(const BoundGhostFill& fill) {

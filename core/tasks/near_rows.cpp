@@ -9,22 +9,25 @@ void NearRows::settle(data::Generation set, int material) {
   if (!isNew) return;
   const std::vector<grid::Patch>& patches = warehouse_->grid().patches();
   rows->second.resize(patches.size());
-  std::vector<data::TouchedRows>& ofPatches = rows->second;
+  whole_.resize(patches.size());
+  std::vector<const data::TouchedRows*>& ofPatches = rows->second;
   threads_->forEach(
       static_cast<int>(patches.size()),
       [&](int place) {
         const std::size_t at = place;
-        ofPatches[at] = rowsOf(set, material, patches[at]);
+        ofPatches[at] = &rowsOf(set, material, patches[at], whole_[at]);
       },
       trace::Kind::message);
 }
 
 /// Whatever reads particles `reach` cells beyond the patch touches nodes reach - 1 beyond those of their cells.
-data::TouchedRows NearRows::rowsOf(data::Generation set, int material, const grid::Patch& patch) const {
+const data::TouchedRows& NearRows::rowsOf(data::Generation set, int material, const grid::Patch& patch,
+                                          data::TouchedRows& whole) const {
   const data::ParticleSet& particles = warehouse_->particles(set, material, patch.id());
-  if (!particles.hasGhosts()) return data::TouchedRows::all(patch.nodes());
-  const int ghost = std::max(warehouse_->table().reach(material) - 1, 0);
-  return {particles, particles.cells(), ghost, patch.nodes(), warehouse_->grid().dimension()};
+  if (particles.hasGhosts())
+    return particles.touched(std::max(warehouse_->table().reach(material) - 1, 0), warehouse_->grid().dimension());
+  whole = data::TouchedRows::all(patch.nodes());
+  return whole;
 }
 
 }  // namespace tushar::tasks

@@ -28,17 +28,23 @@ class NearRows {
   void settle(data::Generation set, int material);
   /// The rows of a patch, once they are settled.
   const data::TouchedRows& of(data::Generation set, int material, int patch) const {
-    return rows_.at({set, material})[patch - warehouse_->grid().firstPatch()];
+    return *rows_.at({set, material})[patch - warehouse_->grid().firstPatch()];
   }
   /// To be called when particles are others, or elsewhere.
-  void forget() { rows_.clear(); }
+  void forget() {
+    rows_.clear();
+    whole_.clear();
+  }
 
  private:
-  data::TouchedRows rowsOf(data::Generation set, int material, const grid::Patch& patch) const;
+  /// Those that the set of particles has, or `whole`.
+  const data::TouchedRows& rowsOf(data::Generation set, int material, const grid::Patch& patch,
+                                  data::TouchedRows& whole) const;
 
   data::Warehouse* warehouse_;
   Threads* threads_;
-  std::map<std::pair<data::Generation, int>, std::vector<data::TouchedRows>> rows_;  ///< by place of the patch
+  std::map<std::pair<data::Generation, int>, std::vector<const data::TouchedRows*>> rows_;  ///< by place of the patch
+  std::vector<data::TouchedRows> whole_;  ///< all nodes of a patch, by its place, where that was needed
 };
 
 }  // namespace tushar::tasks

@@ -131,6 +131,7 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
   moves.arrivals.clear();
   moves.escape.reset();
   moves.leaving = 0;
+  if (set.owned() == 0) return;
   const grid::Level& level = warehouse_->grid().finest();
   set.forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
     Vec<D> lower, upper;

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "core/data/particle_set.hpp"
 #include "core/grid/grid.hpp"
 #include "tests/support/levels.hpp"
 
@@ -106,6 +107,43 @@ TEST(TouchedRows, AreNoneWithoutParticlesAndAllWhereTheyAreNotKnown) {
       nodesVisited({particlesIn(grid, [](const Index3&) { return false; }), grid.level().cells(), 1, nodes, 3}, nodes),
       0u);
   EXPECT_EQ(nodesVisited(TouchedRows::all(nodes), nodes), nodes.size());
+}
+
+TEST(TouchedRows, AreFoundAnewWhenASetHasOtherParticles) {
+  const grid::Grid grid(test::domain({{7, 6, 5}}));
+  const Box& cells = grid.level().cells();
+  const auto rowsOf = [&](const ParticleSet& set, int ghost) { return visitedRows(set.touched(ghost, 3)); };
+  const auto anew = [&](const ParticleSet& set, int ghost) {
+    return visitedRows({set, cells, ghost, cells.nodes(3).grown(ghost, 3), 3});
+  };
+  ParticleSet set = particlesIn(grid, isInTwoCorners);
+  EXPECT_EQ(rowsOf(set, 0), anew(set, 0));
+  EXPECT_EQ(rowsOf(set, 1), anew(set, 1));
+  EXPECT_NE(rowsOf(set, 0), rowsOf(set, 1));
+
+  const auto before = rowsOf(set, 0);
+  set.reset(grid.patches().front(), 0);
+  EXPECT_TRUE(rowsOf(set, 0).empty());
+  set.at(Index3{{2, 2, 2}}) = {0, 3};
+  set.setOwned(3);
+  EXPECT_EQ(rowsOf(set, 0), anew(set, 0));
+  EXPECT_NE(rowsOf(set, 0), before);
+}
+
+TEST(TouchedRows, FollowTheGhostsOfASet) {
+  const grid::Grid grid(test::domain({{7, 6, 5}}, {{2, 1, 1}}));
+  std::vector<ParticleSet> sets(2);
+  for (std::size_t place : {0u, 1u}) sets[place].reset(grid.patches()[place], 1);
+  const Index3 beside = grid.patches()[1].cells().lower;
+  sets[1].at(beside) = {0, 2};
+  sets[1].setOwned(2);
+  EXPECT_TRUE(visitedRows(sets[0].touched(0, 3)).empty());
+
+  sets[0].addGhosts({beside, beside + Index3::filled(1)}, sets[1], 10);
+  EXPECT_EQ(nodesVisited(sets[0].touched(0, 3), grid.level().cells().nodes(3)), 8u);
+  sets[0].markGhosts();
+  sets[0].forgetGhosts();
+  EXPECT_TRUE(visitedRows(sets[0].touched(0, 3)).empty());
 }
 
 }  // namespace tushar::data

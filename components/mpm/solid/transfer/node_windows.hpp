@@ -1,14 +1,14 @@
 #pragma once
 
 #include "components/mpm/solid/transfer/transfer.hpp"
-#include "core/data/touched_rows.hpp"
+#include "core/data/particle_set.hpp"
 
 namespace tushar::mpm::solid {
 
-/// The rows of `nodes` that particles of a view touch, ghosts included.
-template <int D, class View>
-data::TouchedRows touchedRows(const View& particles, int ghostNodes, const Box& nodes) {
-  return {particles.set(), particles.cells(), ghostNodes, nodes, D};
+/// The rows of nodes that particles of a set touch, ghosts included: on nodes of the patch and around it.
+template <class Shape, class View>
+const data::TouchedRows& touchedRows(const View& particles) {
+  return particles.set().touched(Shape::ghostNodes, Shape::dimension);
 }
 
 /// The records relative to a node, which may lie outside of those that are stored.

@@ -13,8 +13,7 @@ template <class Shape, int D = Shape::dimension>
 void computeAndIntegrateAcceleration(const Patch& patch, const Material& material, const Method& method,
                                      ParticleView<const Vec<D>> x, double dt, NodeView<NodeRecord> record) {
   const Vec<D> gravity = patch.level().reduce<D>(method.gravity);
-  const data::TouchedRows rows = touchedRows<D>(x, Shape::ghostNodes, record.box());
-  rows.forEachRow([&](const Index3& first, int end) {
+  touchedRows<Shape>(x).forEachRow(record.box(), [&](const Index3& first, int end) {
     NodeRecord* node = record.values() + record.stored().offset(first);
     for (int k = first[0]; k < end; ++k, ++node) {
       const double mass = (*node)[lane::mass];
@@ -31,7 +30,7 @@ void computeAndIntegrateAcceleration(const Patch& patch, const Material& materia
 template <class Shape, int D = Shape::dimension>
 void setGridBoundaryConditions(const Patch& patch, const Material& material, ParticleView<const Vec<D>> x,
                                NodeView<NodeRecord> record) {
-  setVelocity<D>(patch, material.index, touchedRows<D>(x, Shape::ghostNodes, record.stored()), record);
+  setVelocity<D>(patch, material.index, touchedRows<Shape>(x), record);
   if (!material.transmitsForce) setSymmetry<D>(patch, material.index, record);
 }
 

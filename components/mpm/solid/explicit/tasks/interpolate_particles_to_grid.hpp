@@ -82,12 +82,16 @@ class Scatter {
   /// The particles of a ghost cell: those that touch the patch's own nodes. The stresses of those between the first and
   /// the last of a group come along, as several cost as much as one.
   void addGhostCell(const Index<D>& cell, const data::ParticleRange& range) const {
+    if (hasOwnNode(cell)) {
+      for (int at = range.first; at < range.last; at += stressGroup)
+        addGroup<true>(cell, at, std::min(stressGroup, range.last - at), ~Touching{0});
+      return;
+    }
     const CellFrame<D> frame(level_, cell);
-    const bool touchesAll = hasOwnNode(cell);
     for (int first = range.first; first < range.last; first += stressGroup) {
       Touching touching = 0;  // a bit for each of the group
       for (int k = 0; k < std::min(stressGroup, range.last - first); ++k)
-        touching |= Touching{touchesAll || touchesOwn(frame, cell, first + k)} << k;
+        touching |= Touching{touchesOwn(frame, cell, first + k)} << k;
       const int left = std::countr_zero(touching);
       if (touching != 0) addGroup<true>(cell, first + left, std::bit_width(touching) - left, touching >> left);
     }
@@ -194,11 +198,11 @@ Box cellsThatTouch(Box nodes, int ghostNodes) {
 template <class Shape, int D = Shape::dimension>
 void scatterParticles(const Patch& patch, const Material& material, bool clearsAll, ParticleView<const Vec<D>> x,
                       const Scatter<Shape>& scatter, NodeView<NodeRecord> record) {
-  const data::TouchedRows rows = touchedRows<D>(x, Shape::ghostNodes, record.box());
+  const data::TouchedRows& rows = touchedRows<Shape>(x);
   if (clearsAll)
     record.fill(NodeRecord{});
   else
-    rows.forEachRow([&](const Index3& first, int end) {
+    rows.forEachRow(record.box(), [&](const Index3& first, int end) {
       std::fill_n(record.values() + record.stored().offset(first), end - first[0], NodeRecord{});
     });
   const Box near = cellsThatTouch<D>(record.box(), Shape::ghostNodes).intersect(x.cells());
@@ -208,7 +212,7 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
     else
       scatter.addGhostCell(cell, range);
   });
-  rows.forEachRow([&](const Index3& first, int end) {
+  rows.forEachRow(record.box(), [&](const Index3& first, int end) {
     NodeRecord* node = record.values() + record.stored().offset(first);
     for (int k = first[0]; k < end; ++k, ++node)
       if ((*node)[lane::mass] > 0)

@@ -13,8 +13,7 @@ void prescribeMotion(const Patch& patch, const Material&, const PrescribedDeform
                      ParticleView<const Vec<D>> x, NodeView<NodeRecord> record) {
   const Level& level = patch.level();
   const Matrix3 gradient = deformation->velocityGradient(time);
-  const data::TouchedRows rows = touchedRows<D>(x, Shape::ghostNodes, record.box());
-  rows.forEachRow([&](const Index3& first, int end) {
+  touchedRows<Shape>(x).forEachRow(record.box(), [&](const Index3& first, int end) {
     NodeRecord* node = record.values() + record.stored().offset(first);
     Vec<D> place;
     for (int d = 0; d < D; ++d) place[d] = level.nodePosition(d, first[d]);

@@ -58,8 +58,7 @@ void addPull(const Patch& patch, const RigidMotion<Shape>& u, Pull& pull) {
 /// v* = v + a dt at the nodes that particles touch.
 template <class Shape, int D = Shape::dimension>
 void accelerate(ParticleView<const Vec<D>> x, const Vec<D>& change, NodeView<NodeRecord> record) {
-  const data::TouchedRows rows = touchedRows<D>(x, Shape::ghostNodes, record.box());
-  rows.forEachRow([&](const Index3& first, int end) {
+  touchedRows<Shape>(x).forEachRow(record.box(), [&](const Index3& first, int end) {
     NodeRecord* node = record.values() + record.stored().offset(first);
     for (int k = first[0]; k < end; ++k, ++node)
       setLanes<D>(*node, lane::velocity, lanes<D>(*node, lane::before) + change);
