@@ -91,6 +91,11 @@ long Communicator::sum(long mine) const {
   return mine;
 }
 
+void Communicator::sum(std::span<double> mine) const {
+  if (isAlone()) return;
+  MPI_Allreduce(MPI_IN_PLACE, mine.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, native_->ranks);
+}
+
 void Communicator::merge(std::span<std::byte> value,
                          const std::function<void(const std::byte* from, std::byte* into)>& merge) const {
   if (isAlone() || value.empty()) return;

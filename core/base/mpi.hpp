@@ -59,6 +59,8 @@ class Communicator {
   /// The greatest value of each over all ranks.
   void max(std::span<double> mine) const;
   long sum(long mine) const;
+  /// The sum of each over all ranks; the same bits on all where these are whole numbers.
+  void sum(std::span<double> mine) const;
   /// Every rank gets `merge(from, into)` over the values of all, in a tree that depends on their number alone, so that
   /// all get the same bits.
   void merge(std::span<std::byte> value,

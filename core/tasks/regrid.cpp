@@ -175,6 +175,16 @@ class Luggage {
       });
   }
 
+  /// How many particles a piece has.
+  int particlesOf(const Piece& piece) const {
+    int count = 0;
+    forEachSet(piece, piece.from, [&](const ParticleSet& set) {
+      grid::forEach<3>(piece.box, [&](const Index3& cell) { count += set.in(cell).size(); });
+    });
+    return count;
+  }
+  bool hasMaterials() const { return materials_ > 0; }
+
   void beginSets() const {
     for (int material = 0; material < materials_; ++material)
       for (const grid::Patch& patch : warehouse_.grid().patches())
@@ -240,6 +250,27 @@ std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, co
   return parts;
 }
 
+/// The shares of ranks that cost the same; nothing where there are only cells, which are shared by number.
+grid::RankOffsets sharesOf(const grid::Grid& grid, const grid::BlockTiling& next, const mpi::Communicator& ranks,
+                           const Luggage& luggage, const PatchCosts& costs) {
+  if (ranks.isAlone() || !luggage.hasMaterials()) return {};
+  std::vector<double> ofPatches(static_cast<std::size_t>(next.count()));
+  const Pieces pieces(grid.tiling(), next, grid.dimension(), grid.levels());
+  std::set<int> readers;
+  for (const grid::Patch& patch : grid.patches())
+    if (grid.isFinest(patch)) pieces.findReaders(patch, readers);
+  for (const int reader : readers)
+    pieces.of(reader, [&](const Piece& piece) {
+      if (grid.isMine(piece.from)) ofPatches[static_cast<std::size_t>(reader)] += luggage.particlesOf(piece);
+    });
+  ranks.sum(ofPatches);
+  for (int patch = 0; patch < next.count(); ++patch) {
+    double& cost = ofPatches[static_cast<std::size_t>(patch)];
+    cost = costs.ofParticle * cost + costs.ofCell * static_cast<double>(next.tile(patch).cells.size());
+  }
+  return grid::evenShares(ofPatches, ranks.size());
+}
+
 /// The messages of all ranks, each received when it is first read, from front to back.
 class Messages {
  public:
@@ -263,17 +294,19 @@ class Messages {
 
 }  // namespace
 
-void regrid(grid::Grid& grid, grid::BlockTree tree, data::Warehouse& warehouse, const MigratedVariables& variables) {
+void regrid(grid::Grid& grid, grid::BlockTree tree, data::Warehouse& warehouse, const MigratedVariables& variables,
+            const PatchCosts& costs) {
   const mpi::Communicator& ranks = warehouse.ranks();
   const Luggage luggage(warehouse, variables);
   std::unique_ptr<grid::BlockTiling> next = grid.cut(std::move(tree));
-  const grid::Partition owners(*next, ranks.size());
+  grid::RankOffsets shares = sharesOf(grid, *next, ranks, luggage, costs);
+  const grid::Partition owners = shares.empty() ? grid::Partition(*next, ranks.size()) : grid::Partition(*next, shares);
   const grid::Partition ownersBefore(grid.tiling(), grid.rankOffsets());
   std::map<int, Bytes> parts = packed(grid, *next, owners, luggage);  // by rank that they go to
   mpi::Outbox outbox(ranks);
   for (auto& [rank, bytes] : parts)
     if (rank != ranks.rank()) outbox.send(rank, mpi::Tag::patches, std::move(bytes));
-  const std::unique_ptr<grid::Tiling> before = grid.refine(std::move(next));
+  const std::unique_ptr<grid::Tiling> before = grid.refine(std::move(next), std::move(shares));
   warehouse.startAnew(variables.materials);
   luggage.allocate();
   const Pieces pieces(*before, grid.tiling(), grid.dimension(), grid.levels());
