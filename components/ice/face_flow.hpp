@@ -33,7 +33,7 @@ class GasBefore {
         gravity_(level.reduce<D>(settings.gravity)),
         old_(box.size()) {
     old_.hold(box);
-    euler::recover<D>(gas_, level, before, old_);
+    gas_.withLaw([&](const auto& law) { euler::recover<D>(law, level, before, old_); });
     euler::fillBeyondGrid<D>(level, rules_, old_);
   }
 
