@@ -6,6 +6,28 @@ namespace tushar::euler {
 
 namespace {
 
+/// What density, pressure and temperature prescribe of a gas with a law of its own.
+template <int D>
+void prescribeByLaw(const Place& place, const Gas& gas, std::optional<double> density,
+                    const std::optional<double>& pressure, GhostRule<D>& rule) {
+  const auto temperature = givenAt(place, gas, boundary::temperature);
+  const auto prescribe = [&](std::size_t k, double value) {
+    rule.factor[k] = 0;
+    rule.value[k] = value;
+  };
+  if (pressure && !density && (temperature || gas.isBarotropic()))
+    density = gas.densityAt(*pressure, temperature.value_or(1));
+  if (density) prescribe(kDensity, *density);
+  if (pressure && !gas.isBarotropic()) {
+    prescribe(kPressure<D>, *pressure);
+  } else if (temperature && density) {
+    prescribe(kPressure<D>, gas.lastAt(*density, *temperature));
+  } else if (temperature) {
+    rule.temperature = *temperature;
+    rule.gas = &gas;
+  }
+}
+
 template <int D>
 GhostRule<D> ghostRule(const Place& place, const Gas& gas) {
   GhostRule<D> rule;
@@ -25,14 +47,18 @@ GhostRule<D> ghostRule(const Place& place, const Gas& gas) {
     for (int k = 0; k < D; ++k) prescribe(kVelocity(k), v[k]);
   }
   auto density = givenAt(place, gas, boundary::density), pressure = pressureAt(place, gas);
+  if (gas.law) {
+    prescribeByLaw<D>(place, gas, density, pressure, rule);
+    return rule;
+  }
   if (const auto temperature = givenAt(place, gas, boundary::temperature)) {
     const double pressureOfDensity = gas.gasConstant() * *temperature;
     if (density && !pressure)
-      pressure = pressureOfDensity * *density;
+      pressure = pressureOfDensity * *density - gas.pInfinity;
     else if (pressure && !density)
-      density = *pressure / pressureOfDensity;
+      density = (*pressure + gas.pInfinity) / pressureOfDensity;
     else if (!density)
-      rule.densityOfPressure = 1 / pressureOfDensity;
+      rule.densityOfPressure = 1 / pressureOfDensity, rule.pInfinity = gas.pInfinity;
   }
   if (density) prescribe(kDensity, *density);
   if (pressure) prescribe(kPressure<D>, *pressure);
@@ -43,8 +69,9 @@ GhostRule<D> ghostRule(const Place& place, const Gas& gas) {
 std::optional<double> temperatureAt(const Place& place, const Gas& gas) {
   if (const auto given = givenAt(place, gas, boundary::temperature)) return given;
   const auto density = givenAt(place, gas, boundary::density), pressure = pressureAt(place, gas);
-  if (!density || !pressure || gas.specificHeat == 0) return {};
-  return *pressure / (gas.gasConstant() * *density);
+  if (!density || !pressure || gas.specificHeat == 0 || gas.isBarotropic()) return {};
+  if (gas.law) return gas.temperature(*density, gas.energyOf(*density, *pressure));
+  return (*pressure + gas.pInfinity) / (gas.gasConstant() * *density);
 }
 
 template <int D>
@@ -144,7 +171,11 @@ Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, i
 template <int D>
 State<D> beyondSide(const GhostRule<D>& rule, State<D> w) {
   for (std::size_t k = 0; k < w.size(); ++k) w[k] = rule.factor[k] * w[k] + rule.value[k];
-  if (rule.densityOfPressure > 0) w[kDensity] = rule.densityOfPressure * w[kPressure<D>];
+  if (rule.densityOfPressure > 0) w[kDensity] = rule.densityOfPressure * (w[kPressure<D>] + rule.pInfinity);
+  if (rule.temperature > 0 && rule.gas->isBarotropic())
+    w[kPressure<D>] = rule.gas->lastAt(w[kDensity], rule.temperature);
+  else if (rule.temperature > 0)
+    w[kDensity] = rule.gas->densityAt(w[kPressure<D>], rule.temperature);
   return w;
 }
 

@@ -15,7 +15,10 @@ template <int D>
 struct GhostRule {
   bool mirrored = false;
   State<D> factor, value;
-  double densityOfPressure = 0;  ///< where above 0, rho is that times p, kg/(m³ Pa)
+  double densityOfPressure = 0;  ///< where above 0, rho is that times p + p_inf, kg/(m³ Pa)
+  double pInfinity = 0;          ///< Pa
+  double temperature = 0;        ///< where above 0, that of a gas with a law of its own, K
+  const Gas* gas = nullptr;      ///< that gas
 };
 
 /// The rules of a side: of what is outside of its parts, and of each part.

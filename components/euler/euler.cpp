@@ -1,5 +1,7 @@
 #include "components/euler/euler.hpp"
 
+#include <stdexcept>
+
 #include "components/euler/tasks/advance.hpp"
 #include "components/euler/tasks/compute_stable_time_step.hpp"
 #include "components/euler/tasks/diagnose.hpp"
@@ -23,7 +25,7 @@ void Euler<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 
 template <int D>
 void Euler<D>::scheduleTimeAdvance(TaskList& tasks) const {
-  tasks.perPatch("euler::advance", chooseAdvance<D>(settings_.method), with(settings_.gas),
+  tasks.perPatch("euler::advance", chooseAdvance<D>(settings_.method, settings_.gas), with(settings_.gas),
                  all<OldState<D>>(reach(settings_.method)), startTime(), requiresOld(delT), all<NewState<D>>(),
                  all<RimFluxes<D>>());
 }
@@ -52,6 +54,15 @@ void Euler<D>::scheduleDiagnostics(TaskList& tasks) const {
 template <int D>
 void Euler<D>::scheduleRefine(TaskList& tasks) const {
   tasks.perPatch("euler::mendNewCells", mendNewCells<D>, with(settings_.gas), newCells(), all<ChangedState<D>>());
+}
+
+template <int D>
+std::vector<reference::GasLaw> Euler<D>::gases() const {
+  if (settings_.gas.law)
+    throw std::invalid_argument(
+        "the solution is of an ideal or a stiffened gas, but that of the scene has another "
+        "equation of state");
+  return {{settings_.gas.gamma, settings_.gas.pInfinity}};
 }
 
 /// Two gases that part have equal densities and pressures at first: the velocity must be looked at, too.

@@ -26,7 +26,7 @@ class Euler : public Component, public reference::GasSolution {
   std::string advice() const override {
     return "a smaller Euler/cfl, Euler/limiter minmod, or Euler/reconstruction first_order";
   }
-  std::vector<reference::GasLaw> gases() const override { return {{settings_.gas.gamma, settings_.gas.pInfinity}}; }
+  std::vector<reference::GasLaw> gases() const override;
   void scheduleMeasureError(TaskList& tasks, const reference::GasReference& exact,
                             const reference::Clock& clock) const override;
   std::vector<reference::MeasuredPlace> measuredPlaces() const override { return {reference::MeasuredPlace::cell}; }

@@ -5,7 +5,7 @@
 
 namespace tushar::euler {
 
-/// The gas at a face while two states meet there: primitive state and total energy per volume.
+/// The gas at a face while two states meet there: rho, v and the pressure, and total energy per volume.
 template <int D>
 struct FaceState {
   State<D> w;
@@ -32,11 +32,12 @@ State<D> fluxOf(const FaceState<D>& face) {
 /// mirrored problem gives the mirrored flux to the last bit.
 /// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 10.
 struct Hllc {
-  template <int D, int Axis>
-  static FaceState<D> solve(const Gas& gas, const State<D>& left, const State<D>& right) {
-    const double rhoL = left[kDensity], uL = left[kVelocity(Axis)], pL = left[kPressure<D>];
-    const double rhoR = right[kDensity], uR = right[kVelocity(Axis)], pR = right[kPressure<D>];
-    const double cL2 = gas.soundSpeedSquared(rhoL, pL), cR2 = gas.soundSpeedSquared(rhoR, pR);
+  template <int D, int Axis, class G>
+  static FaceState<D> solve(const G& gas, const State<D>& left, const State<D>& right) {
+    const double rhoL = left[kDensity], uL = left[kVelocity(Axis)], pL = gas.pressureOf(rhoL, left[kPressure<D>]);
+    const double rhoR = right[kDensity], uR = right[kVelocity(Axis)], pR = gas.pressureOf(rhoR, right[kPressure<D>]);
+    const double cL2 = gas.soundSpeedSquared(rhoL, left[kPressure<D>]);
+    const double cR2 = gas.soundSpeedSquared(rhoR, right[kPressure<D>]);
     const double rootL = std::sqrt(rhoL), rootR = std::sqrt(rhoR), weight = 1 / (rootL + rootR);
     const double spread = (uR - uL) * weight;
     const double u = (rootL * uL + rootR * uR) * weight;
@@ -54,8 +55,9 @@ struct Hllc {
     for (std::size_t k = 0; k < face.w.size(); ++k) face.w[k] = fromLeft ? left[k] : right[k];
     const double s = fromLeft ? sL : sR;
     const double m = fromLeft ? mL : mR;
-    const double side = face.w[kVelocity(Axis)], p = face.w[kPressure<D>];
-    const double energy = gas.internalEnergy(p) + 0.5 * face.w[kDensity] * speedSquared<D>(face.w);
+    const double side = face.w[kVelocity(Axis)], p = fromLeft ? pL : pR;
+    const double internal = gas.energyOf(face.w[kDensity], face.w[kPressure<D>]);
+    const double energy = internal + 0.5 * face.w[kDensity] * speedSquared<D>(face.w);
     const double inverse = 1 / (s - contact);
     const double energyStar = ((s - side) * energy - p * side + pStar * contact) * inverse;
     const double rhoStar = m * inverse;
@@ -69,8 +71,8 @@ struct Hllc {
 
 /// The exact solution at x/t = 0 (Toro, chapter 4), of the ideal gas of pressure p + p_inf.
 struct ExactFlux {
-  template <int D, int Axis>
-  static FaceState<D> solve(const Gas& gas, const State<D>& left, const State<D>& right) {
+  template <int D, int Axis, class G>
+  static FaceState<D> solve(const G& gas, const State<D>& left, const State<D>& right) {
     const auto side = [&](const State<D>& w) {
       return reference::RiemannState{w[kDensity], w[kVelocity(Axis)], w[kPressure<D>] + gas.pInfinity};
     };
@@ -81,7 +83,7 @@ struct ExactFlux {
     face.w[kDensity] = middle.density;
     face.w[kVelocity(Axis)] = middle.velocity;
     face.w[kPressure<D>] = middle.pressure - gas.pInfinity;
-    face.energy = gas.internalEnergy(face.w[kPressure<D>]) + 0.5 * face.w[kDensity] * speedSquared<D>(face.w);
+    face.energy = gas.energyOf(middle.density, face.w[kPressure<D>]) + 0.5 * face.w[kDensity] * speedSquared<D>(face.w);
     return face;
   }
 };

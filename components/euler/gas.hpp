@@ -3,6 +3,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "components/euler/curved_gas.hpp"
 
 namespace tushar::euler {
 
@@ -21,23 +27,116 @@ inline constexpr std::size_t kPressure = D + 1;
 ///
 /// With P = p + p_inf all waves are those of an ideal gas of pressure P.
 /// Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report LA-4700 (1971).
-struct Gas {
-  double gamma = 1.4;       ///< ratio of specific heats, above 1
-  double pInfinity = 0;     ///< Pa
-  double specificHeat = 0;  ///< c_v, J/(kg K); 0: no temperature is known
-  int material = 0;         ///< its number in the scene, where sides of the grid have conditions for it
+struct StiffenedGas {
+  double gamma = 1.4;    ///< ratio of specific heats, above 1
+  double pInfinity = 0;  ///< Pa
 
   /// c² [m²/s²] = gamma (p + p_inf) / rho.
   double soundSpeedSquared(double density, double pressure) const { return gamma * (pressure + pInfinity) / density; }
   /// Internal energy per volume [J/m³] = (p + gamma p_inf) / (gamma - 1).
-  double internalEnergy(double pressure) const { return (pressure + gamma * pInfinity) * (1 / (gamma - 1)); }
+  double energyOf(double, double pressure) const { return (pressure + gamma * pInfinity) * (1 / (gamma - 1)); }
   /// Pressure [Pa] of an internal energy per volume [J/m³].
-  double pressure(double internalEnergyPerVolume) const {
+  double pressure(double, double internalEnergyPerVolume) const {
     return (gamma - 1) * internalEnergyPerVolume - gamma * pInfinity;
   }
+  /// The number that stands for heat in a state: the pressure.
+  double last(double density, double internalEnergyPerVolume) const {
+    return pressure(density, internalEnergyPerVolume);
+  }
+  static double pressureOf(double, double pressure) { return pressure; }
+  double shockSlope() const { return 0.5 * (gamma + 1); }
+  /// p + p_inf [Pa], which must be above 0.
+  double heat(double, double pressure) const { return pressure + pInfinity; }
+};
+
+/// A gas: a stiffened one, unless it has a law of its own.
+struct Gas {
+  using Law = std::variant<CurvedGas, Water>;
+
+  double gamma = 1.4;       ///< ratio of specific heats, above 1
+  double pInfinity = 0;     ///< Pa
+  double specificHeat = 0;  ///< c_v, J/(kg K); 0: no temperature is known
+  int material = 0;         ///< its number in the scene, where sides of the grid have conditions for it
+  std::shared_ptr<const Law> law = nullptr;  ///< instead of that of a stiffened gas
+
+  /// Calls `use` with the gas as a StiffenedGas, or with its law: for loops that branch on the law once, in front.
+  template <class Use>
+  decltype(auto) withLaw(Use&& use) const {
+    if (!law) return use(StiffenedGas{gamma, pInfinity});
+    return std::visit(use, *law);
+  }
+
+  // Of a primitive state, density and its last number. That is the pressure but in gases whose pressure is that of the
+  // density alone, where it is the heat per volume.
+
+  /// c² [m²/s²].
+  double soundSpeedSquared(double density, double last) const {
+    return withLaw([&](const auto& of) { return of.soundSpeedSquared(density, last); });
+  }
+  /// Internal energy per volume [J/m³].
+  double energyOf(double density, double last) const {
+    return withLaw([&](const auto& of) { return of.energyOf(density, last); });
+  }
+  /// Pressure [Pa].
+  double pressureOf(double density, double last) const {
+    return withLaw([&](const auto& of) { return of.pressureOf(density, last); });
+  }
+  /// What must be above 0: p + p_inf, the heat, or a number of its sign.
+  double heat(double density, double last) const {
+    return withLaw([&](const auto& of) { return of.heat(density, last); });
+  }
+  /// Pressure [Pa] of an internal energy per volume [J/m³].
+  double pressure(double density, double internalEnergyPerVolume) const {
+    return withLaw([&](const auto& of) { return of.pressure(density, internalEnergyPerVolume); });
+  }
+  /// The last number of a state with an internal energy per volume [J/m³].
+  double last(double density, double internalEnergyPerVolume) const {
+    return withLaw([&](const auto& of) { return of.last(density, internalEnergyPerVolume); });
+  }
+
   /// R [J/(kg K)] = (gamma - 1) c_v of p + p_inf = rho R T.
   double gasConstant() const { return (gamma - 1) * specificHeat; }
+  /// The last number of a state of a temperature [K].
+  double lastAt(double density, double temperature) const {
+    if (!law) return gasConstant() * density * temperature - pInfinity;
+    return std::visit([&](const auto& of) { return of.lastAt(density, temperature); }, *law);
+  }
+  /// Density [kg/m³] of a pressure [Pa] and a temperature [K].
+  double densityAt(double pressure, double temperature) const {
+    if (!law) return (pressure + pInfinity) / (gasConstant() * temperature);
+    return std::visit([&](const auto& of) { return of.densityAt(pressure, temperature); }, *law);
+  }
+  /// T [K] of a density and an internal energy per volume [J/m³]: c_v T = e - p_inf / rho where there is no law.
+  double temperature(double density, double internalEnergyPerVolume) const {
+    if (!law) return (internalEnergyPerVolume - pInfinity) / (density * specificHeat);
+    return std::visit([&](const auto& of) { return of.temperature(density, internalEnergyPerVolume); }, *law);
+  }
+  /// The limits that a law has for the internal energy, J/kg.
+  std::pair<double, double> energyLimits(double density) const {
+    return std::visit(
+        [&](const auto& of) {
+          return std::pair(of.leastEnergy(density) / density, of.greatestEnergy(density) / density);
+        },
+        *law);
+  }
+  /// p behind a strong shock over rho u², u the speed that it gives to gas at rest: (gamma + 1) / 2.
+  double shockSlope() const {
+    return withLaw([](const auto& of) { return of.shockSlope(); });
+  }
+  /// Whether the pressure is that of the density alone.
+  bool isBarotropic() const {
+    return law && std::visit([](const auto& of) { return of.isBarotropic(); }, *law);
+  }
 };
+
+/// The law of a gas that is known to have it.
+template <class Law>
+Law lawOf(const Gas& gas) {
+  if constexpr (std::is_same_v<Law, StiffenedGas>)
+    return {gas.gamma, gas.pInfinity};
+  else
+    return std::get<Law>(*gas.law);
+}
 
 /// |v|² of a primitive state.
 template <int D>
@@ -47,24 +146,24 @@ double speedSquared(const State<D>& w) {
   return sum;
 }
 
-/// rho, rho v, E of rho, v, p.
-template <int D>
-State<D> conserved(const Gas& gas, const State<D>& w) {
+/// rho, rho v, E of rho, v and the last number; G is Gas or one of its laws.
+template <int D, class G>
+State<D> conserved(const G& gas, const State<D>& w) {
   State<D> u;
   u[kDensity] = w[kDensity];
   for (int k = 0; k < D; ++k) u[kVelocity(k)] = w[kDensity] * w[kVelocity(k)];
-  u[kPressure<D>] = gas.internalEnergy(w[kPressure<D>]) + 0.5 * w[kDensity] * speedSquared<D>(w);
+  u[kPressure<D>] = gas.energyOf(w[kDensity], w[kPressure<D>]) + 0.5 * w[kDensity] * speedSquared<D>(w);
   return u;
 }
 
-/// rho, v, p of rho, rho v, E.
-template <int D>
-State<D> primitive(const Gas& gas, const State<D>& u) {
+/// rho, v and the last number of rho, rho v, E.
+template <int D, class G>
+State<D> primitive(const G& gas, const State<D>& u) {
   State<D> w;
   const double inverse = 1 / u[kDensity];
   w[kDensity] = u[kDensity];
   for (int k = 0; k < D; ++k) w[kVelocity(k)] = u[kVelocity(k)] * inverse;
-  w[kPressure<D>] = gas.pressure(u[kPressure<D>] - 0.5 * u[kDensity] * speedSquared<D>(w));
+  w[kPressure<D>] = gas.last(u[kDensity], u[kPressure<D>] - 0.5 * u[kDensity] * speedSquared<D>(w));
   return w;
 }
 

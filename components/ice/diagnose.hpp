@@ -16,15 +16,14 @@ void sumInternalEnergy(const Patch& patch, CellView<const double> density, CellV
   });
 }
 
-/// T = e / c_v [K] of an ideal gas.
+/// T [K]: e / c_v of an ideal gas.
 template <int D>
 void computeTemperature(const Patch& patch, const euler::Gas& gas, CellView<const double> density,
                         CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
                         CellView<double> temperature) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double rho = density[cell];
-    temperature[cell] =
-        euler::internalEnergyPerVolume<D>(rho, momentum[cell], totalEnergy[cell]) / (rho * gas.specificHeat);
+    temperature[cell] = gas.temperature(rho, euler::internalEnergyPerVolume<D>(rho, momentum[cell], totalEnergy[cell]));
   });
 }
 
@@ -34,8 +33,8 @@ void computeSoundSpeed(const Patch& patch, const euler::Gas& gas, CellView<const
                        CellView<double> soundSpeed) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double rho = density[cell];
-    const double p = gas.pressure(euler::internalEnergyPerVolume<D>(rho, momentum[cell], totalEnergy[cell]));
-    soundSpeed[cell] = std::sqrt(gas.soundSpeedSquared(rho, p));
+    const double last = gas.last(rho, euler::internalEnergyPerVolume<D>(rho, momentum[cell], totalEnergy[cell]));
+    soundSpeed[cell] = std::sqrt(gas.soundSpeedSquared(rho, last));
   });
 }
 

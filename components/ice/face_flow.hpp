@@ -30,7 +30,7 @@ class GasBefore {
   /// From now on the gas in the cells of `box`.
   void hold(const Box& box, const euler::StateViews<D, const double>& before) {
     old_.hold(box);
-    euler::recover<D>(gas_, level_, before, old_);
+    gas_.withLaw([&](const auto& law) { euler::recover<D>(law, level_, before, old_); });
     euler::fillBeyondGrid<D>(level_, rules_, old_);
   }
 

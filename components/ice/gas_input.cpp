@@ -67,7 +67,8 @@ void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element
   if (!body.pressure) return;
   if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;
   const double given = (*body.pressure)(Vec3::Zero());
-  const double pressure = gas.gasConstant() * body.density(Vec3::Zero()) * body.temperature(Vec3::Zero());
+  const double density = body.density(Vec3::Zero());
+  const double pressure = gas.pressureOf(density, gas.lastAt(density, body.temperature(Vec3::Zero())));
   if (std::abs(given - pressure) > 1e-3 * pressure)
     diagnostics.note(*element.child("pressure"),
                      fmt::format("does nothing: density and temperature give {:g} Pa", pressure));
@@ -81,6 +82,12 @@ void readMaterial(const GasMaterial& material, const Element& element, GasScene&
   euler::Gas& gas = scene.gas.gas;
   gas.gamma = material.gamma;
   gas.specificHeat = material.specificHeat;
+  gas.pInfinity = material.state.pInfinity;
+  gas.law = material.state.law(material.specificHeat);
+  if (scene.implicit && gas.isBarotropic())
+    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
+                      "not with JWLC or Murnaghan, whose pressure does not depend on the energy: take it out, or run "
+                      "with --set CFD/ICE/explicit=true");
   const auto tags = element.children("geom_object");
   for (std::size_t k = 0; k < material.bodies.size(); ++k) {
     const GasBody& body = material.bodies[k];

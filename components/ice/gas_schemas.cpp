@@ -114,21 +114,8 @@ const Schema<IceSection>& iceSchema() {
   return schema;
 }
 
-struct IdealGas {};
-
-/// The equation of state; the tags of those that are missing are not looked at.
-void readState(GasMaterial&, const Element& element, Diagnostics& diagnostics) {
-  static const Schema<IdealGas> idealGas = [] {
-    Schema<IdealGas> tags("EOS", "p = (gamma - 1) c_v rho T.");
-    tags.foreignAttribute("type", "ideal_gas");
-    for (const char* tag : {"A", "B", "C", "R1", "R2", "om", "rho0"}) tags.ignored(tag, "belongs to explosives");
-    return tags;
-  }();
-  const auto given = element.child("EOS");
-  if (!given) return diagnostics.error(element, "missing tag <EOS> in <material>");
-  const std::string problem = input::choiceProblem(given->attribute("type").value_or(""), {"ideal_gas"});
-  if (!problem.empty()) return diagnostics.error(given->whereOf("type"), given->path(), "attribute 'type': " + problem);
-  idealGas.read(*given, diagnostics);
+void readState(GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
+  material.state = readEquationOfState(element, diagnostics);
 }
 
 const Schema<GasBody>& bodySchema() {
@@ -157,8 +144,10 @@ const Schema<GasMaterial>& materialSchema() {
     Schema<GasMaterial> tags("material", "A gas, and where it is at the start.");
     tags.attributeValue("name", &GasMaterial::name, "", "1", "its name")
         .ignoredAttribute("index", "there is one gas")
-        .custom("EOS", readState, {"EOS"}, "type=\"ideal_gas\": p = (gamma - 1) c_v rho T")
-        .forms({{.tags = {"EOS"}, .demands = {{"type", {"ideal_gas"}}}, .atLeast = 1, .repeats = false}})
+        .custom("EOS", readState, {"EOS"},
+                "the equation of state, by its type: ideal_gas p = (gamma - 1) c_v rho T; stiffened_gas; of explosives "
+                "and liquids JWL, JWLC, Murnaghan and Thomsen_Hartka_water, to which <gamma> means nothing")
+        .forms({{.tags = {"EOS"}, .demands = {{"type", equationsOfState()}}, .atLeast = 1, .repeats = false}})
         .required("gamma", &GasMaterial::gamma, "1", "ratio of specific heats", input::greaterThan(1))
         .required("specific_heat", &GasMaterial::specificHeat, "J/(kg K)", "c_v", input::positive())
         .value("dynamic_viscosity", &GasMaterial::viscosity, 0, "Pa s",

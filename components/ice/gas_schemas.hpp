@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "components/ice/equation_of_state.hpp"
 #include "components/ice/gas_input.hpp"
 #include "components/ice/start.hpp"
 #include "core/input/schema.hpp"
@@ -64,6 +65,7 @@ struct GasBody {
 /// `MaterialProperties/ICE/material`.
 struct GasMaterial {
   std::string name;
+  EquationOfState state;
   double gamma = 0;         ///< ratio of specific heats
   double specificHeat = 0;  ///< c_v, J/(kg K)
   double viscosity = 0;     ///< Pa s

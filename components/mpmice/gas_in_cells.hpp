@@ -35,21 +35,22 @@ struct GasInCells {
     return u;
   }
   /// rho, v, p of the gas alone.
-  euler::State<D> primitive(const euler::Gas& gas, const Index<D>& cell) const {
+  template <class G>
+  euler::State<D> primitive(const G& gas, const Index<D>& cell) const {
     return euler::primitive<D>(gas, conserved(cell));
   }
 };
 
-/// Throws NumericalError for an impossible gas in the free fraction `free` of a cell, with its density [kg/m³] and p +
-/// p_inf [Pa].
+/// Throws NumericalError for an impossible gas in the free fraction `free` of a cell, with its density [kg/m³] and the
+/// last number of its primitive state.
 template <int D>
 [[noreturn]] void refuseGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, double free,
-                            double density, double stiff) {
+                            double density, double last) {
   const Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
   throw NumericalError(
       fmt::format("the gas beside a body became impossible: {:.6g} kg/m^3 and {:.6g} Pa in the free {:.3g} of the cell "
                   "at ({:g}, {:g}, {:g}) m",
-                  density, stiff - gas.pInfinity, free, at[0], at[1], at[2]),
+                  density, gas.pressureOf(density, last), free, at[0], at[1], at[2]),
       "", "c.density", level.cellNumber<D>(cell));
 }
 

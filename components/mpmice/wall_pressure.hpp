@@ -4,13 +4,65 @@
 
 namespace tushar::mpmice {
 
+/// The pressure behind the shock that a wall drives into a gas with a law of its own, whose jump of velocity is
+/// `closing`: e - e_0 = (p + p_0) / 2 (v_0 - v), (p - p_0) (v_0 - v) = closing². Of one whose pressure is that of the
+/// density alone, the second says it. By bisection in the density, to round-off.
+inline double shockPressure(const euler::Gas& gas, double density, double last, double closing) {
+  const double before = gas.pressureOf(density, last), volume = 1 / density;
+  const double energy = gas.energyOf(density, last) * volume;
+  // Behind the shock p = p_0 + closing² / (v_0 - v): which density has it?
+  const auto behind = [&](double rho) { return before + closing * closing / (volume - 1 / rho); };
+  const auto isTooLow = [&](double rho) {
+    const double pressure = behind(rho);
+    if (gas.isBarotropic()) return gas.pressureOf(rho, 1) < pressure;
+    return gas.pressure(rho, rho * (energy + 0.5 * (pressure + before) * (volume - 1 / rho))) < pressure;
+  };
+  double least = density, most = 2 * density;
+  while (isTooLow(most) && most < 1e6 * density) most *= 2;
+  for (int k = 0; k < 100; ++k) {
+    const double middle = 0.5 * (least + most);
+    if (middle <= least || middle >= most) break;
+    (isTooLow(middle) ? least : most) = middle;
+  }
+  return behind(most);
+}
+
+/// The pressure in the fan behind a wall that draws back by `speed` [m/s]: dp = -rho c du, drho = -rho / c du, by
+/// Runge-Kutta's method of fourth order; 0 where no gas is left.
+inline double fanPressure(const euler::Gas& gas, double density, double last, double speed) {
+  constexpr int steps = 32;
+  const bool isBarotropic = gas.isBarotropic();
+  struct Rate {
+    double density, last;
+  };
+  const auto rate = [&](double rho, double of) {
+    if (!(rho > 0) || !(gas.heat(rho, of) > 0)) return Rate{std::nan(""), 0};
+    const double c = std::sqrt(gas.soundSpeedSquared(rho, of));
+    return Rate{-rho / c, isBarotropic ? 0 : -rho * c};
+  };
+  const double du = speed / steps;
+  double rho = density, of = last;
+  for (int k = 0; k < steps; ++k) {
+    const Rate a = rate(rho, of), b = rate(rho + 0.5 * du * a.density, of + 0.5 * du * a.last);
+    const Rate c = rate(rho + 0.5 * du * b.density, of + 0.5 * du * b.last);
+    const Rate d = rate(rho + du * c.density, of + du * c.last);
+    rho += du / 6 * (a.density + 2 * b.density + 2 * c.density + d.density);
+    of += du / 6 * (a.last + 2 * b.last + 2 * c.last + d.last);
+    if (!(rho > 0) || !(gas.heat(rho, of) > 0)) return 0;
+  }
+  return gas.pressureOf(rho, of);
+}
+
 /// Pressure [Pa] of a gas on a wall that it meets with the speed `closing` [m/s]: behind a shock where it closes in,
-/// behind a fan where it draws back, 0 of p + p_inf where there is no gas left.
+/// behind a fan where it draws back, 0 of p + p_inf where there is no gas left. The gas is given by its density and the
+/// last number of its primitive state.
 /// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., section 4.3, with the wall's
 /// speed given.
-inline double wallPressure(const euler::Gas& gas, double density, double pressure, double closing) {
-  if (closing == 0) return pressure;
-  const double stiff = pressure + gas.pInfinity, c2 = gas.gamma * stiff / density;
+inline double wallPressure(const euler::Gas& gas, double density, double last, double closing) {
+  if (closing == 0) return gas.pressureOf(density, last);
+  if (gas.law)
+    return closing > 0 ? shockPressure(gas, density, last, closing) : fanPressure(gas, density, last, -closing);
+  const double pressure = last, stiff = pressure + gas.pInfinity, c2 = gas.gamma * stiff / density;
   if (closing > 0) {
     const double b = 0.25 * (gas.gamma + 1) * closing;
     return pressure + density * closing * (b + std::sqrt(b * b + c2));

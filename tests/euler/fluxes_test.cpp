@@ -123,8 +123,8 @@ TEST(Gas, RecoversWhatItConserves) {
 
 TEST(Gas, IsIdealWithoutStiffness) {
   const Gas gas{1.4, 0};
-  EXPECT_DOUBLE_EQ(gas.pressure(2.5), 1);
-  EXPECT_DOUBLE_EQ(gas.internalEnergy(1), 2.5);
+  EXPECT_DOUBLE_EQ(gas.pressure(2, 2.5), 1);
+  EXPECT_DOUBLE_EQ(gas.energyOf(2, 1), 2.5);
   EXPECT_DOUBLE_EQ(gas.soundSpeedSquared(2, 3), 2.1);
 }
 

@@ -58,7 +58,7 @@ class GasBox {
     std::vector<Vec<D>> newMomentum(density.size());
     const int ghost = reach(method);
     for (const Patch& patch : grid.patches())
-      chooseAdvance<D>(method)(patch, gas,
+      chooseAdvance<D>(method, gas)(patch, gas,
                                {{seen<const double>(density, patch, ghost), seen<const Vec<D>>(momentum, patch, ghost),
                                  seen<const double>(energy, patch, ghost)}},
                                time, dt,

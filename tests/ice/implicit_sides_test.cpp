@@ -40,7 +40,7 @@ class Line {
     settings_.gravity = Vec3(rise, 0, 0);
     for (int i = 0; i < 4; ++i) {
       pressure_[i] = 3 + rise * level().cellCentre<1>(Index<1>{{i}})[0];
-      energy_[i] = method_.gas.internalEnergy(pressure_[i]);
+      energy_[i] = method_.gas.energyOf(1, pressure_[i]);
     }
   }
 

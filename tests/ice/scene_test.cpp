@@ -10,7 +10,8 @@ using Overrides = std::vector<std::string>;
 using test::changedScene;
 
 const std::string sod = "ups/ice/sod.ups", shear = "ups/ice/shear_wave.ups", channel = "ups/ice/channel.ups",
-                  heat = "ups/ice/heat_wave.ups";
+                  heat = "ups/ice/heat_wave.ups", jwlShock = "ups/ice/jwl_shock.ups",
+                  murnaghanShock = "ups/ice/murnaghan_shock.ups";
 
 using test::driftOf;
 
@@ -136,18 +137,97 @@ TEST(IceScene, RefusesASecondGas) {
             "a second gas is not available; keep one <material>");
 }
 
-TEST(IceScene, RefusesWhatItDoesNotHave) {
-  struct Foreign {
-    std::string there, given, problem;
+TEST(IceScene, RefusesSolids) {
+  EXPECT_EQ(problemOf(changedScene(sod, "<MaterialProperties>", "<MaterialProperties><MPM/>")),
+            "'ice' has no solids: keep the gas alone");
+}
+
+TEST(IceScene, RefusesOtherEquationsOfState) {
+  EXPECT_EQ(problemOf(changedScene(sod, "<EOS type=\"ideal_gas\"/>", "<EOS type=\"TST\"><a>1</a></EOS>")),
+            "attribute 'type': found 'TST', expected 'ideal_gas', 'stiffened_gas', 'JWL', 'JWLC', 'Murnaghan' or "
+            "'Thomsen_Hartka_water'");
+}
+
+TEST(IceScene, TellsWhichNumberOfAnEquationOfStateIsMissing) {
+  const std::string numbers = "<B>1</B><R1>4</R1><R2>1</R2><om>.3</om><rho0>1</rho0>";
+  EXPECT_EQ(problemOf(changedScene(sod, "<EOS type=\"ideal_gas\"/>", "<EOS type=\"JWL\">" + numbers + "</EOS>")),
+            "missing tag <A> in <EOS>");
+}
+
+TEST(IceScene, HasTheFrontOfAShockInProductsOfExplosives) {
+  const std::string fine = "Grid/Level/Box/resolution=[400,1,1]";
+  for (const std::string& scene : {jwlShock, murnaghanShock}) {
+    const auto l1 = [&](const Overrides& overrides) {
+      return test::runScene(scene, overrides).errors.at(0).norms.at("L1");
+    };
+    EXPECT_GT(l1({}) / l1({fine}), 1.9) << scene;
+  }
+  EXPECT_LT(test::runScene(jwlShock, {}).errors.at(0).norms.at("L1"), 3.5e6);
+  EXPECT_LT(test::runScene(murnaghanShock, {}).errors.at(0).norms.at("L1"), 0.26);
+}
+
+TEST(IceScene, KeepsTheEnergyOfProductsOfExplosives) {
+  const std::string closed =
+      "<Face side=\"x-\"><BCType id=\"all\" label=\"Symmetric\" var=\"symmetry\"/></Face>"
+      "<Face side=\"x+\"><BCType id=\"all\" label=\"Symmetric\" var=\"symmetry\"/></Face><Face side=\"y-\">";
+  for (const std::string& scene : {jwlShock, murnaghanShock}) {
+    const report::Report report = test::runScene(changedScene(scene, "<Face side=\"y-\">", closed), {});
+    EXPECT_NEAR(driftOf(report, "mass"), 0, 1e-14) << scene;
+    EXPECT_NEAR(driftOf(report, "energy"), 0, 1e-13) << scene;
+  }
+}
+
+TEST(IceScene, OfOtherEquationsOfStateHasOneFingerprintOnAnyPatches) {
+  for (const std::string& scene : {jwlShock, murnaghanShock})
+    EXPECT_EQ(test::runScene(scene, {"Grid/Level/Box/patches=[5,1,1]"}).fingerprint,
+              test::runScene(scene, {}).fingerprint);
+}
+
+TEST(IceScene, OfAStiffenedGasIsThatOfAnIdealOneOfHigherPressure) {
+  // T is the same where p + p_infinity is; the pressures at the sides do not count.
+  const std::string stiff =
+      changedScene(sod, "<EOS type=\"ideal_gas\"/>", "<EOS type=\"stiffened_gas\"><p_infinity>0.05</p_infinity></EOS>");
+  const report::Report report =
+      test::runScene(stiff, {"DataAnalysis/Module/p_infinity=0.05", "DataAnalysis/Module/left/pressure=0.95",
+                             "DataAnalysis/Module/right/pressure=0.05"});
+  EXPECT_NEAR(report.errors.at(0).norms.at("L1"), test::runScene(sod, {}).errors.at(0).norms.at("L1"), 1e-12);
+}
+
+TEST(IceScene, CarriesSoundThroughWater) {
+  const auto l1 = [](const std::string& scene, const Overrides& overrides) {
+    return test::runScene(scene, overrides).errors.at(0).norms.at("L1");
   };
-  const std::vector<Foreign> all{
-      {"<MaterialProperties>", "<MaterialProperties><MPM/>", "'ice' has no solids: keep the gas alone"},
-      {"<EOS type=\"ideal_gas\"/>", "<EOS type=\"JWL\"><A>1</A></EOS>",
-       "attribute 'type': found 'JWL', expected 'ideal_gas'"},
-      {"  <CFD>", "  <Models><Model type=\"PassiveScalar\"/></Models>\n  <CFD>",
-       "is not available; take it out: nothing burns or is carried along"}};
-  for (const Foreign& one : all)
-    EXPECT_EQ(problemOf(changedScene(sod, one.there, one.given)), one.problem) << one.given;
+  const std::string sound = "ups/ice/water_sound.ups", coarse = "Grid/Level/Box/resolution=[32,1,1]";
+  EXPECT_LT(l1(sound, {}), 65);
+  EXPECT_GT(l1(sound, {coarse}) / l1(sound, {}), 3.8);
+  // Implicit steps are of first order: half the step, half the error.
+  const std::string implicit = changedScene(
+      sound, "<ICE><adv",
+      "<ICE><ImplicitSolver/><TimeStepControl><knob_for_speedSound>1</knob_for_speedSound></TimeStepControl><adv");
+  const double error = l1(implicit, {coarse, "CFD/cfl=0.2"});
+  EXPECT_LT(error, 1300);
+  EXPECT_GT(error / l1(implicit, {coarse, "CFD/cfl=0.1"}), 1.65);  // beside what the cells leave
+  for (const char* name : {"mass", "energy"})
+    EXPECT_NEAR(driftOf(test::runScene(implicit, {coarse, "CFD/cfl=0.2"}), name), 0, 1e-14) << name;
+}
+
+TEST(IceScene, RefusesImplicitStepsWhereThePressureDoesNotDependOnTheEnergy) {
+  const std::string solver = "<ICE><ImplicitSolver/><advection";
+  EXPECT_EQ(problemOf(changedScene(murnaghanShock, "<ICE><advection", solver)),
+            "not with JWLC or Murnaghan, whose pressure does not depend on the energy: take it out, or run with --set "
+            "CFD/ICE/explicit=true");
+}
+
+TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
+  const std::string scene = changedScene(sod, "<EOS type=\"ideal_gas\"/>",
+                                         "<EOS type=\"JWL\"><A>1</A><B>1</B><R1>4</R1><R2>1</R2><om>.4</om>"
+                                         "<rho0>1</rho0></EOS>");
+  EXPECT_THROW(test::runScene(scene, {}), InputError);
+}
+
+TEST(IceScene, RefusesModels) {
+  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"PassiveScalar\"/></Models>\n  <CFD>")),
+            "is not available; take it out: nothing burns or is carried along");
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {

@@ -61,4 +61,29 @@ TEST(WallPressure, OfAStiffenedGasIsThatOfAnIdealOneWithTheStiffnessAdded) {
     EXPECT_NEAR(wallPressure(water, 2, 1, closing), wallPressure(ideal, 2, 7, closing) - 6, 1e-11);
 }
 
+TEST(WallPressure, OfAGasWithALawOfItsOwnIsThatOfTheGasItIs) {
+  // Without its exponentials JWL is an ideal gas.
+  euler::Gas byLaw = air;
+  byLaw.law = std::make_shared<const euler::Gas::Law>(euler::CurvedGas({.density = 1}, 0.4, 716));
+  for (const double closing : {-4.0, -1.0, -1e-3, 0.0, 1e-3, 0.3, 20.0})
+    EXPECT_NEAR(wallPressure(byLaw, density, pressure, closing), on(closing), 1e-6 * std::max(1.0, on(closing)))
+        << closing;
+  EXPECT_EQ(wallPressure(byLaw, density, pressure, -6), 0);
+}
+
+TEST(WallPressure, OfAStiffLawIsThatOfSoundAtSlowWallsAndOfItsHugoniotAtFastOnes) {
+  const euler::ColdCurve curve{.kind = euler::ColdCurve::Kind::murnaghan,
+                               .density = 1160,
+                               .exponent = 7.4,
+                               .compressibility = 3.9e-10,
+                               .pressureThere = 101325};
+  euler::Gas solid;
+  solid.law = std::make_shared<const euler::Gas::Law>(euler::CurvedGas(curve, 0, 1000));
+  const double heat = 1160 * 1000 * 300.0, sound = std::sqrt(1 / (3.9e-10 * 1160));
+  EXPECT_NEAR((wallPressure(solid, 1160, heat, 0.1) - 101325) / (1160 * sound * 0.1), 1, 1e-3);
+  // The jump to 1400 kg/m³: 393.3289926 m/s, 1.046957e9 Pa.
+  EXPECT_NEAR(wallPressure(solid, 1160, heat, 393.3289926255606) / 1046956737.5762395, 1, 1e-10);
+  EXPECT_GE(wallPressure(solid, 1160, heat, -100), 0);
+}
+
 }  // namespace tushar::mpmice

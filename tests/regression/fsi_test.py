@@ -91,6 +91,9 @@ class References(unittest.TestCase):
         self.assert_within(fsi.wedge(100), p=1.5 * 1.5e-2)
 
 
+JWL = """<EOS type="JWL"><A>300</A><B>2</B><R1>5</R1><R2>1.5</R2><om>0.4</om><rho0>1</rho0></EOS>"""
+
+
 class Conservation(SceneTest):
     def assert_kept(self, text, *sets, elastic=False):
         found = globals_of(self.scene(text), *TOTALS, sets=sets)
@@ -118,6 +121,11 @@ class Conservation(SceneTest):
                        ("<reference_pressure>1<", "<reference_pressure>0<"))
         self.assert_kept(text, "Grid/Level/Box/resolution=[25,25,1]", "Grid/Level/Box/upper=[1,1,0.04]",
                          "Time/maxTime=0.3")
+
+    def test_of_a_rigid_body_in_products_of_an_explosive(self):
+        text = changed(saving(rigid(CONTACT), *TOTALS), ("<temperature>10<", "<temperature>30<"), LIGHT,
+                       ("<reference_pressure>1<", "<reference_pressure>0<"), ('<EOS type="ideal_gas"/>', JWL))
+        self.assert_kept(text, "Time/maxTime=1")
 
     def test_of_an_elastic_body_but_for_its_strain(self):
         text = changed(saving(CONTACT, *TOTALS), ("<temperature>10<", "<temperature>30<"), LIGHT)

@@ -19,7 +19,8 @@ void findTemperature(const Gas& gas, const Level& level, const StateViews<D, con
     for (std::ptrdiff_t i = 0; i < count; ++i, ++cell[0]) {
       State<D> w{};
       const double inverse = 1 / old.density[cell];
-      w[kTemperature] = (pressureIn(gas, old, cell) + gas.pInfinity) * inverse * perPressure;
+      w[kTemperature] = gas.law ? gas.temperature(old.density[cell], internalEnergyIn<D, const double>(old, cell))
+                                : (pressureIn(gas, old, cell) + gas.pInfinity) * inverse * perPressure;
       for (int d = 0; d < D; ++d) w[kVelocity(d)] = old.momentum[cell][d] * inverse;
       store<D>(to, i, w);
     }
@@ -128,8 +129,8 @@ void limitDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusi
   for (int d = 0; d < D; ++d) squares += level.inverseSpacing(d) * level.inverseSpacing(d);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double rho = density[cell];
-    const double p = pressureIn<D, const double>(gas, {density, momentum, totalEnergy}, cell);
-    double rate = std::sqrt(gas.soundSpeedSquared(rho, p)) * widths + 2 * diffusion.greatest(gas, rho) * squares;
+    const double last = gas.last(rho, internalEnergyIn<D, const double>({density, momentum, totalEnergy}, cell));
+    double rate = std::sqrt(gas.soundSpeedSquared(rho, last)) * widths + 2 * diffusion.greatest(gas, rho) * squares;
     for (int d = 0; d < D; ++d) rate += std::abs(momentum[cell][d]) / rho * level.inverseSpacing(d);
     greatest = rate > greatest ? rate : greatest;
   });

@@ -2,6 +2,6 @@
 
 namespace tushar::euler {
 
-template Advance<1> chooseAdvance<1>(const Method&);
+template Advance<1> chooseAdvance<1>(const Method&, const Gas&);
 
 }  // namespace tushar::euler

@@ -2,6 +2,6 @@
 
 namespace tushar::euler {
 
-template Advance<2> chooseAdvance<2>(const Method&);
+template Advance<2> chooseAdvance<2>(const Method&, const Gas&);
 
 }  // namespace tushar::euler

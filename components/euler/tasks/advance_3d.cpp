@@ -2,6 +2,6 @@
 
 namespace tushar::euler {
 
-template Advance<3> chooseAdvance<3>(const Method&);
+template Advance<3> chooseAdvance<3>(const Method&, const Gas&);
 
 }  // namespace tushar::euler

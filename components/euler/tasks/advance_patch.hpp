@@ -42,8 +42,8 @@ struct Work {
 };
 
 /// rho, v, p of the cells of the work's box that are on the grid or its images.
-template <int D>
-void recover(const Gas& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& w) {
+template <int D, class G>
+void recover(const G& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& w) {
   forEachRow<D>(level.clipCells(w.box()), [&](const Index<D>& first, int count) {
     recoverRow<D>(gas, rowOf(old.density, first, count), rowOf(old.momentum, first, count)->data(),
                   rowOf(old.totalEnergy, first, count), count, w.at(first));
@@ -51,8 +51,8 @@ void recover(const Gas& gas, const Level& level, const StateViews<D, const doubl
 }
 
 /// Adds the half step's change of a row across an axis, and sets its limited values at the faces.
-template <int D, class Limited, int Axis>
-void reconstruct(const Gas& gas, const Index<D>& first, int count, double ratio, Work<D>& work) {
+template <int D, class Limited, int Axis, class G>
+void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, Work<D>& work) {
   const Pointers<D> w = work.w.at(first), lower = work.lower[Axis].at(first), upper = work.upper[Axis].at(first);
   for (std::size_t k = 0; k < w.size(); ++k)
     reconstructRow<Limited>(w[k], work.w.stride(Axis), count, lower[k], upper[k]);
@@ -60,10 +60,10 @@ void reconstruct(const Gas& gas, const Index<D>& first, int count, double ratio,
 }
 
 /// Values at the faces of the cells of `box`, half a step later. The rows of fluxes hold the change on the way.
-template <int D>
-void predict(const Gas&, const Level&, const Box&, double, Work<D>&, Constant) {}
-template <int D, class Limited>
-void predict(const Gas& gas, const Level& level, const Box& box, double dt, Work<D>& work, Sloped<Limited>) {
+template <int D, class G>
+void predict(const G&, const Level&, const Box&, double, Work<D>&, Constant) {}
+template <int D, class Limited, class G>
+void predict(const G& gas, const Level& level, const Box& box, double dt, Work<D>& work, Sloped<Limited>) {
   forEachRow<D>(box, [&](const Index<D>& first, int count) {
     const auto ratio = [&](int d) { return 0.5 * dt / level.spacing(d); };
     reconstruct<D, Limited, 0>(gas, first, count, ratio(0), work);
@@ -80,8 +80,8 @@ void predict(const Gas& gas, const Level& level, const Box& box, double dt, Work
 }
 
 /// Fluxes through the lower faces of the cells of `faces` across an axis.
-template <int D, class Flux, class Shape, int Axis>
-void computeFluxes(const Gas& gas, const Box& faces, Work<D>& work) {
+template <int D, class Flux, class Shape, int Axis, class G>
+void computeFluxes(const G& gas, const Box& faces, Work<D>& work) {
   constexpr bool constant = Shape::reach == 1;
   Rows<D>& below = constant ? work.w : work.upper[Axis];
   Rows<D>& above = constant ? work.w : work.lower[Axis];
@@ -121,8 +121,8 @@ void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D>& fl
       faces, axis, [&](const Index<D>& face, double& through) { through += at(face, kPressure<D>); });
 }
 
-template <int D, class Flux, class Shape, int Axis>
-void sweep(const Gas& gas, const Level& level, const Box& block, double dt, const StateViews<D, const double>& old,
+template <int D, class Flux, class Shape, int Axis, class G>
+void sweep(const G& gas, const Level& level, const Box& block, double dt, const StateViews<D, const double>& old,
            Work<D>& work, const StateViews<D, double>& fresh, const RimFluxes<D>& rims) {
   Box faces = block;
   ++faces.upper[Axis];
@@ -132,8 +132,8 @@ void sweep(const Gas& gas, const Level& level, const Box& block, double dt, cons
 }
 
 /// Whether the new states of a block are valid, checked while they are in the cache.
-template <int D>
-bool canBe(const Gas& gas, const Box& block, const StateViews<D, double>& fresh) {
+template <int D, class G>
+bool canBe(const G& gas, const Box& block, const StateViews<D, double>& fresh) {
   bool fine = true;
   forEachRow<D>(block, [&](const Index<D>& first, int count) {
     fine &= canBe<D>(gas, rowOf(fresh.density, first, count), rowOf(fresh.momentum, first, count)->data(),
@@ -143,8 +143,8 @@ bool canBe(const Gas& gas, const Box& block, const StateViews<D, double>& fresh)
 }
 
 /// A step of a block of cells.
-template <int D, class Flux, class Shape>
-void advanceBlock(const Gas& gas, const Level& level, const GhostRules<D>& rules, const Box& block, double dt,
+template <int D, class Flux, class Shape, class G>
+void advanceBlock(const G& gas, const Level& level, const GhostRules<D>& rules, const Box& block, double dt,
                   const StateViews<D, const double>& old, Work<D>& work, const StateViews<D, double>& fresh,
                   const RimFluxes<D>& rims) {
   work.hold(block.grown(Shape::reach, D));
@@ -156,31 +156,39 @@ void advanceBlock(const Gas& gas, const Level& level, const GhostRules<D>& rules
   if constexpr (D > 2) sweep<D, Flux, Shape, 2>(gas, level, block, dt, old, work, fresh, rims);
 }
 
-/// Advance<D> of one method.
-template <int D, class Flux, class Shape>
+/// Advance<D> of one method and the law of a gas.
+template <int D, class Flux, class Shape, class Law>
 void advance(const Patch& patch, const Gas& gas, const OldState<D>& old, double time, double dt,
              const NewState<D>& fresh, const RimFluxes<D>& rims) {
   const Level& level = patch.level();
   const GhostRules<D> rules = ghostRules<D>(level, gas, time);
+  const Law law = lawOf<Law>(gas);
   Work<D> work(patch.cells(), Shape::reach);
   bool fine = true;
   forEachBlock<D>(patch.cells(), [&](const Box& block) {
-    advanceBlock<D, Flux, Shape>(gas, level, rules, block, dt, old, work, fresh, rims);
-    fine &= canBe<D>(gas, block, fresh);
+    advanceBlock<D, Flux, Shape>(law, level, rules, block, dt, old, work, fresh, rims);
+    fine &= canBe<D>(law, block, fresh);
   });
   if (!fine) refuseBroken<D>(patch, gas, fresh, &old);
 }
 
 template <int D, class Flux>
 Advance<D> chooseShape(const Method& method) {
-  if (method.reconstruction == Reconstruction::firstOrder) return advance<D, Flux, Constant>;
-  if (method.limiter == Limiter::minmod) return advance<D, Flux, Sloped<Minmod>>;
-  if (method.limiter == Limiter::vanLeer) return advance<D, Flux, Sloped<VanLeer>>;
-  return advance<D, Flux, Sloped<Mc>>;
+  if (method.reconstruction == Reconstruction::firstOrder) return advance<D, Flux, Constant, StiffenedGas>;
+  if (method.limiter == Limiter::minmod) return advance<D, Flux, Sloped<Minmod>, StiffenedGas>;
+  if (method.limiter == Limiter::vanLeer) return advance<D, Flux, Sloped<VanLeer>, StiffenedGas>;
+  return advance<D, Flux, Sloped<Mc>, StiffenedGas>;
 }
 
 template <int D>
-Advance<D> chooseAdvance(const Method& method) {
+Advance<D> chooseAdvance(const Method& method, const Gas& gas) {
+  if (gas.law)
+    return std::visit(
+        [&]<class Law>(const Law&) -> Advance<D> {
+          if (method.reconstruction == Reconstruction::firstOrder) return advance<D, Hllc, Constant, Law>;
+          return advance<D, Hllc, Sloped<VanLeer>, Law>;
+        },
+        *gas.law);
   return method.flux == FluxKind::exact ? chooseShape<D, ExactFlux>(method) : chooseShape<D, Hllc>(method);
 }
 

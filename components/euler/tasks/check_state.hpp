@@ -14,7 +14,8 @@ namespace tushar::euler {
 /// Whether the states of a row of cells are valid: rho > 0 and, without a division, p + p_inf > 0, which is rho (E -
 /// p_inf) > |rho v|² / 2; all of it finite.
 template <int D>
-bool canBe(const Gas& gas, const double* density, const double* momentum, const double* totalEnergy, int count) {
+bool canBe(const StiffenedGas& gas, const double* density, const double* momentum, const double* totalEnergy,
+           int count) {
   std::uint64_t broken = 0;
   for (int i = 0; i < count; ++i) {
     double squared = 0;
@@ -25,11 +26,32 @@ bool canBe(const Gas& gas, const double* density, const double* momentum, const 
   }
   return broken == 0;
 }
+/// The same of a gas with a law of its own, whose heat must be positive.
+template <int D, class Law>
+bool canBe(const Law& law, const double* density, const double* momentum, const double* totalEnergy, int count) {
+  for (int i = 0; i < count; ++i) {
+    double squared = 0;
+    for (int d = 0; d < D; ++d) squared += momentum[i * D + d] * momentum[i * D + d];
+    if (!(density[i] > 0) || !(density[i] <= std::numeric_limits<double>::max())) return false;
+    if (!law.canBe(density[i], totalEnergy[i] - 0.5 * squared / density[i])) return false;
+  }
+  return true;
+}
+template <int D>
+bool canBe(const Gas& gas, const double* density, const double* momentum, const double* totalEnergy, int count) {
+  return gas.withLaw([&](const auto& law) { return canBe<D>(law, density, momentum, totalEnergy, count); });
+}
+
+/// E - rho v² / 2 of a cell [J/m³].
+template <int D, class T>
+double internalEnergyIn(const StateViews<D, T>& state, const Index<D>& cell) {
+  return state.totalEnergy[cell] - 0.5 * state.momentum[cell].squaredNorm() / state.density[cell];
+}
 
 /// p of a cell [Pa].
 template <int D, class T>
 double pressureIn(const Gas& gas, const StateViews<D, T>& state, const Index<D>& cell) {
-  return gas.pressure(state.totalEnergy[cell] - 0.5 * state.momentum[cell].squaredNorm() / state.density[cell]);
+  return gas.pressure(state.density[cell], internalEnergyIn<D, T>(state, cell));
 }
 
 /// Throws NumericalError for a cell with an invalid state; `before` is the state at the start of the step, with at
@@ -38,8 +60,9 @@ template <int D, class T>
 [[noreturn]] void refuseState(const Level& level, const Gas& gas, const Index<D>& cell, const StateViews<D, T>& state,
                               const StateViews<D, const double>* before) {
   const bool ofDensity = !(state.density[cell] > 0 && std::isfinite(state.density[cell]));
+  const auto energyIn = [](const auto& of, const Index<D>& at) { return internalEnergyIn<D>(of, at) / of.density[at]; };
   const auto number = [&](const auto& of, const Index<D>& at) {
-    const double value = ofDensity ? of.density[at] : pressureIn(gas, of, at);
+    const double value = ofDensity ? of.density[at] : gas.law ? energyIn(of, at) : pressureIn(gas, of, at);
     return std::isnan(value) ? std::string("nan") : fmt::format("{:.6g}", value);
   };
   const auto nameOf = [&](const Index<D>& at) {
@@ -47,11 +70,17 @@ template <int D, class T>
     for (int d = 0; d < D; ++d) wide[d] = at[d];
     return tasks::nameOf(level, wide);
   };
-  const std::string label = ofDensity ? "c.density" : "c.pressure";
-  std::string text = fmt::format("{} became {} {}", label, number(state, cell), ofDensity ? "kg/m^3" : "Pa");
+  const std::string label = ofDensity ? "c.density" : gas.law ? "c.internalEnergy" : "c.pressure";
+  const char* unit = ofDensity ? "kg/m^3" : gas.law ? "J/kg" : "Pa";
+  const auto limits = [&] {
+    if (ofDensity || !gas.law) return fmt::format("{:g}", ofDensity ? 0 : 0 - gas.pInfinity);
+    const auto [least, most] = gas.energyLimits(state.density[cell]);
+    return std::isinf(most) ? fmt::format("{:g}", least) : fmt::format("{:g} and less than {:g}", least, most);
+  };
+  std::string text = fmt::format("{} became {} {}", label, number(state, cell), unit);
   if (before) text += " from " + number(*before, cell);
-  text += fmt::format(", but must be finite and greater than {:g}: {} at x = {}", ofDensity ? 0 : 0 - gas.pInfinity,
-                      nameOf(cell), D > 1 ? "(" : "");
+  text +=
+      fmt::format(", but must be finite and greater than {}: {} at x = {}", limits(), nameOf(cell), D > 1 ? "(" : "");
   for (int d = 0; d < D; ++d) text += fmt::format("{}{:.6g}", d ? ", " : "", level.cellCentre<D>(cell)[d]);
   text += D > 1 ? ") m" : " m";
   if (!ofDensity) text += fmt::format(", density {:.6g} kg/m^3", state.density[cell]);
@@ -71,7 +100,7 @@ void refuseBroken(const Patch& patch, const Gas& gas, const StateViews<D, T>& st
                   const StateViews<D, const double>* before) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const bool fine = canBe<D>(gas, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1);
-    if (!fine || !(pressureIn(gas, state, cell) + gas.pInfinity > 0))
+    if (!fine || (!gas.law && !(pressureIn(gas, state, cell) + gas.pInfinity > 0)))
       refuseState<D>(patch.level(), gas, cell, state, before);
   });
 }

@@ -4,11 +4,36 @@
 
 namespace tushar::euler {
 
+/// The greatest sum_d (|v_d| + c) / h_d [1/s] in a gas with a law of its own.
+/// Throws NumericalError where a state is impossible.
+template <int D>
+double greatestRate(const Patch& patch, const Gas& gas, const StateViews<D, const double>& state) {
+  refuseBroken<D, const double>(patch, gas, state, nullptr);
+  double greatest = 0;
+  gas.withLaw([&](const auto& law) {
+    forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+      const double rho = state.density[cell];
+      const double c2 = law.soundSpeedSquared(rho, law.last(rho, internalEnergyIn<D, const double>(state, cell)));
+      double rate = 0;
+      for (int d = 0; d < D; ++d)
+        rate += (std::abs(state.momentum[cell][d]) / rho + std::sqrt(c2)) * patch.level().inverseSpacing(d);
+      greatest = rate > greatest ? rate : greatest;
+    });
+  });
+  return greatest;
+}
+
 /// dt = cfl / max(sum_d (|v_d| + c) / h_d).
 /// Throws NumericalError where a density, or p + p_inf, is not positive.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, CellView<const double> density,
                            CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, Minimum& dt) {
+  if (gas.law) {
+    const double most = greatestRate<D>(patch, gas, {density, momentum, totalEnergy});
+    if (most > 0) dt.add(cfl / most, "CFL");
+    return;
+  }
+  const StiffenedGas stiffened = lawOf<StiffenedGas>(gas);
   constexpr int chunk = 256, lanes = 8;
   std::array<double, chunk> rate{};
   std::array<double, lanes> greatest{};
@@ -28,10 +53,10 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, CellV
           squared += m[i * D + d] * m[i * D + d];
           sum += std::abs(m[i * D + d]) * perWidth[d];
         }
-        const double p = gas.pressure(energy[i] - 0.5 * squared * inverse) + gas.pInfinity;
+        const double p = stiffened.pressure(rho[i], energy[i] - 0.5 * squared * inverse) + stiffened.pInfinity;
         const double least = rho[i] < p ? rho[i] : p;
         bad = least > 0 ? bad : 1.0;
-        rate[i] = sum * inverse + std::sqrt(gas.gamma * p * inverse) * widths;
+        rate[i] = sum * inverse + std::sqrt(stiffened.gamma * p * inverse) * widths;
       }
       if (bad != 0) refuseBroken<D, const double>(patch, gas, {density, momentum, totalEnergy}, nullptr);
       for (int i = count; i < chunk; ++i) rate[i] = 0;

@@ -61,15 +61,19 @@ void findLeast(const Patch& patch, CellView<const double> density, CellView<cons
 }
 
 /// Sum of m (ln((p + p_inf) / ((gamma - 1) rho)) - (gamma - 1) ln rho) [kg]: entropy over c_v, but for a constant that
-/// the units decide.
+/// the units decide. Laws have their own.
 template <int D>
 void sumEntropy(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
                 CellView<const double> totalEnergy, Sum& entropy) {
   WideSum sum(entropy);
   const double volume = patch.level().cellVolume(), less = gas.gamma - 1;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const double rho = density[cell];
-    const double p = gas.pressure(internalEnergyPerVolume<D>(rho, momentum[cell], totalEnergy[cell]));
+    const double rho = density[cell], energy = internalEnergyPerVolume<D>(rho, momentum[cell], totalEnergy[cell]);
+    if (gas.law) {
+      sum.add(volume * rho * std::visit([&](const auto& law) { return law.entropy(rho, energy); }, *gas.law));
+      return;
+    }
+    const double p = gas.pressure(rho, energy);
     sum.add(volume * rho * (std::log((p + gas.pInfinity) / (less * rho)) - less * std::log(rho)));
   });
 }
@@ -78,7 +82,8 @@ template <int D>
 void computePressure(const Patch& patch, const Gas& gas, CellView<const double> density,
                      CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, CellView<double> pressure) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    pressure[cell] = gas.pressure(internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]));
+    const double energy = internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
+    pressure[cell] = gas.pressure(density[cell], energy);
   });
 }
 
@@ -92,8 +97,9 @@ template <int D>
 void computeMach(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
                  CellView<const double> totalEnergy, CellView<Vec<D>> mach) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const double p = gas.pressure(internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]));
-    mach[cell] = momentum[cell] / (density[cell] * std::sqrt(gas.soundSpeedSquared(density[cell], p)));
+    const double energy = internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
+    const double last = gas.last(density[cell], energy);
+    mach[cell] = momentum[cell] / (density[cell] * std::sqrt(gas.soundSpeedSquared(density[cell], last)));
   });
 }
 

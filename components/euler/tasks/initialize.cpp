@@ -8,10 +8,11 @@ namespace tushar::euler {
 
 namespace {
 
-void checkState(const Settings& settings, const GasObject& object, const Vec3& point, double density, double pressure,
+void checkState(const Settings& settings, const GasObject& object, const Vec3& point, double density, double last,
                 const Vec3& velocity) {
-  const bool finite = std::isfinite(density) && std::isfinite(pressure) && velocity.allFinite();
-  if (finite && density > 0 && pressure + settings.gas.pInfinity > 0) return;
+  const bool finite = std::isfinite(density) && std::isfinite(last) && velocity.allFinite();
+  if (finite && density > 0 && settings.gas.heat(density, last) > 0) return;
+  const double pressure = settings.gas.pressureOf(density, last);
   throw InputError(
       {{placeOf({&object.density.where(), &(object.temperature ? *object.temperature : object.pressure).where(),
                  &object.velocity.where()},
@@ -50,13 +51,13 @@ std::optional<State<D>> stateAt(const Level& level, const Settings& settings, co
   double temperature = object->temperature ? (*object->temperature)(point) : 0;
   Vec3 wide = object->velocity(point);
   if (settings.disturb) settings.disturb(point, rho, wide, temperature);
-  const double p = object->temperature ? settings.gas.gasConstant() * rho * temperature : object->pressure(point);
-  checkState(settings, *object, point, rho, p, wide);
+  const double last = object->temperature ? settings.gas.lastAt(rho, temperature) : object->pressure(point);
+  checkState(settings, *object, point, rho, last, wide);
   const Vec<D> v = level.reduce<D>(wide);
   State<D> state;
   state[kDensity] = rho;
   for (int d = 0; d < D; ++d) state[kVelocity(d)] = rho * v[d];
-  state[kPressure<D>] = settings.gas.internalEnergy(p) + 0.5 * rho * v.squaredNorm();
+  state[kPressure<D>] = settings.gas.energyOf(rho, last) + 0.5 * rho * v.squaredNorm();
   return state;
 }
 

@@ -19,7 +19,7 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
     const Vec<D> velocity = momentum[cell] / density[cell];
     errors.add({.density = density[cell],
                 .velocity = level.expandDirection<D>(velocity),
-                .pressure = gas.pressure(internal),
+                .pressure = gas.pressure(density[cell], internal),
                 .energy = internal / density[cell]},
                reference::cellMean<D>(*exact, level, cell, clock->time), level.weight());
   });

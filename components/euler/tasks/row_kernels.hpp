@@ -12,8 +12,8 @@ template <int D>
 using Pointers = typename Rows<D>::Pointers;
 
 /// rho, v, p of `count` cells whose rho, rho v (D numbers per cell) and E are given.
-template <int D>
-void recoverRow(const Gas& gas, const double* density, const double* momentum, const double* energy, int count,
+template <int D, class G>
+void recoverRow(const G& gas, const double* density, const double* momentum, const double* energy, int count,
                 const Pointers<D>& w) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) {
@@ -37,15 +37,17 @@ void reconstructRow(const double* w, std::ptrdiff_t stride, int count, double* l
 }
 
 /// F of primitive values, across an axis.
-template <int D, int Axis>
-State<D> fluxOf(const Gas& gas, const State<D>& w) {
-  return fluxOf<D, Axis>(FaceState<D>{w, conserved<D>(gas, w)[kPressure<D>]});
+template <int D, int Axis, class G>
+State<D> fluxOf(const G& gas, const State<D>& w) {
+  FaceState<D> face{w, conserved<D>(gas, w)[kPressure<D>]};
+  face.w[kPressure<D>] = gas.pressureOf(w[kDensity], w[kPressure<D>]);
+  return fluxOf<D, Axis>(face);
 }
 
 /// Adds the half-step change of a cell by the fluxes of its own face values across an axis (Toro, section 14.4) to the
 /// change by the previous axes; `ratio` is dt / 2 h.
-template <int D, int Axis>
-void halfStepRow(const Gas& gas, const Pointers<D>& lower, const Pointers<D>& upper, double ratio, int count,
+template <int D, int Axis, class G>
+void halfStepRow(const G& gas, const Pointers<D>& lower, const Pointers<D>& upper, double ratio, int count,
                  const Pointers<D>& change) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) {
@@ -56,15 +58,16 @@ void halfStepRow(const Gas& gas, const Pointers<D>& lower, const Pointers<D>& up
   }
 }
 
-/// Changes primitive values by a change of the conserved ones; lowers `least` to the density and p + p_inf found.
-template <int D>
-void changeRow(const Gas& gas, const Pointers<D>& change, int count, const Pointers<D>& values, double* least) {
+/// Changes primitive values by a change of the conserved ones; lowers `least` to the density and p + p_inf, or
+/// what a law has in its place, found.
+template <int D, class G>
+void changeRow(const G& gas, const Pointers<D>& change, int count, const Pointers<D>& values, double* least) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     State<D> u = conserved<D>(gas, load<D>(values, i));
     for (std::size_t k = 0; k < u.size(); ++k) u[k] += change[k][i];
     const State<D> w = primitive<D>(gas, u);
-    const double stiff = w[kPressure<D>] + gas.pInfinity;
+    const double stiff = gas.heat(w[kDensity], w[kPressure<D>]);
     const double lower = w[kDensity] < stiff ? w[kDensity] : stiff;
     least[i] = lower < least[i] ? lower : least[i];
     store<D>(values, i, w);
@@ -80,8 +83,8 @@ void flattenRow(const double* least, const Pointers<D>& w, int count, const Poin
 }
 
 /// Fluxes through the lower faces of `count` cells across `Axis`, from the states on both sides.
-template <int D, class Flux, int Axis>
-void fluxRow(const Gas& gas, const Pointers<D>& below, const Pointers<D>& above, int count, const Pointers<D>& flux) {
+template <int D, class Flux, int Axis, class G>
+void fluxRow(const G& gas, const Pointers<D>& below, const Pointers<D>& above, int count, const Pointers<D>& flux) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i)
     store<D>(flux, i, fluxOf<D, Axis>(Flux::template solve<D, Axis>(gas, load<D>(below, i), load<D>(above, i))));

@@ -76,7 +76,7 @@ class ImplicitStep {
     const Index<D> below = face - Index<D>::unit(axis);
     const double together = flow_.old().number(below, v) - flow_.old().number(face, v);
     const double rho = flow_.density(face, axis);
-    const double viscous = together > 0 ? 0.5 * (flow_.gas().gamma + 1) * rho * together * together : 0;
+    const double viscous = together > 0 ? flow_.gas().shockSlope() * rho * together * together : 0;
     // Where a velocity is given without a pressure, as at a wall, p' is that of the cell, half a cell away.
     double weight = 0;
     if (flow_.isFree(face, axis) && flow_.givenVelocity(face, axis))
@@ -88,7 +88,7 @@ class ImplicitStep {
     euler::State<D> w = middle_.state(cell);
     if (!flow_.hasSlopes() || !flow_.isOnGrid(cell)) return w;
     for (std::size_t k = 0; k < w.size(); ++k) w[k] += 0.5 * side * flow_.slope(cell, axis, k);
-    const bool fine = w[euler::kDensity] > 0 && w[euler::kPressure<D>] + flow_.gas().pInfinity > 0;
+    const bool fine = w[euler::kDensity] > 0 && flow_.gas().heat(w[euler::kDensity], w[euler::kPressure<D>]) > 0;
     return fine ? w : flow_.old().state(cell);
   }
   /// What flow, pressure and gravity change in a cell in half a step.

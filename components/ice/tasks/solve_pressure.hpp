@@ -18,6 +18,39 @@ struct SolveTotals {
   }
 };
 
+/// The same in a gas with a law of its own, from dp/dt + v . grad p = -rho c² div v, over rho c²:
+///
+///   (p' - p) / (rho c²) - dt div(mobility_f (p'_R - p'_L)) = -dt div u*_f - dt v . grad p / (rho c²),
+///
+/// symmetric and positive definite, too.
+template <int D>
+numerics::CellEquation<D> equationByLaw(const Level& level, const FaceFlow<D>& flow, const Index<D>& cell, double dt) {
+  const std::size_t p = euler::kPressure<D>;
+  const double rho = flow.old().number(cell, euler::kDensity);
+  const double softness = 1 / (rho * flow.gas().soundSpeedSquared(rho, flow.old().number(cell, p)));
+  numerics::CellEquation<D> equation{{}, 0};
+  numerics::Balance<D>& left = equation.left;
+  left.cells[0] = cell;
+  left.weights[0] = softness;
+  for (int d = 0; d < D; ++d) {
+    const double ratio = dt * level.inverseSpacing(d);
+    const double velocity = flow.old().number(cell, euler::kVelocity(d));
+    for (const int side : {0, 1}) {
+      const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
+      const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : face;
+      const double out = (side == 0 ? -1 : 1) * ratio;
+      const double rise = flow.old().number(next, p) - flow.old().number(cell, p);
+      const double weight = ratio * flow.mobility(face, d, dt);
+      equation.right += weight * rise - out * flow.withoutPressure(face, d) - 0.5 * softness * out * velocity * rise;
+      left.weights[0] += weight;
+      if (!flow.isOnGrid(next)) continue;
+      left.cells[left.count] = next;
+      left.weights[left.count++] = -weight;
+    }
+  }
+  return equation;
+}
+
 /// The equation of what a cell's pressure changes by, p' - p, of the internal energy
 /// (rho e)' = rho e - dt div((rho e + p) u_f) + dt v . grad p, with u_f of p', the enthalpy at faces and v . grad p
 /// before the step. In gas rho e + p = gamma (p + p_inf) / (gamma - 1), so that
@@ -78,7 +111,8 @@ void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, c
   }
   numerics::CellSystem<D> system(patches, ranks);
   const auto equationOf = [&](std::size_t p, const Index<D>& cell) {
-    return pressureEquation<D>(level, flows[p], cell, dt);
+    return method.gas.law ? equationByLaw<D>(level, flows[p], cell, dt)
+                            : pressureEquation<D>(level, flows[p], cell, dt);
   };
   const solvers::Outcome outcome = system.solve(settings.solver, rise, equationOf);
   system.requireConvergence(outcome, "the pressure", "CFD/ICE/ImplicitSolver", "c.pressure",

@@ -54,6 +54,7 @@ class WallExchange {
         nodes_(level, records),
         dt_(dt) {}
 
+  const Level& level() const { return level_; }
   const euler::Gas& gas() const { return gas_; }
   /// Rules for ghost states beyond the sides of the grid.
   const euler::GhostRules<D>& rules() const { return rules_; }
@@ -170,8 +171,8 @@ class WallExchange {
 
 /// rho, v, p of the gas in the cells of the work's box; where there is none, of some gas that moves nowhere: what flows
 /// from there is closed off.
-template <int D>
-void recoverGas(const euler::Gas& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
+template <int D, class G>
+void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
                 euler::Rows<D>& w) {
   euler::recover<D>(gas, level, cells.held, w);
   near.forEachIn(level.clipCells(w.box()), [&](const Index<D>& cell) {
@@ -235,8 +236,8 @@ void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, co
 }
 
 /// The fluxes through the open parts of a block's faces across an axis.
-template <int D, class Flux, class Shape, int Axis>
-void sweepOpen(const euler::Gas& gas, const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level,
+template <int D, class Flux, class Shape, int Axis, class G>
+void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level,
                const Box& block, double ratio, const euler::StateViews<D, const double>& old, euler::Work<D>& work,
                const euler::StateViews<D, double>& fresh, const std::optional<CellView<Vec<D>>>& flow) {
   Box faces = block;
@@ -249,11 +250,11 @@ void sweepOpen(const euler::Gas& gas, const WallExchange<D>& exchange, const Nea
 
 /// A step of a block with bodies in it or around: `euler`'s, through open faces alone, and what walls do. Returns
 /// whether the gas away from bodies can be; beside them small cells have still to share.
-template <int D, class Flux, class Shape>
-bool advanceAtBodies(const Level& level, double dt, const Box& block, const GasInCells<D>& cells,
+template <int D, class Flux, class Shape, class G>
+bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells<D>& cells,
                      const WallExchange<D>& exchange, const NearBodies<D>& near, euler::Work<D>& work,
                      const euler::StateViews<D, double>& fresh, const OfferedExchange<D>& offered, Sum& power) {
-  const euler::Gas& gas = exchange.gas();
+  const Level& level = exchange.level();
   const double perStep = level.cellVolume() / dt;
   work.hold(block.grown(Shape::reach, D));
   recoverGas<D>(gas, level, cells, near, work.w);
@@ -296,15 +297,22 @@ void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, co
   euler::Work<D> work(patch.cells(), Shape::reach);
   offered.clear();
   bool fine = true;
-  euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
-    if (near.anyIn(block.grown(1, D))) {
-      fine &=
-          advanceAtBodies<D, Flux, Shape>(level, dt, block, cells, exchange, near, work, fresh.held, offered, power);
-      return;
-    }
-    euler::advanceBlock<D, Flux, Shape>(gas, level, exchange.rules(), block, dt, cells.held, work, fresh.held, {});
-    fine &= euler::canBe<D>(gas, block, fresh.held);
-  });
+  const auto advance = [&](const auto& law) {
+    euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
+      if (near.anyIn(block.grown(1, D))) {
+        fine &=
+            advanceAtBodies<D, Flux, Shape>(law, dt, block, cells, exchange, near, work, fresh.held, offered, power);
+        return;
+      }
+      euler::advanceBlock<D, Flux, Shape>(law, level, exchange.rules(), block, dt, cells.held, work, fresh.held, {});
+      fine &= euler::canBe<D>(law, block, fresh.held);
+    });
+  };
+  // Other laws are looked up cell by cell: they cost more than that themselves.
+  if (gas.law)
+    advance(gas);
+  else
+    advance(euler::lawOf<euler::StiffenedGas>(gas));
   if (fine) return;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (near(cell) || euler::canBe<D>(gas, &fresh.held.density[cell], fresh.held.momentum[cell].data(),

@@ -22,9 +22,10 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, const G
       squared += (m[d] * free) * (m[d] * free);
       sum += std::abs(m[d] * free) * level.inverseSpacing(d);
     }
-    const double p = gas.pressure(cells.held.totalEnergy[cell] * free - 0.5 * squared * inverse) + gas.pInfinity;
-    if (!(p > 0)) refuseGas<D>(level, gas, cell, cells.free[cell], rho, p);
-    const double rate = sum * inverse + std::sqrt(gas.gamma * p * inverse) * widths;
+    const double last = gas.last(rho, cells.held.totalEnergy[cell] * free - 0.5 * squared * inverse);
+    if (!(gas.heat(rho, last) > 0)) refuseGas<D>(level, gas, cell, cells.free[cell], rho, last);
+    const double c2 = gas.law ? gas.soundSpeedSquared(rho, last) : gas.gamma * (last + gas.pInfinity) * inverse;
+    const double rate = sum * inverse + std::sqrt(c2) * widths;
     most = rate > most ? rate : most;
   });
   if (most > 0) dt.add(settings.gas.cfl / most, "CFL");

@@ -15,7 +15,9 @@ template <int D>
 void computePressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                      CellView<double> pressure) {
   showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
-    pressure[cell] = hasGas ? cells.primitive(settings.gas.gas, cell)[euler::kPressure<D>] : 0;
+    const euler::Gas& gas = settings.gas.gas;
+    const euler::State<D> w = hasGas ? cells.primitive(gas, cell) : euler::State<D>{};
+    pressure[cell] = hasGas ? gas.pressureOf(w[euler::kDensity], w[euler::kPressure<D>]) : 0;
   });
 }
 
@@ -44,7 +46,7 @@ void computeGasDensity(const Patch& patch, const GasInCells<D>& cells, CellView<
   });
 }
 
-/// T = (p + p_inf) / ((gamma - 1) c_v rho), K.
+/// T = (p + p_inf) / ((gamma - 1) c_v rho), K, or that of the gas's own law.
 template <int D>
 void computeTemperature(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                         CellView<double> temperature) {
@@ -53,7 +55,9 @@ void computeTemperature(const Patch& patch, const Settings& settings, const GasI
     temperature[cell] = 0;
     if (!hasGas) return;
     const euler::State<D> w = cells.primitive(gas, cell);
-    temperature[cell] = (w[euler::kPressure<D>] + gas.pInfinity) / (gas.gasConstant() * w[euler::kDensity]);
+    const double rho = w[euler::kDensity], last = w[euler::kPressure<D>];
+    temperature[cell] =
+        gas.law ? gas.temperature(rho, gas.energyOf(rho, last)) : gas.heat(rho, last) / (gas.gasConstant() * rho);
   });
 }
 

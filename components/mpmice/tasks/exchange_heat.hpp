@@ -71,6 +71,8 @@ class HeatExchange {
       const double internal = totalEnergy[cell] - 0.5 * momentum[cell].squaredNorm() / mass;
       things.capacity[gas] = mass * specific;
       things.temperature[gas] = internal / (mass * specific);
+      if (settings_.gas.gas.law || settings_.gas.gas.pInfinity > 0)
+        things.temperature[gas] = settings_.gas.gas.temperature(mass / free_[cell], internal / free_[cell]);
       things.volume[gas] = free_[cell];
     }
     if ((things.capacity.array() > 0).count() < 2) return 0;

@@ -139,13 +139,13 @@ void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D
   fresh.totalEnergy[cell] = pool.energy * part;
 }
 
-/// Density and p + p_inf of a cell's gas, kg/m³ and Pa.
+/// Density [kg/m³] and last number of the primitive state of a cell's gas.
 template <int D>
-std::pair<double, double> densityAndPressure(const euler::Gas& gas, const Index<D>& cell, double free,
-                                             const euler::StateViews<D, double>& held) {
+std::pair<double, double> densityAndLast(const euler::Gas& gas, const Index<D>& cell, double free,
+                                         const euler::StateViews<D, double>& held) {
   const double mass = held.density[cell];
   const double internal = held.totalEnergy[cell] - 0.5 * held.momentum[cell].squaredNorm() / mass;
-  return {mass / free, gas.pressure(internal / free) + gas.pInfinity};
+  return {mass / free, gas.last(mass / free, internal / free)};
 }
 
 /// Looks at what a cell holds after a step. Throws NumericalError where it cannot be, so that the step is repeated with
@@ -154,13 +154,14 @@ template <int D>
 void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, const NewGas<D>& fresh) {
   const double free = fresh.free[cell];
   if (free < leastFreeVolume || fresh.held.density[cell] == 0) return;
-  const auto [density, stiff] = densityAndPressure<D>(gas, cell, free, fresh.held);
+  const auto [density, last] = densityAndLast<D>(gas, cell, free, fresh.held);
+  const double stiff = gas.heat(density, last);
   if (density > 0 && stiff > 0 && std::isfinite(stiff)) return;
   if (free < smallFreeVolume && std::isfinite(density) && std::isfinite(stiff)) {
     fresh.free[cell] = 0;
     return;
   }
-  refuseGas<D>(level, gas, cell, free, density, stiff);
+  refuseGas<D>(level, gas, cell, free, density, last);
 }
 
 /// The state after a step: small cells share theirs with neighbours. Counts them.

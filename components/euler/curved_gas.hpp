@@ -1,0 +1,257 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tushar::euler {
+
+/// What a substance holds at a density without heat: pressure [Pa] and energy [J/m³], dE/drho = (E + p) / rho, so that
+/// compressing it without heat costs p dV.
+struct ColdCurve {
+  enum class Kind { jwl, murnaghan };
+
+  Kind kind = Kind::jwl;
+  double density = 1;  ///< rho_0, kg/m³
+  /// p = A exp(-R1 V) + B exp(-R2 V) + C V^-(1 + omega), V = rho_0 / rho; the energy is 0 at V = infinity.
+  /// Source: E. L. Lee, H. C. Hornig & J. W. Kury, Adiabatic expansion of high explosive detonation products,
+  /// UCRL-50422 (1968).
+  double a = 0, b = 0, c = 0, r1 = 1, r2 = 1, omega = 1;
+  /// p = P0 + ((rho / rho_0)^n - 1) / (n K), K the compressibility [1/Pa] at rho_0; below rho_0 P0 (rho / rho_0)^(1 /
+  /// (K P0)), which has the same slope there and stays positive. The energy is 0 at rho_0. Source: F. D. Murnaghan,
+  /// Proc. Natl. Acad. Sci. 30 (1944) 244.
+  double exponent = 1, compressibility = 1, pressureThere = 1;
+
+  double pressure(double rho) const {
+    if (kind == Kind::murnaghan) return murnaghanPressure(rho / density);
+    const double volume = density / rho;
+    return a * std::exp(-r1 * volume) + b * std::exp(-r2 * volume) + tail(volume);
+  }
+  double energy(double rho) const {
+    if (kind == Kind::murnaghan) return rho / density * murnaghanEnergy(rho / density);
+    const double volume = density / rho;
+    const double perMass = a / r1 * std::exp(-r1 * volume) + b / r2 * std::exp(-r2 * volume);
+    return rho / density * (perMass + volume / omega * tail(volume));
+  }
+  /// dp/drho, m²/s².
+  double slope(double rho) const {
+    if (kind == Kind::murnaghan) {
+      const double ratio = rho / density;
+      const double power = ratio >= 1 ? exponent : 1 / (compressibility * pressureThere);
+      // Far below rho_0 nothing is left of pressure and stiffness; what waves need to stay apart is kept.
+      return std::max(std::pow(ratio, power - 1), 1e-12) / (compressibility * density);
+    }
+    const double volume = density / rho;
+    const double sum = r1 * a * std::exp(-r1 * volume) + r2 * b * std::exp(-r2 * volume);
+    return (volume * sum + (1 + omega) * tail(volume)) / rho;
+  }
+
+ private:
+  double tail(double volume) const { return c == 0 ? 0.0 : c * std::pow(volume, -1 - omega); }
+  double murnaghanPressure(double ratio) const {
+    if (ratio < 1) return pressureThere * std::pow(ratio, 1 / (compressibility * pressureThere));
+    return pressureThere + (std::pow(ratio, exponent) - 1) / (exponent * compressibility);
+  }
+  /// Energy over the volume at rho_0.
+  double murnaghanEnergy(double ratio) const {
+    if (ratio < 1) return pressureThere * rise(ratio, 1 / (compressibility * pressureThere));
+    const double bulk = 1 / (exponent * compressibility);
+    return (pressureThere - bulk) * (1 - 1 / ratio) + bulk * rise(ratio, exponent);
+  }
+  /// Integral of x^(m - 2) from 1.
+  static double rise(double ratio, double m) {
+    return m == 1 ? std::log(ratio) : (std::pow(ratio, m - 1) - 1) / (m - 1);
+  }
+};
+
+// What a gas other than a stiffened one has to know. A state is the density [kg/m³] and a number that with it gives
+// pressure and energy: the pressure itself [Pa] or, of a substance whose pressure does not depend on its heat, the heat
+// rho c_v T [J/m³].
+
+/// p = p_cold + Gamma rho c_v T, E = E_cold + rho c_v T, with a constant Gamma: after Mie & Grueneisen. With Gamma = 0
+/// the pressure is that of the density alone.
+///
+/// rho E and so the energy of mixed states are convex where p_cold rises with the density, so that the heat of a mean
+/// of possible states is positive.
+class CurvedGas {
+ public:
+  /// `gamma` is Grueneisen's, 0 or above; the specific heat is c_v, J/(kg K).
+  CurvedGas(const ColdCurve& cold, double gamma, double specificHeat)
+      : cold_(cold), gamma_(gamma), specificHeat_(specificHeat) {}
+
+  const ColdCurve& cold() const { return cold_; }
+  bool isBarotropic() const { return gamma_ == 0; }
+
+  /// p [Pa] of an internal energy per volume [J/m³].
+  double pressure(double rho, double energy) const {
+    return cold_.pressure(rho) + (isBarotropic() ? 0.0 : gamma_ * (energy - cold_.energy(rho)));
+  }
+  /// The second number of a state with an internal energy per volume.
+  double last(double rho, double energy) const {
+    return isBarotropic() ? energy - cold_.energy(rho) : pressure(rho, energy);
+  }
+  double pressureOf(double rho, double last) const { return isBarotropic() ? cold_.pressure(rho) : last; }
+  double energyOf(double rho, double last) const { return cold_.energy(rho) + heat(rho, last); }
+  /// c² = p_cold' + (1 + Gamma) (p - p_cold) / rho.
+  double soundSpeedSquared(double rho, double last) const {
+    const double thermal = isBarotropic() ? 0.0 : (1 + gamma_) * (last - cold_.pressure(rho)) / rho;
+    return cold_.slope(rho) + thermal;
+  }
+  /// The heat per volume, which must be above 0.
+  double heat(double rho, double last) const { return isBarotropic() ? last : (last - cold_.pressure(rho)) / gamma_; }
+  bool canBe(double rho, double energy) const { return energy > cold_.energy(rho); }
+  double leastEnergy(double rho) const { return cold_.energy(rho); }
+  static double greatestEnergy(double) { return std::numeric_limits<double>::infinity(); }
+
+  double temperature(double rho, double energy) const { return (energy - cold_.energy(rho)) / (rho * specificHeat_); }
+  /// The second number of a state of a temperature [K].
+  double lastAt(double rho, double temperature) const {
+    const double heat = rho * specificHeat_ * temperature;
+    return isBarotropic() ? heat : cold_.pressure(rho) + gamma_ * heat;
+  }
+  /// rho of a pressure and a temperature, by bisection to round-off.
+  double densityAt(double pressure, double temperature) const {
+    const auto below = [&](double rho) { return pressureOf(rho, lastAt(rho, temperature)) < pressure; };
+    double least = cold_.density, most = cold_.density;
+    while (!below(least) && least > 1e-300) least *= 0.5;
+    while (below(most) && most < 1e300) most *= 2;
+    for (int k = 0; k < 200 && least < most; ++k) {
+      const double middle = 0.5 * (least + most);
+      if (middle <= least || middle >= most) break;
+      (below(middle) ? least : most) = middle;
+    }
+    return most;
+  }
+  /// Entropy per mass over c_v, but for a constant: ln T - Gamma ln rho.
+  double entropy(double rho, double energy) const {
+    return std::log(temperature(rho, energy)) - gamma_ * std::log(rho);
+  }
+  /// About p behind a strong shock over rho u², u the speed that it gives to gas at rest.
+  double shockSlope() const {
+    return 0.5 * (cold_.kind == ColdCurve::Kind::murnaghan ? cold_.exponent + 1 : gamma_ + 2);
+  }
+
+ private:
+  ColdCurve cold_;
+  double gamma_, specificHeat_;
+};
+
+/// Water: v = v_0 (1 - k_0 p + L x²), x = a p + T - T_0. Its heat at p = 0 is c_p = c_0 + b (T_0 - T), that at other
+/// pressures follows from v. It holds above the greatest density (x > 0), and up to the x at which c_v has fallen to
+/// half of c_p at p = 0: not far above, water would become denser without any pressure.
+/// Source: J. S. Thomsen & T. J. Hartka, Am. J. Phys. 30 (1962) 26.
+class Water {
+ public:
+  struct Numbers {
+    double a = 2e-7;           ///< K/Pa
+    double b = 2.6;            ///< J/(kg K²)
+    double heat = 4205.7;      ///< c_0, J/(kg K)
+    double stiffness = 5e-10;  ///< k_0, 1/Pa
+    double temperature = 277;  ///< T_0, K
+    double bend = 8e-6;        ///< L, 1/K²
+    double volume = 1e-3;      ///< v_0, m³/kg
+  };
+  explicit Water(const Numbers& numbers) : n_(numbers) {
+    double least = 0, most = 0.5 * n_.stiffness / (n_.bend * n_.a);
+    for (int k = 0; k < 60; ++k) {
+      const double x = 0.5 * (least + most), t = n_.temperature + x;
+      (heatOfVolume(0, t, x) > 0.5 * heatOfPressure(0, t) ? least : most) = x;
+    }
+    greatestX_ = least;
+  }
+
+  static bool isBarotropic() { return false; }
+  double pressure(double rho, double energy) const {
+    const double volume = 1 / rho, perMass = energy * volume;
+    // In x, the energy of a volume rises from 0 to the greatest x.
+    double least = 0, most = greatestX_, x = 0.2 * most;
+    for (int k = 0; k < 100; ++k) {
+      const double p = pressureAtX(volume, x), t = temperatureAt(p, x);
+      const double excess = energyPerMass(p, t) - perMass;
+      (excess > 0 ? most : least) = x;
+      const double slope = heatOfVolume(p, t, x) * (1 - n_.a * 2 * n_.bend * x / n_.stiffness);
+      double next = x - excess / slope;
+      if (!(next > least) || !(next < most)) next = 0.5 * (least + most);
+      const bool done = std::abs(next - x) <= 1e-15 * x;
+      x = next;
+      if (done) break;
+    }
+    return pressureAtX(volume, x);
+  }
+  double last(double rho, double energy) const { return pressure(rho, energy); }
+  static double pressureOf(double, double last) { return last; }
+  double energyOf(double rho, double last) const {
+    return rho * energyPerMass(last, temperatureAt(last, xAt(rho, last)));
+  }
+  double soundSpeedSquared(double rho, double last) const {
+    const double x = xAt(rho, last), t = temperatureAt(last, x);
+    const double perHeat = expansion(x), perPressure = n_.volume * (2 * n_.bend * n_.a * x - n_.stiffness);
+    return -1 / (rho * rho * (perPressure + t * perHeat * perHeat / heatOfPressure(last, t)));
+  }
+  /// Above 0 in possible states.
+  double heat(double rho, double last) const {
+    const double square = xSquared(rho, last);
+    return std::min(square, greatestX_ * greatestX_ - square);
+  }
+  bool canBe(double rho, double energy) const {
+    const double perMass = energy / rho;
+    return perMass > energyOfX(1 / rho, 0) && perMass < energyOfX(1 / rho, greatestX_);
+  }
+  double leastEnergy(double rho) const { return rho * energyOfX(1 / rho, 0); }
+  double greatestEnergy(double rho) const { return rho * energyOfX(1 / rho, greatestX_); }
+  double temperature(double rho, double energy) const {
+    const double p = pressure(rho, energy);
+    return temperatureAt(p, xAt(rho, p));
+  }
+  double lastAt(double rho, double temperature) const {
+    // x = a p + T - T_0 in v gives L x² + (k_0 / a) ((T - T_0) - x) + 1 - v / v_0 = 0.
+    const double half = 0.5 * n_.stiffness / (n_.a * n_.bend), warmer = temperature - n_.temperature;
+    const double rest = (2 * half * n_.bend * warmer + 1 - 1 / (rho * n_.volume)) / n_.bend;
+    return (rest / (half + std::sqrt(half * half - rest)) - warmer) / n_.a;
+  }
+  double densityAt(double pressure, double temperature) const {
+    const double x = n_.a * pressure + temperature - n_.temperature;
+    return 1 / (n_.volume * (1 - n_.stiffness * pressure + n_.bend * x * x));
+  }
+  double entropy(double rho, double energy) const {
+    const double p = pressure(rho, energy), t = temperatureAt(p, xAt(rho, p)), warmer = t - n_.temperature;
+    const double alone = (n_.heat + n_.b * n_.temperature) * std::log(t) - n_.b * t;
+    return (alone - n_.volume * n_.bend * p * (n_.a * p + 2 * warmer)) / n_.heat;
+  }
+  static double shockSlope() { return 2; }
+
+ private:
+  double xSquared(double rho, double p) const { return (1 / (rho * n_.volume) - 1 + n_.stiffness * p) / n_.bend; }
+  double xAt(double rho, double p) const { return std::sqrt(xSquared(rho, p)); }
+  double pressureAtX(double volume, double x) const {
+    return (n_.bend * x * x + 1 - volume / n_.volume) / n_.stiffness;
+  }
+  double temperatureAt(double p, double x) const { return n_.temperature - n_.a * p + x; }
+  /// dv/dT at constant p.
+  double expansion(double x) const { return 2 * n_.volume * n_.bend * x; }
+  double heatOfPressure(double p, double t) const {
+    return n_.heat + n_.b * (n_.temperature - t) - 2 * n_.volume * n_.bend * p * t;
+  }
+  double heatOfVolume(double p, double t, double x) const {
+    const double perPressure = n_.volume * (2 * n_.bend * n_.a * x - n_.stiffness);
+    return heatOfPressure(p, t) + t * expansion(x) * expansion(x) / perPressure;
+  }
+  /// e = c_0 w - b w² / 2 + v_0 (k_0 p² / 2 + L (a p (a p + ... ) ...)): h - p v, of dh = c_p dT + (v - T dv/dT) dp.
+  double energyPerMass(double p, double t) const {
+    const double w = t - n_.temperature, shift = n_.a * p;
+    // (x³ - w³) / (3 a) and (x² - w²) / a with x = w + a p, without cancellation.
+    const double cubes = p * (w * w + w * shift + shift * shift / 3), squares = p * (2 * w + shift);
+    const double x = w + shift;
+    const double ofPressure = 0.5 * n_.stiffness * p * p + n_.bend * (cubes - t * squares - p * x * x);
+    return n_.heat * w - 0.5 * n_.b * w * w + n_.volume * ofPressure;
+  }
+  double energyOfX(double volume, double x) const {
+    const double p = pressureAtX(volume, x);
+    return energyPerMass(p, temperatureAt(p, x));
+  }
+
+  Numbers n_;
+  double greatestX_ = 0;
+};
+
+}  // namespace tushar::euler

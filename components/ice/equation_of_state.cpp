@@ -1,0 +1,140 @@
+#include "components/ice/equation_of_state.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tushar::ice {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+using Kind = EquationOfState::Kind;
+
+namespace {
+
+const Schema<EquationOfState>& idealSchema() {
+  static const Schema<EquationOfState> schema = [] {
+    Schema<EquationOfState> tags("EOS", "p = (gamma - 1) c_v rho T.");
+    tags.foreignAttribute("type", "ideal_gas");
+    for (const char* tag : {"A", "B", "C", "R1", "R2", "om", "rho0"}) tags.ignored(tag, "belongs to explosives");
+    return tags;
+  }();
+  return schema;
+}
+
+const Schema<EquationOfState>& stiffenedSchema() {
+  static const Schema<EquationOfState> schema =
+      Schema<EquationOfState>("EOS", "p = (gamma - 1) c_v rho T - p_infinity.")
+          .foreignAttribute("type", "stiffened_gas")
+          .required("p_infinity", &EquationOfState::pInfinity, "Pa", "stiffness: about 6e8 for water",
+                    input::nonNegative())
+          .ours();
+  return schema;
+}
+
+/// The tags that JWL and JWLC share.
+Schema<euler::ColdCurve> jwlTags(const char* type, const char* sentence) {
+  Schema<euler::ColdCurve> tags("EOS", sentence);
+  tags.foreignAttribute("type", type)
+      .required("A", &euler::ColdCurve::a, "Pa", "of exp(-R1 rho0 / rho)", input::nonNegative())
+      .required("B", &euler::ColdCurve::b, "Pa", "of exp(-R2 rho0 / rho)", input::nonNegative())
+      .required("R1", &euler::ColdCurve::r1, "1", "rate of the first part", input::positive())
+      .required("R2", &euler::ColdCurve::r2, "1", "rate of the second part", input::positive())
+      .required("om", &euler::ColdCurve::omega, "1", "omega: Grueneisen's number", input::positive())
+      .required("rho0", &euler::ColdCurve::density, "kg/m^3", "of the explosive", input::positive());
+  return tags;
+}
+const Schema<euler::ColdCurve>& jwlSchema() {
+  static const Schema<euler::ColdCurve> schema =
+      std::move(jwlTags("JWL", "p = A exp(-R1 rho0 / rho) + B exp(-R2 rho0 / rho) + om rho c_v T.")
+                    .ignored("C", "belongs to JWLC"));
+  return schema;
+}
+const Schema<euler::ColdCurve>& jwlcSchema() {
+  static const Schema<euler::ColdCurve> schema = std::move(
+      jwlTags("JWLC", "p = A exp(-R1 rho0 / rho) + B exp(-R2 rho0 / rho) + C (rho / rho0)^(1 + om), whatever T is.")
+          .required("C", &euler::ColdCurve::c, "Pa", "of the power", input::nonNegative()));
+  return schema;
+}
+const Schema<euler::ColdCurve>& murnaghanSchema() {
+  static const Schema<euler::ColdCurve> schema =
+      Schema<euler::ColdCurve>("EOS", "p = P0 + ((rho / rho0)^n - 1) / (n K), below rho0 P0 (rho / rho0)^(1 / (K P0)).")
+          .foreignAttribute("type", "Murnaghan")
+          .required("n", &euler::ColdCurve::exponent, "1", "slope of the bulk modulus", input::positive())
+          .required("K", &euler::ColdCurve::compressibility, "1/Pa", "compressibility at rho0", input::positive())
+          .required("rho0", &euler::ColdCurve::density, "kg/m^3", "density at P0", input::positive())
+          .required("P0", &euler::ColdCurve::pressureThere, "Pa", "pressure at rho0", input::positive());
+  return schema;
+}
+const Schema<euler::Water::Numbers>& waterSchema() {
+  using Numbers = euler::Water::Numbers;
+  static const Schema<Numbers> schema =
+      Schema<Numbers>("EOS", "1 / rho = vo (1 - ko p + L (a p + T - To)^2), c_p = co + b (To - T) at p = 0.")
+          .foreignAttribute("type", "Thomsen_Hartka_water")
+          .required("a", &Numbers::a, "K/Pa", "by which To falls", input::positive())
+          .required("b", &Numbers::b, "J/(kg K^2)", "by which c_p falls", input::nonNegative())
+          .required("co", &Numbers::heat, "J/(kg K)", "c_p at To and p = 0", input::positive())
+          .required("ko", &Numbers::stiffness, "1/Pa", "compressibility at To and p = 0", input::positive())
+          .required("To", &Numbers::temperature, "K", "where water is densest at p = 0", input::positive())
+          .required("L", &Numbers::bend, "1/K^2", "by which it expands", input::positive())
+          .required("vo", &Numbers::volume, "m^3/kg", "volume per mass at To and p = 0", input::positive());
+  return schema;
+}
+
+const std::vector<std::pair<std::string, Kind>>& kinds() {
+  static const std::vector<std::pair<std::string, Kind>> list{
+      {"ideal_gas", Kind::ideal}, {"stiffened_gas", Kind::stiffened}, {"JWL", Kind::jwl},
+      {"JWLC", Kind::jwlc},       {"Murnaghan", Kind::murnaghan},     {"Thomsen_Hartka_water", Kind::water}};
+  return list;
+}
+
+}  // namespace
+
+std::shared_ptr<const euler::Gas::Law> EquationOfState::law(double specificHeat) const {
+  const auto curved = [&](double gamma) {
+    return std::make_shared<const euler::Gas::Law>(euler::CurvedGas(cold, gamma, specificHeat));
+  };
+  if (kind == Kind::jwl) return curved(cold.omega);
+  if (kind == Kind::jwlc || kind == Kind::murnaghan) return curved(0);
+  if (kind == Kind::water) return std::make_shared<const euler::Gas::Law>(euler::Water(water));
+  return nullptr;
+}
+
+const std::vector<std::string>& equationsOfState() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& [name, kind] : kinds()) all.push_back(name);
+    return all;
+  }();
+  return names;
+}
+
+EquationOfState readEquationOfState(const Element& material, Diagnostics& diagnostics) {
+  EquationOfState read;
+  const auto given = material.child("EOS");
+  if (!given) {
+    diagnostics.error(material, "missing tag <EOS> in <material>");
+    return read;
+  }
+  const std::string type = given->attribute("type").value_or("");
+  const std::string problem = input::choiceProblem(type, equationsOfState());
+  if (!problem.empty()) {
+    diagnostics.error(given->whereOf("type"), given->path(), "attribute 'type': " + problem);
+    return read;
+  }
+  const Kind kind =
+      std::find_if(kinds().begin(), kinds().end(), [&](const auto& one) { return one.first == type; })->second;
+  if (kind == Kind::ideal) read = idealSchema().read(*given, diagnostics);
+  if (kind == Kind::stiffened) read = stiffenedSchema().read(*given, diagnostics);
+  if (kind == Kind::jwl) read.cold = jwlSchema().read(*given, diagnostics);
+  if (kind == Kind::jwlc) read.cold = jwlcSchema().read(*given, diagnostics);
+  if (kind == Kind::murnaghan) {
+    read.cold = murnaghanSchema().read(*given, diagnostics);
+    read.cold.kind = euler::ColdCurve::Kind::murnaghan;
+  }
+  if (kind == Kind::water) read.water = waterSchema().read(*given, diagnostics);
+  read.kind = kind;
+  return read;
+}
+
+}  // namespace tushar::ice
