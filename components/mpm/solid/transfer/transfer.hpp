@@ -92,6 +92,14 @@ template <class Stencil, int D = Stencil::dimension>
   });
 }
 
+/// Calls `visit` for the numbers from `first` up to `end` that are below n: written out, so that each is a constant.
+template <int n, class Visit>
+[[gnu::always_inline]] inline void forEachOf(int first, int end, Visit&& visit) {
+#pragma GCC unroll 8
+  for (int k = 0; k < n; ++k)
+    if (k >= first && k < end) visit(k);
+}
+
 /// scatter to those nodes of a stencil that lie within a box; `origin` is where the record of the first node would
 /// stand, stored or not.
 template <class Stencil, int D = Stencil::dimension>
@@ -106,7 +114,8 @@ inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWind
   }
   const auto addRow = [&](std::ptrdiff_t offset, const RowFactors& f) {
     const RowShare share(f, value, slope, hoop);
-    for (int i = first[0]; i < end[0]; ++i) share.addTo(nodes.origin[offset + i], stencil, static_cast<std::size_t>(i));
+    forEachOf<Stencil::nodes>(
+        first[0], end[0], [&](int i) { share.addTo(nodes.origin[offset + i], stencil, static_cast<std::size_t>(i)); });
   };
   if constexpr (D == 1) {
     addRow(0, quadOf(1.0));

@@ -202,8 +202,9 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
   const Level& level = patch.level();
   const Extents<Shape> extents(level, method.commonSize, u.size, u.oldDeformation);
   const CrossingRate<D> none(level);
-  std::vector<Matrix3> gradients(stressGroup);
   u.stableTimeStep.fill(none.time());
+  if (u.x.owned() == 0) return;
+  std::vector<Matrix3> gradients(stressGroup);
   u.x.template forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
     CrossingRate<D> rate = none;
     const CellFrame<D> frame(level, cell);
