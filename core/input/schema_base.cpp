@@ -201,7 +201,7 @@ void SchemaBase::describeContents(std::ostream& out, int indent) const {
   for (const SchemaEntry& entry : entries_) describeEntry(entry, out, indent);
 }
 
-void SchemaBase::add(SchemaEntry entry) {
+void SchemaBase::add(SchemaEntry&& entry) {
   if (entry.place == Place::tag && entry.takes.empty()) entry.takes = {entry.name};
   entry.ours = entry.ours || all_ours_;
   entries_.push_back(std::move(entry));
@@ -216,10 +216,11 @@ void SchemaBase::markAlternatives(int last) {
   for (auto entry = entries_.end() - last; entry != entries_.end(); ++entry) entry->isAlternative = true;
 }
 
-void SchemaBase::explainWordOfLast(const std::string& word, const std::string& sentence) {
+void SchemaBase::explainWordOfLast(std::string_view word, std::string_view sentence) {
   assert(!entries_.empty() && !entries_.back().choices.empty());
-  entries_.back().assign = [word, sentence, assign = entries_.back().assign](void* object, const std::string& text,
-                                                                             const Location& where) {
+  entries_.back().assign = [word = std::string(word), sentence = std::string(sentence),
+                            assign = entries_.back().assign](void* object, const std::string& text,
+                                                             const Location& where) {
     const std::string problem = assign(object, text, where);
     return problem.empty() || text != word ? problem : problem + ": " + sentence;
   };

@@ -3,6 +3,7 @@
 #include <functional>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/input/diagnostics.hpp"
@@ -13,6 +14,13 @@ namespace tushar::input {
 
 /// One declaration of a schema, with the type of the structure that it fills erased.
 struct SchemaEntry {
+  SchemaEntry();
+  SchemaEntry(const SchemaEntry& other);
+  SchemaEntry(SchemaEntry&& other) noexcept;
+  SchemaEntry& operator=(const SchemaEntry& other);
+  SchemaEntry& operator=(SchemaEntry&& other) noexcept;
+  ~SchemaEntry();
+
   enum class Place { attribute, tag, text };
   /// How a tag is read: as one value, by another schema, by a function of the parent, or not at all.
   enum class Form { value, nested, custom, ignored };
@@ -43,6 +51,8 @@ struct SchemaEntry {
   std::function<void(std::ostream& out, int indent)> describe;
 };
 
+SchemaEntry namedEntry(std::string_view name, std::string_view sentence);
+
 /// `number in Pa, greater than 0, default 1`: what the manual says of a value besides its sentence.
 std::string factsOf(const SchemaEntry& entry);
 
@@ -71,21 +81,39 @@ class SchemaBase {
   /// As describe(), without the line of the tag itself.
   void describeContents(std::ostream& out, int indent = 0) const;
 
+  using Fill = std::function<void(void* object, const Element& element, Diagnostics& diagnostics)>;
+  /// Schema::custom and Schema::forms, for functions that do not look at the object.
+  void addCustom(std::string_view name, Fill&& fill, std::vector<std::string>&& takes, std::string_view sentence,
+                 std::function<void(std::ostream&, int)>&& describeBelow = {});
+  void setFormsOfLast(std::vector<TagForm> forms, int atLeast = 0);
+
  protected:
   using Locate = std::function<void(void* object, const Element& element)>;
   using Check = std::function<void(const void* object, const Element& element, Diagnostics& diagnostics)>;
 
-  SchemaBase(std::string name, std::string sentence) : name_(std::move(name)), sentence_(std::move(sentence)) {}
+  SchemaBase(std::string_view name, std::string_view sentence);
+  SchemaBase(const SchemaBase& other);
+  SchemaBase(SchemaBase&& other) noexcept;
+  SchemaBase& operator=(const SchemaBase& other);
+  SchemaBase& operator=(SchemaBase&& other) noexcept;
+  ~SchemaBase();
 
-  void add(SchemaEntry entry);
-  void addCheck(Check check) { checks_.push_back(std::move(check)); }
-  void addLocate(Locate locate) { locates_.push_back(std::move(locate)); }
+  void add(SchemaEntry&& entry);
+  void addCheck(Check&& check);
+  void addLocate(Locate&& locate);
+  static SchemaEntry attribute(SchemaEntry&& entry);
+  static SchemaEntry ownText(SchemaEntry&& entry);
+  static SchemaEntry mandatory(SchemaEntry&& entry);
+  static SchemaEntry repeated(SchemaEntry&& entry, int atLeast);
+  static SchemaEntry flagEntry(SchemaEntry&& entry);
+  static SchemaEntry ignoredEntry(std::string_view name, std::string_view sentence);
+  static SchemaEntry textEntry(std::string_view name, std::string_view sentence);
+  /// A tag that `schema` reads; without a sentence it has that of the schema.
+  static SchemaEntry sectionEntry(std::string_view name, const SchemaBase& schema, std::string_view sentence);
   void markLastOurs();
   void markAllOurs() { all_ours_ = true; }
   void markAlternatives(int last);
-  void explainWordOfLast(const std::string& word, const std::string& sentence);
-  /// Sets the allowed content of the tags of the last declaration, which a function reads; at least `atLeast` in all.
-  void setFormsOfLast(std::vector<TagForm> forms, int atLeast);
+  void explainWordOfLast(std::string_view word, std::string_view sentence);
   void setDefaults(void* object) const;
   void readInto(void* object, const Element& element, Diagnostics& diagnostics) const;
 

@@ -22,14 +22,12 @@ struct FieldAccess<data::FieldLabel<C, T>, Kind> {
   int ghost = 0;
   bool own = false;
   bool offered = false;
-  int index = -1;  ///< place among the task's accesses
+  AccessKind kind = Kind;  ///< if Kind is requiresOld also requiresNew: the views of both are of one type
+  int index = -1;          ///< place among the task's accesses
 
-  void declare(std::vector<Access>& accesses) {
-    index = static_cast<int>(accesses.size());
-    accesses.push_back({label, Kind, ghost, own, offered});
-  }
+  void declare(std::vector<Access>& accesses) { index = append(accesses, {label, kind, ghost, own, offered}); }
 
-  static constexpr bool readOnly = Kind == AccessKind::requiresOld || Kind == AccessKind::requiresNew;
+  static constexpr bool readOnly = Kind == AccessKind::requiresOld;
   using Element = std::conditional_t<readOnly, const T, T>;
 
   decltype(auto) bind(const TaskContext& context) const {
@@ -47,10 +45,7 @@ struct FieldAccess<data::ReductionLabel<R>, Kind> {
   const data::ReductionLabel<R>* label;
   int index = -1;
 
-  void declare(std::vector<Access>& accesses) {
-    index = static_cast<int>(accesses.size());
-    accesses.push_back({label, Kind, 0});
-  }
+  void declare(std::vector<Access>& accesses) { index = append(accesses, {label, Kind, 0}); }
   decltype(auto) bind(const TaskContext& context) const {
     if constexpr (Kind == AccessKind::computes)
       return (context.partOfReduction<R>(index));
@@ -75,11 +70,7 @@ struct RanksArgument {
 inline RanksArgument togetherOnRanks() { return {}; }
 
 /// The patches of a task that sees the whole rank.
-inline RankPatches patchesOf(const TaskContext& context) {
-  RankPatches patches;
-  for (const TaskContext& patch : context.ofPatches()) patches.push_back(&patch.patch());
-  return patches;
-}
+RankPatches patchesOf(const TaskContext& context);
 
 /// Reads the state at the start of the step: a view of const T over the patch and `ghost` cells or nodes beyond it.
 template <data::Centring C, class T>
@@ -94,9 +85,9 @@ FieldAccess<data::ReductionLabel<R>, AccessKind::requiresOld> requiresOld(const 
 }
 /// Reads what an earlier task computed: a view of const T over the patch and `ghost` cells or nodes beyond it.
 template <data::Centring C, class T>
-FieldAccess<data::FieldLabel<C, T>, AccessKind::requiresNew> requiresNew(const data::FieldLabel<C, T>& label,
+FieldAccess<data::FieldLabel<C, T>, AccessKind::requiresOld> requiresNew(const data::FieldLabel<C, T>& label,
                                                                          int ghost = 0) {
-  return {&label, ghost};
+  return {&label, ghost, false, false, AccessKind::requiresNew};
 }
 /// Writes every value of the patch: a view of T. Values are undefined before (NaN in the dev preset).
 template <data::Centring C, class T>
@@ -168,8 +159,7 @@ struct FluxAccess {
   int index = -1;
 
   void declare(std::vector<Access>& accesses) {
-    index = static_cast<int>(accesses.size());
-    accesses.push_back({&data::rimLabelOf(*label), AccessKind::computes, 0, false, true, label});
+    index = append(accesses, {&data::rimLabelOf(*label), AccessKind::computes, 0, false, true, label});
   }
   data::RimFlux<T> bind(const TaskContext& context) const {
     return context.isWanted(index) ? context.flux<T>(index) : data::RimFlux<T>();
@@ -256,6 +246,7 @@ inline constexpr bool isOfRanks = std::is_same_v<Argument, RanksArgument>;
 template <class Contexts, class Bind>
 auto bindEach(const Contexts& contexts, Bind bind) {
   std::vector<std::decay_t<decltype(bind(contexts[0]))>> views;
+  views.reserve(contexts.size());
   for (const TaskContext& one : contexts) views.push_back(bind(one));
   return views;
 }

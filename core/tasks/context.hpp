@@ -49,18 +49,12 @@ class TaskContext {
 
   template <class T>
   data::ParticleView<T> particles(int access, const data::Label& label) const {
-    const BoundAccess& bound = (*accesses_)[access];
-    const data::Variable variable = warehouse_->variable(bound.generation, bound.variable, patch_->id());
-    const data::ParticleSet& set = warehouse_->particles(bound.set, material_, patch_->id());
-    const grid::Box cells = bound.ghost > 0 ? patch_->cellsWithin(bound.ghost) : patch_->cells();
-    return {reinterpret_cast<T*>(variable.values), set, cells, &label};
+    const ParticlePlace place = particlePlace(access);
+    return {reinterpret_cast<T*>(place.values), *place.set, place.cells, &label};
   }
 
   /// The address of an access's values, of any type.
-  data::Variable variable(int access) const {
-    const BoundAccess& bound = (*accesses_)[access];
-    return warehouse_->variable(bound.generation, bound.variable, patch_->id());
-  }
+  data::Variable variable(int access) const;
   /// Where the patch meets other levels.
   const std::vector<grid::RimPiece>& rims() const { return warehouse_->grid().rims(patch_->id()); }
   /// The cells of the patch that regridding has just made of coarser ones.
@@ -72,9 +66,8 @@ class TaskContext {
 
   template <data::Centring C, class T>
   data::GridView<C, T> grid(int access, const data::Label& label) const {
-    const BoundAccess& bound = (*accesses_)[access];
-    const data::Variable variable = warehouse_->variable(bound.generation, bound.variable, patch_->id());
-    return {reinterpret_cast<T*>(variable.values), variable.stored, boxOf<C>(bound), &label};
+    const GridPlace place = gridPlace(access, C);
+    return {reinterpret_cast<T*>(place.values), place.stored, place.used, &label};
   }
 
   /// The values of a reduction so far.
@@ -94,11 +87,18 @@ class TaskContext {
   }
 
  private:
-  template <data::Centring C>
-  grid::Box boxOf(const BoundAccess& bound) const {
-    if (bound.own) return warehouse_->grid().ownNodes(patch_->id());
-    return C == data::Centring::node ? patch_->nodesWithin(bound.ghost) : patch_->cellsWithin(bound.ghost);
-  }
+  /// What a view of particles is made of, and one of nodes or cells: the same for values of any type.
+  struct ParticlePlace {
+    std::byte* values;
+    const data::ParticleSet* set;
+    grid::Box cells;
+  };
+  struct GridPlace {
+    std::byte* values;
+    grid::Box stored, used;
+  };
+  ParticlePlace particlePlace(int access) const;
+  GridPlace gridPlace(int access, data::Centring centring) const;
 
   data::Warehouse* warehouse_;
   const grid::Patch* patch_;

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "core/data/label.hpp"
+#include "core/tasks/task_body.hpp"
 
 namespace tushar::tasks {
-
-class TaskContext;
 
 /// The ways in which a task uses a variable.
 enum class AccessKind {
@@ -39,6 +37,9 @@ struct Access {
   bool isNew() const { return kind != AccessKind::requiresOld; }
 };
 
+/// Appends an access of a task; returns its place.
+int append(std::vector<Access>& accesses, const Access& access);
+
 enum class TaskKind {
   work,          ///< runs a body
   relocate,      ///< the framework's own: every particle goes to the patch and cell where it now is
@@ -51,7 +52,7 @@ struct Task {
   TaskKind kind = TaskKind::work;
   std::vector<std::string> materials;  ///< names; empty for a task that belongs to no material
   std::vector<Access> accesses;
-  std::function<void(const TaskContext&)> body;
+  TaskBody body;
   bool acrossMaterials = false;  ///< the body sees all materials of a patch at once
   bool perRank = false;          ///< the body sees all materials of all patches of the rank at once
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <string>
-#include <tuple>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,94 +17,80 @@ class TaskList {
  public:
   /// Runs `body(patch, arguments...)` on each patch.
   template <class Body, class... Arguments>
-  void perPatch(std::string name, Body body, Arguments... arguments) {
+  void perPatch(std::string_view name, Body body, Arguments... arguments) {
     check<false, false, Arguments...>();
     static_assert(!(isWithoutMaterial<Arguments> || ...), "a task of perPatch has no materials to leave out");
     std::vector<Access> accesses = declare<false>(arguments...);
-    add({std::move(name),
-         TaskKind::work,
-         {},
-         std::move(accesses),
-         [body, bound = std::make_tuple(arguments...)](const TaskContext& context) {
-           std::apply([&](const auto&... argument) { body(context.patch(), argument.bind(context)...); }, bound);
-         }});
+    add(name, TaskKind::work, {}, std::move(accesses),
+        [body, ... bound = arguments](const TaskContext& context) { body(context.patch(), bound.bind(context)...); });
   }
 
   /// Runs `body(patch, material, arguments...)` on each patch, for each of `materials`, which must outlive the list
   /// and have a `name`. The labels are variables of the material.
   template <class Material, class Body, class... Arguments>
-  void perMaterial(std::string name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
+  void perMaterial(std::string_view name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
     check<false, false, Arguments...>();
     std::vector<Access> accesses = declare<false>(arguments...);
-    add({std::move(name), TaskKind::work, names(materials), std::move(accesses),
-         [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
-           const Material& material = materials[context.material()];
-           std::apply([&](const auto&... argument) { body(context.patch(), material, argument.bind(context)...); },
-                      bound);
-         }});
+    add(name, TaskKind::work, names(materials), std::move(accesses),
+        [body, &materials, ... bound = arguments](const TaskContext& context) {
+          body(context.patch(), materials[context.material()], bound.bind(context)...);
+        });
   }
 
   /// Runs `body(patch, materials, arguments...)` on each patch, once for all materials: an access to a label becomes a
   /// std::vector of views, one for each material.
   template <class Material, class Body, class... Arguments>
-  void acrossMaterials(std::string name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
+  void acrossMaterials(std::string_view name, Body body, const std::vector<Material>& materials,
+                       Arguments... arguments) {
     check<false, false, Arguments...>();
     std::vector<Access> accesses = declare<false>(arguments...);
-    add({std::move(name), TaskKind::work, names(materials), std::move(accesses),
-         [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
-           std::apply([&](const auto&... argument) { body(context.patch(), materials, bindAll(argument, context)...); },
-                      bound);
-         },
-         true});
+    add(
+        name, TaskKind::work, names(materials), std::move(accesses),
+        [body, &materials, ... bound = arguments](const TaskContext& context) {
+          body(context.patch(), materials, bindAll(bound, context)...);
+        },
+        Sees::allMaterials);
   }
 
   /// Runs `body(patches, arguments...)` once on a rank, for what takes all patches at once, such as a linear solve: an
   /// access to a label becomes a std::vector of views, one for each patch.
   template <class Body, class... Arguments>
-  void perRank(std::string name, Body body, Arguments... arguments) {
+  void perRank(std::string_view name, Body body, Arguments... arguments) {
     check<false, true, Arguments...>();
     std::vector<Access> accesses = declare<false>(arguments...);
-    addPerRank({std::move(name),
-                TaskKind::work,
-                {},
-                std::move(accesses),
-                [body, bound = std::make_tuple(arguments...)](const TaskContext& context) {
-                  std::apply([&](const auto&... argument) { body(patchesOf(context), bindRank(argument, context)...); },
-                             bound);
-                }});
+    add(
+        name, TaskKind::work, {}, std::move(accesses),
+        [body, ... bound = arguments](const TaskContext& context) {
+          body(patchesOf(context), bindRank(bound, context)...);
+        },
+        Sees::rank);
   }
 
   /// Runs `body(patches, materials, arguments...)` once on a rank, for variables of materials: an access becomes
   /// `views[patch][material]`.
   template <class Material, class Body, class... Arguments>
-  void perRankAcrossMaterials(std::string name, Body body, const std::vector<Material>& materials,
+  void perRankAcrossMaterials(std::string_view name, Body body, const std::vector<Material>& materials,
                               Arguments... arguments) {
     check<false, true, Arguments...>();
     std::vector<Access> accesses = declare<false>(arguments...);
-    addPerRank(
-        {std::move(name), TaskKind::work, names(materials), std::move(accesses),
-         [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
-           std::apply(
-               [&](const auto&... argument) { body(patchesOf(context), materials, bindRankAll(argument, context)...); },
-               bound);
-         }});
+    add(
+        name, TaskKind::work, names(materials), std::move(accesses),
+        [body, &materials, ... bound = arguments](const TaskContext& context) {
+          body(patchesOf(context), materials, bindRankAll(bound, context)...);
+        },
+        Sees::rank);
   }
 
   /// Runs `body(patch, material, maker, arguments...)`: the particles that the body makes replace those of the patch.
   /// Particle variables that are needed afterwards must be among what it `creates`; node and cell variables stay.
   template <class Material, class Body, class... Arguments>
-  void newParticles(std::string name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
+  void newParticles(std::string_view name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
     check<true, false, Arguments...>();
     std::vector<Access> accesses = declare<true>(arguments...);
-    add({std::move(name), TaskKind::newParticles, names(materials), std::move(accesses),
-         [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
-           const Material& material = materials[context.material()];
-           std::apply(
-               [&](const auto&... argument) {
-                 body(context.patch(), material, context.maker(), argument.bind(context)...);
-               },
-               bound);
-         }});
+    add(name, TaskKind::newParticles, names(materials), std::move(accesses),
+        [body, &materials, ... bound = arguments](const TaskContext& context) {
+          body(context.patch(), materials[context.material()], context.maker(), bound.bind(context)...);
+        });
   }
 
   /// From here on every particle is where `position` (computed before) says: in its new cell, on its new patch.
@@ -115,13 +101,14 @@ class TaskList {
   }
 
   const std::vector<Task>& tasks() const { return tasks_; }
-  void add(Task task) { tasks_.push_back(std::move(task)); }
+  void add(Task task);
 
  private:
-  void addPerRank(Task task) {
-    task.perRank = true;
-    add(std::move(task));
-  }
+  /// What the body of a task is called for at once.
+  enum class Sees { patch, allMaterials, rank };
+
+  void add(std::string_view name, TaskKind kind, std::vector<std::string>&& materials, std::vector<Access>&& accesses,
+           TaskBody&& body, Sees sees = Sees::patch);
   /// Refuses arguments that mean nothing to a kind of task.
   template <bool makesParticles, bool isOnRank, class... Arguments>
   static constexpr void check() {
@@ -145,7 +132,7 @@ class TaskList {
     return accesses;
   }
   template <class Material>
-  static std::vector<std::string> names(const std::vector<Material>& materials) {
+  [[gnu::noinline]] static std::vector<std::string> names(const std::vector<Material>& materials) {
     std::vector<std::string> result;
     for (const Material& material : materials) result.push_back(material.name);
     return result;

@@ -4,8 +4,6 @@
 #include "components/mpm/solid/explicit/schedule_heat.hpp"
 #include "components/mpm/solid/explicit/solid_mpm.hpp"
 #include "components/mpm/solid/explicit/tasks/affine.hpp"
-#include "components/mpm/solid/explicit/tasks/corner_loads.hpp"
-#include "components/mpm/solid/explicit/tasks/exchange_momentum.hpp"
 #include "components/mpm/solid/explicit/tasks/friction.hpp"
 #include "components/mpm/solid/explicit/tasks/gradient_enhanced.hpp"
 #include "components/mpm/solid/explicit/tasks/integrate_acceleration.hpp"
@@ -13,63 +11,13 @@
 #include "components/mpm/solid/explicit/tasks/interpolate_to_particles_and_update.hpp"
 #include "components/mpm/solid/explicit/tasks/measure_work.hpp"
 #include "components/mpm/solid/explicit/tasks/prescribe_motion.hpp"
-#include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
 #include "components/mpm/solid/explicit/tasks/update_in_parts.hpp"
 #include "components/mpm/solid/explicit/tasks/velocity_updates.hpp"
-#include "components/mpm/solid/tasks/apply_external_loads.hpp"
-#include "components/mpm/solid/tasks/boundary_force.hpp"
-#include "components/mpm/solid/tasks/damage.hpp"
-#include "components/mpm/solid/tasks/diagnose.hpp"
-#include "components/mpm/solid/tasks/displacement.hpp"
-#include "components/mpm/solid/tasks/nonlocal.hpp"
 #include "components/mpm/solid/tasks/show_grid.hpp"
-#include "components/mpm/solid/tasks/surrounding_force.hpp"
 
 // The schedule of SolidMpm: included by the files that instantiate it, one for each kind of shape function.
 
 namespace tushar::mpm::solid {
-
-/// Reads variables as they were at the start of the step, or as the step has them.
-inline constexpr auto old = [](const auto& label, int ghost) { return requiresOld(label, ghost); };
-inline constexpr auto fresh = [](const auto& label, int ghost) { return requiresNew(label, ghost); };
-
-template <class Shape>
-SolidMpm<Shape>::SolidMpm(Problem problem) : Solids(std::move(problem)) {
-  const auto any = [&](auto&& holds) {
-    return std::any_of(problem_.materials.begin(), problem_.materials.end(),
-                       [&](const Material& m) { return holds(*m.model); });
-  };
-  is_damageable_ = std::any_of(problem_.materials.begin(), problem_.materials.end(),
-                               [](const Material& material) { return material.isDamageable(); });
-  keeps_stress_ = is_damageable_ || any([](const Model& model) { return !model.dependsOnDeformationOnly(); });
-  is_thermal_ = any([](const Model& model) { return model.usesTemperature(); });
-  heats_ = any([](const Model& model) { return model.changesTemperature(); });
-}
-
-template <class Shape>
-void SolidMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
-  scheduleActuallyInitialize<D>(tasks, problem_.materials, problem_.start);
-  tasks.perMaterial("mpm::computeInitialTimeStep", computeInitialTimeStep<D>, problem_.materials,
-                    requiresNew(p::velocity<D>), requiresNew(p::temperature), requiresNew(p::deformationMeasure),
-                    computes(c::stableTimeStep));
-  if (keeps_stress_) scheduleInitialStress(tasks, problem_.materials, state_);
-  if (hasPlanes())
-    tasks.perMaterial("mpm::findSurface", findSurface<D>, problem_.materials, requiresNew(p::x<D>),
-                      computes(p::surface));
-  if (problem_.method.affine)
-    tasks.perMaterial("mpm::initializeAffineMoment", initializeAffineMoment, problem_.materials, requiresNew(p::mass),
-                      computes(p::affineMoment));
-  tasks.perMaterial("mpm::startWork", startWork<D>, problem_.materials, requiresNew(p::mass),
-                    requiresNew(p::velocity<D>), computes(p::work));
-  if (is_damageable_) scheduleInitialDamage(tasks, problem_.materials);
-  if (problem_.surroundings) problem_.surroundings->scheduleStart(tasks, problem_.materials);
-}
-
-template <class Shape>
-void SolidMpm<Shape>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.perMaterial("mpm::computeStableTimeStep", computeStableTimeStep<D>, problem_.materials,
-                    requiresOld(c::stableTimeStep), computes(delT));
-}
 
 template <class Shape>
 void SolidMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
@@ -77,60 +25,29 @@ void SolidMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
   if (hasFriction()) scheduleComputeSurface(tasks);
   switch (problem_.method.stressUpdate) {
     case StressUpdate::last:
-      scheduleMomentum(tasks, old);
+      scheduleMomentum(tasks, readsOld);
       problem_.method.sharesVolume ? scheduleUpdateInCells(tasks) : scheduleUpdateParticles(tasks);
-      scheduleVelocityUpdate(tasks, old);
+      scheduleVelocityUpdate(tasks, readsOld);
       break;
     case StressUpdate::modifiedLast:
-      scheduleMomentum(tasks, old);
-      scheduleMoveParticles(tasks, old);
-      scheduleVelocityUpdate(tasks, old);
-      scheduleInterpolateMomentum(tasks, fresh);
+      scheduleMomentum(tasks, readsOld);
+      scheduleMoveParticles(tasks, readsOld);
+      scheduleVelocityUpdate(tasks, readsOld);
+      scheduleInterpolateMomentum(tasks, readsNew);
       scheduleComputeStressTensor(tasks, g::stressRecord);
       break;
     case StressUpdate::first:
-      scheduleInterpolateMomentum(tasks, old);
+      scheduleInterpolateMomentum(tasks, readsOld);
       scheduleComputeStressTensor(tasks, g::stressRecord);
-      scheduleMomentum(tasks, fresh);
-      scheduleMoveParticles(tasks, fresh);
-      scheduleVelocityUpdate(tasks, fresh);
+      scheduleMomentum(tasks, readsNew);
+      scheduleMoveParticles(tasks, readsNew);
+      scheduleVelocityUpdate(tasks, readsNew);
       break;
   }
-  if (problem_.method.maximumParticleVelocity)
-    tasks.perMaterial("mpm::limitVelocity", limitVelocity<D>, problem_.materials,
-                      with(*problem_.method.maximumParticleVelocity), requiresOld(p::velocity<D>),
-                      modifies(p::velocity<D>));
-  if (heats_) scheduleHeatOfWork(tasks, problem_.materials, problem_.method.conductsHeat);
-  scheduleStrainWork(tasks);
-  scheduleNonlocalPlasticity(tasks);
-  tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
-                    requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
-  if (problem_.surroundings && problem_.surroundings->exchangesHeat() && !problem_.method.conductsHeat && !heats_)
-    tasks.perMaterial("mpm::keepTemperature", keepTemperature, problem_.materials, requiresOld(p::temperature),
-                      computes(p::temperature));
-  if (problem_.surroundings) problem_.surroundings->scheduleMotion(tasks, problem_.materials);
-  tasks.relocate(p::x<D>, problem_.materials);
+  scheduleEndOfStep(tasks);
 }
 
 template <class Shape>
-void SolidMpm<Shape>::scheduleApplyExternalLoads(TaskList& tasks) const {
-  if (problem_.start.solution)
-    tasks.perMaterial("mpm::applyExternalLoads", applyManufacturedForce<D>, problem_.materials,
-                      with(problem_.start.solution.get()), startTime(), requiresOld(p::x<D>),
-                      requiresOld(p::displacement<D>), requiresOld(p::mass), computes(p::externalForce<D>));
-  else if (problem_.method.loadsAtCorners)
-    tasks.perMaterial("mpm::applyExternalLoads", applyLoadsAtCorners<D>, problem_.materials, with(problem_.start.loads),
-                      with(problem_.method.commonSize), startTime(), all<LoadedParticles<D>>(boxSizes(), 0),
-                      computes(p::externalForce<D>));
-  else
-    tasks.perMaterial("mpm::applyExternalLoads", applyExternalLoads<D>, problem_.materials, with(problem_.start.loads),
-                      startTime(), requiresOld(p::x<D>), requiresOld(p::mass), requiresOld(p::loadCurves),
-                      when(problem_.method.turnsPressures, requiresOld(p::deformationMeasure)),
-                      computes(p::externalForce<D>));
-}
-
-template <class Shape>
-template <class Reads>
 void SolidMpm<Shape>::scheduleMomentum(TaskList& tasks, Reads stressed) const {
   scheduleInterpolateParticlesToGrid(tasks, stressed);
   scheduleIntegrateAcceleration(tasks);
@@ -140,7 +57,6 @@ void SolidMpm<Shape>::scheduleMomentum(TaskList& tasks, Reads stressed) const {
 
 /// With the forces of the stresses: Uintah's computeInternalForce. `stressed` reads F and the stress.
 template <class Shape>
-template <class Reads>
 void SolidMpm<Shape>::scheduleInterpolateParticlesToGrid(TaskList& tasks, Reads stressed) const {
   const int reach = Shape::reach;
   Keeps scattered = keeps();
@@ -151,10 +67,7 @@ void SolidMpm<Shape>::scheduleInterpolateParticlesToGrid(TaskList& tasks, Reads 
       all<MomentumSources<Shape>>(keepsSizes(), requiresOld(p::velocity<D>, reach),
                                   when(!keeps_stress_ || Shape::deforms, stressed(p::deformationMeasure, reach))),
       all<ForceSources<Shape>>(scattered, stressed), computesOwn(g::record));
-  if (problem_.method.loadsAtCorners && isLoaded())
-    tasks.perMaterial("mpm::addLoadsAtCorners", addLoadsAtCorners<D>, problem_.materials, with(problem_.start.loads),
-                      with(problem_.method.commonSize), startTime(),
-                      all<LoadedParticles<D>>(boxSizes(), static_cast<int>(cornerReach)), modifies(g::record));
+  scheduleCornerLoads(tasks);
   if constexpr (!Shape::deforms && !Shape::axisymmetric)
     if (problem_.method.affine)
       tasks.perMaterial("mpm::addAffineVelocity", addAffineVelocity<Shape>, problem_.materials,
@@ -176,20 +89,8 @@ void SolidMpm<Shape>::scheduleComputeSurface(TaskList& tasks) const {
 }
 
 template <class Shape>
-void SolidMpm<Shape>::scheduleFriction(TaskList& tasks, const std::string& name, Moment moment,
-                                       const NodeLabel<NodeRecord>& record, bool heats) const {
-  tasks.acrossMaterials(name, exchangeByFriction<D>, problem_.materials, with(problem_.contacts), with(moment),
-                        requiresOld(delT), all<ContactSurface<D>>(), modifies(record),
-                        when(heats, computes(g::frictionHeat)));
-}
-
-template <class Shape>
 void SolidMpm<Shape>::scheduleIntegrateAcceleration(TaskList& tasks) const {
-  if (problem_.surroundings) {
-    problem_.surroundings->scheduleForces(tasks, problem_.materials);
-    tasks.perMaterial("mpm::addSurroundingForce", addSurroundingForce<D>, problem_.materials,
-                      requiresNew(g::surroundingForce<D>), modifies(g::record));
-  }
+  scheduleSurroundingForce(tasks);
   tasks.perMaterial("mpm::computeAndIntegrateAcceleration", computeAndIntegrateAcceleration<Shape>, problem_.materials,
                     with(problem_.method), requiresOld(p::x<D>, Shape::reach), requiresOld(delT), modifies(g::record));
   scheduleKeepVelocity(tasks, g::velocityOfForces<D>);
@@ -209,31 +110,13 @@ void SolidMpm<Shape>::schedulePrescribedMotion(TaskList& tasks, const NodeLabel<
                       startTime(), requiresOld(p::x<D>, Shape::reach), modifies(record));
 }
 
-template <class Shape>
-void SolidMpm<Shape>::scheduleKeepVelocity(TaskList& tasks, const NodeLabel<Vec<D>>& kept) const {
-  tasks.perMaterial("mpm::keepVelocity", keepVelocity<D>, problem_.materials, requiresNew(g::record), computes(kept));
-}
-
 /// Runs only if work is saved or reported, as scheduleStrainWork; `shaped` reads the F that shape functions follow.
 template <class Shape>
-template <class Reads>
 void SolidMpm<Shape>::scheduleMeasureWork(TaskList& tasks, Reads shaped) const {
-  tasks.perMaterial("mpm::computeNodalWork", computeNodalWork<D>, problem_.materials, with(problem_.method),
-                    requiresOld(delT), requiresNew(g::record), requiresNew(g::velocityOfForces<D>),
-                    when(!problem_.contacts.empty(), requiresNew(g::velocityOfContact<D>)), computes(g::workRecord));
+  scheduleNodalWork(tasks);
   tasks.perMaterial("mpm::measureWork", measureWork<Shape>, problem_.materials, with(problem_.method.commonSize),
                     requiresOld(delT), all<ParticleWork<Shape>>(keeps(), shapedBy(shaped)));
 }
-template <class Shape>
-void SolidMpm<Shape>::scheduleStrainWork(TaskList& tasks) const {
-  tasks.perMaterial("mpm::measureStrainWork", measureStrainWork, problem_.materials,
-                    all<StrainWork>(keeps(), old, fresh));
-  if (keeps_stress_ && state_size_ > 0)
-    tasks.perMaterial("mpm::measurePlasticWork", measurePlasticWork, problem_.materials, with(state_size_),
-                      requiresOld(state_), requiresNew(state_), requiresNew(p::volume), requiresNew(p::stress),
-                      modifies(p::work));
-}
-
 /// With the gradients and the stresses: Uintah's computeParticleGradients and computeStressTensor.
 template <class Shape>
 void SolidMpm<Shape>::scheduleUpdateParticles(TaskList& tasks) const {
@@ -245,13 +128,12 @@ void SolidMpm<Shape>::scheduleUpdateParticles(TaskList& tasks) const {
 /// The motion apart from the stress, in which the particles of a cell share their change of volume.
 template <class Shape>
 void SolidMpm<Shape>::scheduleUpdateInCells(TaskList& tasks) const {
-  scheduleMoveParticles(tasks, old);
+  scheduleMoveParticles(tasks, readsOld);
   scheduleComputeStressTensor(tasks, g::record);
 }
 
 /// x and v alone; `shaped` reads the F that shape functions follow.
 template <class Shape>
-template <class Reads>
 void SolidMpm<Shape>::scheduleMoveParticles(TaskList& tasks, Reads shaped) const {
   tasks.perMaterial("mpm::interpolateToParticlesAndUpdate", moveParticles<Shape>, problem_.materials,
                     with(problem_.method.commonSize), requiresOld(delT),
@@ -260,7 +142,6 @@ void SolidMpm<Shape>::scheduleMoveParticles(TaskList& tasks, Reads shaped) const
 
 /// Schedules the update that replaces FLIP's velocity; `shaped` reads the F that shape functions follow.
 template <class Shape>
-template <class Reads>
 void SolidMpm<Shape>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const {
   const auto particles = all<Placed<Shape>>(keepsSizes(), 0, shapedBy(shaped));
   const auto record = requiresNew(g::record, Shape::ghostNodes);
@@ -287,12 +168,11 @@ void SolidMpm<Shape>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) cons
 
 /// The velocity that stresses follow, where that is not the one of the motion; `moving` reads that of the particles.
 template <class Shape>
-template <class Reads>
 void SolidMpm<Shape>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) const {
   const int reach = Shape::reach;
   tasks.perMaterial("mpm::interpolateMomentum", interpolateMomentum<Shape>, problem_.materials,
                     with(problem_.method.commonSize),
-                    all<MomentumSources<Shape>>(keepsSizes(), moving(p::velocity<D>, reach), shapedBy(old, reach)),
+                    all<MomentumSources<Shape>>(keepsSizes(), moving(p::velocity<D>, reach), shapedBy(readsOld, reach)),
                     computesOwn(g::stressRecord));
   if (!problem_.contacts.empty()) scheduleContact(tasks, "mpm::exMomOfStresses", Moment::end, g::stressRecord);
   if (hasFriction()) scheduleFriction(tasks, "mpm::frictionOfStresses", Moment::end, g::stressRecord);
@@ -311,49 +191,10 @@ void SolidMpm<Shape>::scheduleComputeStressTensor(TaskList& tasks, const NodeLab
   scheduleDamage(tasks);
 }
 
-/// The mean of the plastic strain around each particle, for the next step.
 template <class Shape>
-void SolidMpm<Shape>::scheduleNonlocalPlasticity(TaskList& tasks) const {
-  const int layers = problem_.method.nonlocalLayers;
-  if (layers == 0) return;
-  tasks.perMaterial("mpm::findPlasticIncrement", findPlasticIncrement, problem_.materials, with(state_size_),
-                    requiresNew(state_), computes(p::plasticIncrement));
-  tasks.perMaterial("mpm::averagePlasticIncrement", averagePlasticIncrement<D>, problem_.materials, with(layers),
-                    with(state_size_), requiresOld(p::x<D>, layers), requiresOld(p::volume, layers),
-                    requiresNew(p::plasticIncrement, layers), modifies(state_));
-}
-
-template <class Shape>
-void SolidMpm<Shape>::scheduleDamage(TaskList& tasks) const {
-  if (is_damageable_) solid::scheduleDamage(tasks, problem_.materials, state_);
-}
-
-template <class Shape>
-void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
-  scheduleTotals<D>(tasks, problem_.materials, problem_.method, keepsSizes());
-  for (std::size_t k = 0; k < total::work.size(); ++k)
-    tasks.perMaterial("mpm::sumWork", sumWork, problem_.materials, with(static_cast<int>(k)), requiresOld(p::work),
-                      computes(total::work[k]));
-  if (!is_damageable_)
-    tasks.perMaterial("mpm::showSound", showSound, problem_.materials, requiresOld(p::mass), computes(p::localized));
-  for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);
-  if (!keeps_stress_) {
-    tasks.perMaterial("mpm::computeVolume", computeVolume, problem_.materials, requiresOld(p::mass, Shape::reach),
-                      requiresOld(p::deformationMeasure, Shape::reach), computes(p::volume));
-    tasks.perMaterial("mpm::computeStress", computeStress, problem_.materials, requiresOld(p::deformationMeasure),
-                      computes(p::stress));
-  }
-  const auto show = [&](auto reads) {
-    scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize, keepsSizes(),
-                              reads(p::volume, Shape::reach), reads(p::stress, Shape::reach));
-    scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, reads(p::volume, 0),
-                              reads(p::stress, 0));
-    tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, reads(p::volume, 0), computes(total::volume));
-  };
-  if (keeps_stress_)
-    show(old);
-  else
-    show(fresh);
+void SolidMpm<Shape>::scheduleShowOnGrid(TaskList& tasks, Reads stressed) const {
+  solid::scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize, keepsSizes(),
+                                   stressed(p::volume, Shape::reach), stressed(p::stress, Shape::reach));
 }
 
 }  // namespace tushar::mpm::solid

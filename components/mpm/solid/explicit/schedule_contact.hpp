@@ -1,7 +1,6 @@
 #pragma once
 
 #include "components/mpm/solid/explicit/solid_mpm.hpp"
-#include "components/mpm/solid/explicit/tasks/exchange_momentum.hpp"
 #include "components/mpm/solid/explicit/tasks/separate_bodies.hpp"
 #include "components/mpm/solid/explicit/tasks/transmit_force.hpp"
 
@@ -21,25 +20,6 @@ void SolidMpm<Shape>::scheduleSeparateBodies(TaskList& tasks) const {
                       all<Placed<Shape>>(keepsSizes(), static_cast<int>(Shape::reach)),
                       requiresOld(p::mass, Shape::reach), requiresOld(p::color, Shape::reach), requiresNew(g::record),
                       computes(g::color));
-}
-
-/// Contacts other than friction by stresses, on the velocities of a record.
-template <class Shape>
-void SolidMpm<Shape>::scheduleContact(TaskList& tasks, const std::string& name, Moment moment,
-                                      const NodeLabel<NodeRecord>& record) const {
-  tasks.acrossMaterials(name, exchangeMomentum<D>, problem_.materials, with(problem_.contacts), with(moment),
-                        startTime(), requiresOld(delT), modifies(record),
-                        all<SeparatingPlane<D>>(hasPlanes(), frictionHasColor()));
-}
-
-template <class Shape>
-void SolidMpm<Shape>::scheduleContactAtEnd(TaskList& tasks) const {
-  const Acceleration acceleration{problem_.method.gravity, problem_.method.damping};
-  if (problem_.contacts.empty() && !transmitsForce()) return;
-  tasks.acrossMaterials("mpm::exMomIntegrated", exchangeMomentumAtEnd<D>, problem_.materials, with(problem_.contacts),
-                        with(acceleration), startTime(), requiresOld(delT), modifies(g::record),
-                        all<SeparatingPlane<D>>(hasPlanes(), frictionHasColor()), computes(total::rigidReactionForce),
-                        when(transmitsForce(), computes(g::transmittedForce<D>)));
 }
 
 template <class Shape>

@@ -313,5 +313,9 @@ void scheduleActuallyInitialize(TaskList& tasks, const std::vector<Material>& ma
   atZero(p::strainEnergy);
   atZero(p::velocityGradient);
 }
+// Compiled in solids_of.cpp.
+extern template void scheduleActuallyInitialize<1>(TaskList&, const std::vector<Material>&, const Start&);
+extern template void scheduleActuallyInitialize<2>(TaskList&, const std::vector<Material>&, const Start&);
+extern template void scheduleActuallyInitialize<3>(TaskList&, const std::vector<Material>&, const Start&);
 
 }  // namespace tushar::mpm::solid

@@ -101,5 +101,9 @@ void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, con
                     when(sizes.each, requiresOld(p::size<D>)), when(sizes.domains, requiresOld(p::domain)),
                     requiresOld(p::deformationMeasure), computes(p::scaleFactor));
 }
+// Compiled in solids_of.cpp.
+extern template void scheduleTotals<1>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes);
+extern template void scheduleTotals<2>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes);
+extern template void scheduleTotals<3>(TaskList&, const std::vector<Material>&, const Method&, KeptSizes);
 
 }  // namespace tushar::mpm::solid

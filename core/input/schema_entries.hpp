@@ -1,0 +1,112 @@
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/input/constraint.hpp"
+#include "core/input/schema_base.hpp"
+#include "core/input/values.hpp"
+
+// The entries of a Schema by the type of their value alone, not by the structure that they fill: what all schemas of a
+// program share.
+
+namespace tushar::input {
+
+/// The names of a choice and their values.
+template <class E>
+using Choices = std::vector<std::pair<std::string, E>>;
+
+/// Where a member is in an object whose type is not known here: an M, which is a T, an optional T or a list of T.
+template <class M>
+using Reach = std::function<M*(void* object)>;
+
+template <class T>
+void storeIn(T& member, T value) {
+  member = std::move(value);
+}
+template <class T>
+void storeIn(std::optional<T>& member, T value) {
+  member = std::move(value);
+}
+template <class T>
+void storeIn(std::vector<T>& member, T value) {
+  member.push_back(std::move(value));
+}
+
+/// A constraint on a T.
+template <class T>
+struct Limit {
+  std::string allowed;  ///< `greater than 0`
+  /// Why a value, given as `text`, breaks it; nothing if it does not.
+  std::function<std::string(const T& value, const std::string& text, const std::string& unit)> problem;
+};
+template <class T>
+using Limits = std::vector<Limit<T>>;
+
+template <class T, class C>
+Limit<T> limitOf(const C& constraint) {
+  return {constraint.allowed, [constraint](const T& value, const std::string& text, const std::string& unit) {
+            return satisfies(value, constraint) ? std::string() : violation(text, constraint, unit);
+          }};
+}
+
+/// Reads a T into a member.
+template <class T, class M>
+SchemaEntry valueEntryOf(Reach<M> member, std::string_view name, std::string_view unit, std::string_view sentence,
+                         Limits<T> limits) {
+  SchemaEntry entry = namedEntry(name, sentence);
+  entry.type = typeName<T>;
+  entry.unit = unit;
+  for (const Limit<T>& limit : limits) entry.limits += (entry.limits.empty() ? "" : " and ") + limit.allowed;
+  entry.assign = [member = std::move(member), limits = std::move(limits), unit = entry.unit](
+                     void* object, const std::string& text, const Location& where) {
+    Parsed<T> parsed = parse<T>(text);
+    if (!parsed) return parsed.problem;
+    for (const Limit<T>& limit : limits)
+      if (std::string problem = limit.problem(*parsed, text, unit); !problem.empty()) return problem;
+    if constexpr (requires { parsed.value->readAt(where); }) parsed.value->readAt(where);
+    storeIn(*member(object), *std::move(parsed.value));
+    return std::string();
+  };
+  return entry;
+}
+
+template <class T>
+void setDefaultOf(SchemaEntry& entry, Reach<T> member, const T& byDefault) {
+  entry.fallback = toText(byDefault);
+  entry.setDefault = [member = std::move(member), byDefault](void* object) { *member(object) = byDefault; };
+}
+
+/// Reads one of several words into a member.
+template <class E, class M>
+SchemaEntry choiceEntryOf(Reach<M> member, std::string_view name, const Choices<E>& choices,
+                          std::string_view sentence) {
+  SchemaEntry entry = namedEntry(name, sentence);
+  for (const auto& [word, meaning] : choices) entry.choices.push_back(word);
+  entry.assign = [member = std::move(member), choices, words = entry.choices](void* object, const std::string& text,
+                                                                              const Location&) {
+    std::string problem = choiceProblem(text, words);
+    if (!problem.empty()) return problem;
+    const auto found = std::find(words.begin(), words.end(), text) - words.begin();
+    storeIn(*member(object), E(choices[found].second));
+    return std::string();
+  };
+  return entry;
+}
+
+template <class E>
+void setDefaultChoiceOf(SchemaEntry& entry, Reach<E> member, const Choices<E>& choices, const E& byDefault) {
+  const auto isDefault = [&](const auto& choice) { return choice.second == byDefault; };
+  const auto found = std::find_if(choices.begin(), choices.end(), isDefault);
+  assert(found != choices.end());
+  entry.fallback = found->first;
+  entry.setDefault = [member = std::move(member), byDefault](void* object) { *member(object) = byDefault; };
+}
+
+}  // namespace tushar::input
