@@ -23,6 +23,19 @@ struct OpenFaces {
   double wall(int side) const { return area - open[side]; }
 };
 
+/// How far the walls of a cell face one way: 1 of one plane wall, 0 of two that face each other.
+template <int D>
+double facingOneWay(const Level& level, const std::array<OpenFaces, D>& faces) {
+  double open = 0, all = 0;
+  for (int d = 0; d < D; ++d) {
+    const double tilt = (faces[d].open[1] - faces[d].open[0]) * level.inverseSpacing(d);
+    const double walls = (2 * faces[d].area - faces[d].open[1] - faces[d].open[0]) * level.inverseSpacing(d);
+    open += tilt * tilt;
+    all += walls * walls;
+  }
+  return all > 0 ? std::min(1.0, std::sqrt(open / all)) : 0;
+}
+
 /// Where the gas can go: cells have free volumes, and faces are open as far as bodies do not cover them.
 ///
 /// A face is open in part, or closed: then there is a wall. Areas close in each cell: along each axis it has the same

@@ -79,12 +79,6 @@ void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diag
     diagnostics.error(*root.child("CFD")->child("cfl"),
                       fmt::format("found {:g}, expected at most {:g} beside bodies: cells may be half full",
                                   scene.gas.cfl, smallFreeVolume));
-  const Element material = *root.child("MaterialProperties")->child("ICE")->child("material");
-  for (const auto& [tag, value] :
-       {std::pair("dynamic_viscosity", scene.viscosity), std::pair("thermal_conductivity", scene.conductivity)})
-    if (value > 0)
-      diagnostics.error(material.child(tag).value_or(material),
-                        "not beside bodies: set it to 0, or run the gas alone as component 'ice'");
 }
 
 /// Conditions on a part of a side are of the gas alone, and bodies have those of whole sides: says so.
@@ -122,6 +116,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};
+  settings.diffusion = {scene.viscosity, scene.conductivity};
   if (scene.exchange) {
     const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
     checkMomentum(*scene.exchange, solids, areRigid, tag, diagnostics);

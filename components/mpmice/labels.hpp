@@ -25,6 +25,8 @@ template <int D>
 inline constexpr CellLabel<Vec<D>> wallPressureBelow{"c.wallPressureBelow", "Pa", "on walls at the lower faces"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> wallPressureAbove{"c.wallPressureAbove", "Pa", "on walls at the upper faces"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> wallFriction{"c.wallFriction", "N/m^3", "of walls on the gas of the cell"};
 /// The state before small cells share theirs with others.
 inline constexpr CellLabel<double> unsharedDensity{"c.unsharedDensity", "kg/m^3", "before small cells share it"};
 template <int D>
@@ -34,7 +36,10 @@ inline constexpr CellLabel<double> unsharedEnergy{"c.unsharedEnergy", "J/m^3", "
 template <int D>
 inline constexpr CellLabel<Vec<D>> impulse{"c.impulseOnBodies", "N s/m^3", "of the gas on walls in the step"};
 inline constexpr CellLabel<double> work{"c.workOnBodies", "J/m^3", "of the gas on walls in the step"};
-inline constexpr CellLabel<double> heat{"c.heatToBodies", "J/m^3", "from the gas in the step"};
+inline constexpr CellLabel<double> heat{"c.heatToBodies", "J/m^3", "from the gas in the step, by coefficients"};
+inline constexpr CellLabel<double> wallHeat{"c.heatToWalls", "J/m^3", "from the gas in the step, by conduction"};
+inline constexpr CellLabel<double> bodyCapacity{"c.bodyCapacity", "J/(m^3 K)", "heat capacity of bodies"};
+inline constexpr CellLabel<double> bodyTemperature{"c.bodyTemperature", "K", "of bodies, by capacity"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> impulseSinceStart{"c.impulseSinceStart", "N s/m^3", "of the gas on walls"};
 inline constexpr CellLabel<double> workSinceStart{"c.workSinceStart", "J/m^3", "of the gas on walls"};

@@ -1,8 +1,10 @@
 #include "components/mpmice/mpmice.hpp"
 
+#include "components/mpmice/tasks/add_diffusion.hpp"
 #include "components/mpmice/tasks/add_gravity.hpp"
 #include "components/mpmice/tasks/advance_gas.hpp"
 #include "components/mpmice/tasks/compute_stable_time_step.hpp"
+#include "components/mpmice/tasks/conduct_to_bodies.hpp"
 #include "components/mpmice/tasks/diagnose.hpp"
 #include "components/mpmice/tasks/exchange_heat.hpp"
 #include "components/mpmice/tasks/initialize.hpp"
@@ -43,11 +45,16 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
       "mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
       withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.mass = 1, .room = 2})),
       requiresNew(g::record, 1), withoutMaterial(all<WallPressures<D>>()));
+  if (isViscous())
+    tasks.acrossMaterials(
+        "mpmice::computeWallFriction", computeWallFriction<D>, materials, with(settings_), requiresOld(delT),
+        withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.mass = 1, .room = 2})),
+        requiresNew(g::record, 1), withoutMaterial(computes(c::wallFriction<D>)));
   tasks.acrossMaterials(
       "mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
       withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.mass = 3, .room = 3})),
-      withoutMaterial(all<KnownWalls<D>>(2)), requiresNew(g::record, 2), computes(total::forceOnBodies),
-      computes(g::surroundingForce<D>));
+      withoutMaterial(all<KnownWalls<D>>(2, isViscous())), requiresNew(g::record, isViscous() ? 3 : 2),
+      computes(total::forceOnBodies), computes(g::surroundingForce<D>));
 }
 
 template <int D>
@@ -60,8 +67,14 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   tasks.acrossMaterials(
       "mpmice::advanceGas", advanceBody<D>(settings_.gas.method), materials, with(settings_), requiresOld(delT),
       withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.state = 2, .mass = 2, .room = 3})),
-      withoutMaterial(all<BodiesInStep<D>>()), requiresNew(g::record, 1), withoutMaterial(all<UnsharedGas<D>>()),
-      withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
+      withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 1),
+      withoutMaterial(all<UnsharedGas<D>>()), withoutMaterial(all<OfferedExchange<D>>()),
+      computes(total::powerOnBodies));
+  if (settings_.diffusion.acts())
+    tasks.perPatch("mpmice::addDiffusion", addDiffusion<D>, with(settings_),
+                   all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.state = 1, .mass = 3, .room = 3}),
+                   requiresOld(delT), modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy));
+  if (conductsToBodies()) scheduleConduction(tasks, materials);
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_), all<Unshared<D>>(), all<NewGas<D>>(),
                  computes(total::mergedCells));
   if (exchangesHeat())
@@ -75,6 +88,19 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   scheduleSums(tasks, materials);
 }
 
+/// Heat through the walls of bodies, by the state at the start of the step.
+template <int D>
+void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& materials) const {
+  constexpr typename GasInCells<D>::Reach reach{.state = 1, .mass = 2, .room = 2};
+  tasks.acrossMaterials("mpmice::measureBodyHeat", measureBodyHeat<D>, materials, with(settings_),
+                        all<HeatOfParticles>(), withoutMaterial(all<BodyHeat>()));
+  tasks.perPatch("mpmice::conductFromGas", conductFromGas<D>, with(settings_), all<GasInCells<D>>(readsOld, reach),
+                 all<KnownBodyHeat>(), requiresOld(delT), modifies(c::unsharedEnergy), computes(c::wallHeat));
+  tasks.acrossMaterials("mpmice::conductToBodies", conductToBodies<D>, materials, with(settings_),
+                        withoutMaterial(all<GasInCells<D>>(readsOld, reach)), withoutMaterial(all<KnownBodyHeat>()),
+                        requiresOld(delT), modifies(p::temperature));
+}
+
 /// What went from the gas to bodies since the start, and through them; each only if something asks for it.
 template <int D>
 void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) const {
@@ -83,7 +109,8 @@ void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) con
   tasks.perPatch("mpmice::addWork", addToSum<D, double>, requiresNew(c::work), requiresOld(c::workSinceStart),
                  computes(c::workSinceStart));
   if (exchangesHeat())
-    tasks.perPatch("mpmice::addHeat", addToSum<D, double>, requiresNew(c::heat), requiresOld(c::heatSinceStart),
+    tasks.perPatch("mpmice::addHeat", addHeatToSum<D>, requiresNew(c::heat),
+                   when(conductsToBodies(), requiresNew(c::wallHeat)), requiresOld(c::heatSinceStart),
                    computes(c::heatSinceStart));
   tasks.acrossMaterials(
       "mpmice::measureLeak", measureLeak<D>, materials, all<Boxes<D>>(readsOld), with(settings_),
@@ -98,6 +125,9 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
                     requiresOld(mpm::solid::c::stableTimeStep), computes(delT));
   tasks.perPatch("mpmice::computeStableTimeStep", computeStableTimeStep<D>, with(settings_),
                  all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{}), computes(delT));
+  if (settings_.diffusion.acts())
+    tasks.perPatch("mpmice::limitDiffusion", limitDiffusion<D>, with(settings_),
+                   all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{}), computes(delT));
 }
 
 template <int D>

@@ -25,6 +25,9 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleDiagnostics(TaskList& tasks) const;
 
  private:
+  bool conductsToBodies() const { return settings_.diffusion.conductivity > 0 && exchangesHeat(); }
+  void scheduleConduction(TaskList& tasks, const Materials& materials) const;
+  bool isViscous() const { return settings_.diffusion.viscosity > 0; }
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
 
   Settings settings_;

@@ -8,6 +8,9 @@
 
 namespace tushar::mpmice {
 
+/// Cells around a patch whose free volume determines the state of a cell beside it.
+inline constexpr int nearLayers = 2;
+
 /// The place of a cell in a box, row by row.
 template <int D>
 std::size_t offsetIn(const Box& box, const Index<D>& cell) {

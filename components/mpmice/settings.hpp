@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/euler/diffusion.hpp"
 #include "components/euler/settings.hpp"
 #include "core/core.hpp"
 
@@ -13,6 +14,7 @@ struct Settings {
   std::vector<double> heat;      ///< W/(m³ K) between pairs of materials, row by row, the gas last; empty: none flows
   bool thinWalls = false;        ///< bodies thinner than a cell hold the gas back, too
   bool areRigid = false;         ///< bodies move as they started, whatever the gas does
+  euler::Diffusion diffusion = {};  ///< in the gas
 };
 
 /// Free volumes below this are none.

@@ -4,6 +4,7 @@
 Each name below is a scene; the numbers are cells along x, and each gives a line.
 """
 import math
+import pathlib
 import sys
 import tempfile
 
@@ -178,6 +179,32 @@ def closed_box(cells):
     energies = [one + strain[1] for one, strain in zip(run_of.energies(), run_of.totals["StrainEnergy"])]
     return {"mass": run_of.drift([line[1] for line in run_of.totals["GasMass"]]),
             "energy": energies[-1] / energies[0] - 1}
+
+
+def couette(cells):
+    """Errors of the velocity over the greatest, in full cells away from the plate, and of the force, relative."""
+    with tempfile.TemporaryDirectory() as folder:
+        archive = archive_of(scene("couette"), folder, f"Grid/Level/Box/resolution=[4,{cells},1]",
+                             f"Grid/Level/Box/upper=[{4 / cells},1,1]")
+        found = columns(archive, "c.velocity")
+        force = [float(word) for word in (archive / "GasForceOnBodies.dat").read_text().splitlines()[-1].split()][1]
+    height, speed = .78, .1
+    away = [(y / height, u / speed) for y, u in zip(found["y [m]"], found["c.velocity.x [m/s]"]) if y < .65]
+    return {"u": max(abs(u - exact) for exact, u in away), "force": force / (-.1 * speed / height * 4 / cells) - 1}
+
+
+def warm_body(cells, face=.78):
+    """Relative error of the heat that a body gives in a second, by the place of its face."""
+    text = scene("warm_body").read_text().replace("[0.78,0,0]", f"[{face},0,0]")
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder, "warm_body.ups")
+        path.write_text(text)
+        archive = archive_of(path, folder, f"Grid/Level/Box/resolution=[{cells},1,1]")
+        heat = [[float(word) for word in line.split()]
+                for line in (archive / "GasHeatToBodies.dat").read_text().splitlines()[1:]]
+    before = [line for line in heat if line[0] <= heat[-1][0] - 1][-1]
+    rate = (heat[-1][1] - before[1]) / (heat[-1][0] - before[0])
+    return {"heat": rate / (-.25 / face) - 1}
 
 
 def panel(cells):

@@ -10,23 +10,6 @@ namespace {
 /// T stands where a State has the density, and nothing where it has the pressure.
 inline constexpr std::size_t kTemperature = kDensity;
 
-/// T and v of the cells of a box that are on the grid or its images.
-template <int D>
-void findTemperature(const Gas& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& rows) {
-  const double perPressure = gas.specificHeat > 0 ? 1 / gas.gasConstant() : 0;
-  forEachRow<D>(level.clipCells(rows.box()), [&](Index<D> cell, int count) {
-    const auto to = rows.at(cell);
-    for (std::ptrdiff_t i = 0; i < count; ++i, ++cell[0]) {
-      State<D> w{};
-      const double inverse = 1 / old.density[cell];
-      w[kTemperature] = gas.law ? gas.temperature(old.density[cell], internalEnergyIn<D, const double>(old, cell))
-                                : (pressureIn(gas, old, cell) + gas.pInfinity) * inverse * perPressure;
-      for (int d = 0; d < D; ++d) w[kVelocity(d)] = old.momentum[cell][d] * inverse;
-      store<D>(to, i, w);
-    }
-  });
-}
-
 /// Distances in memory of neighbours, and 1/h, along each axis.
 template <int D>
 struct Spacing {
@@ -75,7 +58,34 @@ void keepDiffused(const DiffusionRims<D>& rims, const Box& faces, int axis, Rows
       faces, axis, [&](const Index<D>& face, double& through) { through += *flux.at(face)[kPressure<D>]; });
 }
 
-/// Adds what flows into the cells of a block across an axis.
+}  // namespace
+
+template <int D>
+void findTemperature(const Gas& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& rows) {
+  const double perPressure = gas.specificHeat > 0 ? 1 / gas.gasConstant() : 0;
+  forEachRow<D>(level.clipCells(rows.box()), [&](Index<D> cell, int count) {
+    const auto to = rows.at(cell);
+    for (std::ptrdiff_t i = 0; i < count; ++i, ++cell[0]) {
+      State<D> w{};
+      const double inverse = 1 / old.density[cell];
+      w[kTemperature] = gas.law ? gas.temperature(old.density[cell], internalEnergyIn<D, const double>(old, cell))
+                                : (pressureIn(gas, old, cell) + gas.pInfinity) * inverse * perPressure;
+      for (int d = 0; d < D; ++d) w[kVelocity(d)] = old.momentum[cell][d] * inverse;
+      store<D>(to, i, w);
+    }
+  });
+}
+
+template <int D>
+void computeDiffusiveFluxes(const Diffusion& diffusion, const Level& level, const Box& faces, int axis, Rows<D>& w,
+                            Rows<D>& flux) {
+  const Spacing<D> spacing(level, w);
+  forEachRow<D>(faces, [&](const Index<D>& first, int count) {
+    const auto from = w.at(first), to = flux.at(first);
+    for (std::ptrdiff_t i = 0; i < count; ++i) store<D>(to, i, fluxAt<D>(diffusion, from, spacing, axis, i));
+  });
+}
+
 template <int D>
 void addDiffused(double ratio, const Box& block, int axis, Rows<D>& flux, CellView<Vec<D>> momentum,
                  CellView<double> energy) {
@@ -88,8 +98,6 @@ void addDiffused(double ratio, const Box& block, int axis, Rows<D>& flux, CellVi
     }
   });
 }
-
-}  // namespace
 
 template <int D>
 void addDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion, const OldState<D>& old, double time,
@@ -105,14 +113,10 @@ void addDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion
     flux.hold(w.box());
     findTemperature<D>(gas, level, old, w);
     fillBeyondGrid<D>(level, rules, w);
-    const Spacing<D> spacing(level, w);
     for (int axis = 0; axis < D; ++axis) {
       Box faces = block;
       ++faces.upper[axis];
-      forEachRow<D>(faces, [&](const Index<D>& first, int count) {
-        const auto from = w.at(first), to = flux.at(first);
-        for (std::ptrdiff_t i = 0; i < count; ++i) store<D>(to, i, fluxAt<D>(diffusion, from, spacing, axis, i));
-      });
+      computeDiffusiveFluxes<D>(diffusion, level, faces, axis, w, flux);
       keepDiffused<D>(rims, faces, axis, flux);
       addDiffused<D>(dt / level.spacing(axis), block, axis, flux, newMomentum, newTotalEnergy);
     }
@@ -138,6 +142,9 @@ void limitDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusi
 }
 
 #define TUSHAR_DIFFUSION(D)                                                                                     \
+  template void findTemperature<D>(const Gas&, const Level&, const StateViews<D, const double>&, Rows<D>&);     \
+  template void computeDiffusiveFluxes<D>(const Diffusion&, const Level&, const Box&, int, Rows<D>&, Rows<D>&); \
+  template void addDiffused<D>(double, const Box&, int, Rows<D>&, CellView<Vec<D>>, CellView<double>);          \
   template void addDiffusion<D>(const Patch&, const Gas&, const Diffusion&, const OldState<D>&, double, double, \
                                 CellView<Vec<D>>, CellView<double>, const DiffusionRims<D>&);                   \
   template void limitDiffusion<D>(const Patch&, const Gas&, const Diffusion&, double, CellView<const double>,   \

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/euler/diffusion.hpp"
+#include "components/euler/rows.hpp"
 #include "components/euler/state_views.hpp"
 
 namespace tushar::euler {
@@ -15,6 +16,20 @@ struct DiffusionRims {
     return {.momentum = take(keepsFlux(c::momentum<D>)), .energy = take(keepsFlux(c::totalEnergy))};
   }
 };
+
+/// T [K] in the place of the density, and v, of the cells of `rows` that are on the grid or its images.
+template <int D>
+void findTemperature(const Gas& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& rows);
+
+/// The diffusive fluxes through the lower faces of `faces` across an axis, Pa and W/m², of T and v around them.
+template <int D>
+void computeDiffusiveFluxes(const Diffusion& diffusion, const Level& level, const Box& faces, int axis, Rows<D>& w,
+                            Rows<D>& flux);
+
+/// Adds what flows into the cells of a block across an axis; `ratio` is dt / h [s/m].
+template <int D>
+void addDiffused(double ratio, const Box& block, int axis, Rows<D>& flux, CellView<Vec<D>> momentum,
+                 CellView<double> energy);
 
 /// Adds what viscosity and heat conduction change in a step, from the state [kg/m³, kg/(m² s), J/m³] and the time at
 /// its start.

@@ -14,8 +14,8 @@ struct BodiesInStep {
   CellView<const double> newFree;
   CellView<const Vec<D>> swept;
 
-  static BodiesInStep from(auto& take) {
-    return {.walls = KnownWalls<D>::from(take, 0),
+  static BodiesInStep from(auto& take, bool isViscous) {
+    return {.walls = KnownWalls<D>::from(take, 0, isViscous),
             .newFree = take(requiresNew(c::unfilledVolume, 3)),
             .swept = take(requiresNew(c::swept<D>, 1))};
   }
@@ -46,6 +46,7 @@ class WallExchange {
   WallExchange(const Level& level, const Settings& settings, const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
                const typename BodiesAtNodes<D>::Records& records, double dt)
       : level_(level),
+        settings_(settings),
         gas_(settings.gas.gas),
         rules_(euler::ghostRules<D>(level, settings.gas.gas)),
         cells_(cells),
@@ -64,6 +65,7 @@ class WallExchange {
   /// what the gas gives to the walls.
   Given<D> addTo(const Index<D>& cell, const euler::StateViews<D, double>& held) const {
     Given<D> given;
+    if (step_.walls.friction && !(*step_.walls.friction)[cell].isZero(0)) drag(cell, held, given);
     for (int d = 0; d < D; ++d) {
       const OpenFaces faces = space_.faces(cell, d);
       for (int side = 0; side < 2; ++side) {
@@ -103,6 +105,25 @@ class WallExchange {
     held.totalEnergy[cell] += work;
     given.impulse[axis] -= impulse;
     given.work -= work;
+  }
+
+  /// Friction, and its work at the mean of the walls' velocities before and after the step.
+  void drag(const Index<D>& cell, const euler::StateViews<D, double>& held, Given<D>& given) const {
+    const CellFriction<D> weights = frictionWeights<D>(level_, settings_, cells_, space_, nodes_, cell);
+    for (int a = 0; a < D; ++a)
+      for (int side = 0; side < 2; ++side) {
+        const double share = weights.share(a, side);
+        if (!(share > 0)) continue;
+        const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(a);
+        const Vec<D> twice = nodes_.velocityAt(face, a, mpm::solid::lane::before) +
+                             nodes_.velocityAt(face, a, mpm::solid::lane::velocity);
+        const Vec<D> impulse = dt_ * share * (*step_.walls.friction)[cell];
+        const double work = 0.5 * impulse.dot(twice);
+        held.momentum[cell] += impulse;
+        held.totalEnergy[cell] += work;
+        given.impulse -= impulse;
+        given.work -= work;
+      }
   }
 
   /// Whether bodies are at the face below a cell, or went through it.
@@ -160,6 +181,7 @@ class WallExchange {
   }
 
   const Level& level_;
+  const Settings& settings_;
   const euler::Gas& gas_;
   euler::GhostRules<D> rules_;
   const GasInCells<D>& cells_;

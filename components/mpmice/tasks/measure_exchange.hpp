@@ -35,6 +35,14 @@ void addToSum(const Patch& patch, CellView<const T> part, CellView<const T> befo
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { now[cell] = before[cell] + part[cell]; });
 }
 
+/// The same of heat, by coefficients and, where walls conduct, through them.
+template <int D>
+void addHeatToSum(const Patch& patch, CellView<const double> heat, const std::optional<CellView<const double>>& walls,
+                  CellView<const double> before, CellView<double> now) {
+  forEach<D>(patch.cells(),
+             [&](const Index<D>& cell) { now[cell] = before[cell] + heat[cell] + (walls ? (*walls)[cell] : 0); });
+}
+
 /// Nothing has been given yet.
 template <int D, class T>
 void startSum(const Patch&, CellView<T> sum) {

@@ -1,15 +1,10 @@
 #pragma once
 
 #include "components/mpm/solid/material.hpp"
-#include "components/mpmice/bodies_at_nodes.hpp"
-#include "components/mpmice/free_space.hpp"
-#include "components/mpmice/near_bodies.hpp"
+#include "components/mpmice/wall_friction.hpp"
 #include "components/mpmice/wall_pressure.hpp"
 
 namespace tushar::mpmice {
-
-/// Cells around a patch whose free volume determines the state of a cell beside it.
-inline constexpr int nearLayers = 2;
 
 /// The pressure of a cell's gas on the walls at its lower and upper faces, Pa.
 template <int D>
@@ -27,15 +22,8 @@ class CellWalls {
  public:
   CellWalls(const Level& level, const FreeSpace<D>& space, const Index<D>& cell, const euler::State<D>& w)
       : normal_(space.normal(cell)), w_(w) {
-    double open = 0, all = 0;
-    for (int d = 0; d < D; ++d) {
-      const OpenFaces faces = faces_[d] = space.faces(cell, d);
-      const double tilt = (faces.open[1] - faces.open[0]) * level.inverseSpacing(d);
-      const double walls = (2 * faces.area - faces.open[1] - faces.open[0]) * level.inverseSpacing(d);
-      open += tilt * tilt;
-      all += walls * walls;
-    }
-    slip_ = all > 0 ? std::min(1.0, std::sqrt(open / all)) : 0;
+    for (int d = 0; d < D; ++d) faces_[d] = space.faces(cell, d);
+    slip_ = facingOneWay<D>(level, faces_);
   }
   bool hasWall(int axis, int side) const { return faces_[axis].wall(side) > 0; }
   double pressure(const euler::Gas& gas, const Vec<D>& wallVelocity, int axis, int side) const {
@@ -50,7 +38,7 @@ class CellWalls {
   Vec<D> normal_;
   euler::State<D> w_;
   std::array<OpenFaces, D> faces_;
-  double slip_;
+  double slip_ = 0;
 };
 
 /// Pressure of the gas on walls, by the velocities of gas and bodies at the start of the step.
@@ -79,13 +67,16 @@ void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Mater
   });
 }
 
-/// The pressures that computeWallPressure found.
+/// The pressures that computeWallPressure found, and where the gas is viscous the friction.
 template <int D>
 struct KnownWalls {
   CellView<const Vec<D>> below, above;
-  static KnownWalls from(auto& take, int ghost) {
+  std::optional<CellView<const Vec<D>>> friction = {};
+
+  static KnownWalls from(auto& take, int ghost, bool isViscous) {
     return {.below = take(requiresNew(c::wallPressureBelow<D>, ghost)),
-            .above = take(requiresNew(c::wallPressureAbove<D>, ghost))};
+            .above = take(requiresNew(c::wallPressureAbove<D>, ghost)),
+            .friction = take(when(isViscous, requiresNew(c::wallFriction<D>, ghost)))};
   }
 };
 
@@ -104,6 +95,22 @@ double forceAt(const Level& level, const FreeSpace<D>& space, const KnownWalls<D
     if (const double wall = space.faces(cell, axis).wall(0); wall > 0)
       force -= wall * (walls.below[cell][axis] - reference);
   return force * level.cellVolume() * level.inverseSpacing(axis);
+}
+
+/// Force of the gas that rubs along the walls at the lower face of a cell, N; from its gas and that of the cell below.
+template <int D>
+Vec<D> frictionAt(const Level& level, const Settings& settings, const FreeSpace<D>& space, const KnownWalls<D>& walls,
+                  const GasInCells<D>& cells, const BodiesAtNodes<D>& bodies, const Index<D>& face, int axis) {
+  Vec<D> force = Vec<D>::Zero();
+  for (int side = 0; side < 2; ++side) {
+    const Index<D> cell = side == 0 ? face : face - Index<D>::unit(axis);
+    if (!level.isPeriodic(axis) && (cell[axis] < level.cells().lower[axis] || cell[axis] >= level.cells().upper[axis]))
+      continue;
+    const Vec<D>& friction = (*walls.friction)[cell];
+    if (friction.isZero(0)) continue;
+    force -= frictionWeights<D>(level, settings, cells, space, bodies, cell).share(axis, side) * friction;
+  }
+  return level.cellVolume() * force;
 }
 
 /// Whether the grid has a face below the cell across an axis, its upper side included.
@@ -138,18 +145,18 @@ void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, 
   for (int d = 0; d < D; ++d) ++around.upper[d];
   const NearBodies<D> near(around, nearLayers, cells.free, cells.held.density);
   const auto addAt = [&](const Index<D>& cell, int axis) {
-    const double force = forceAt<D>(level, space, walls, settings.referencePressure, cell, axis);
-    const double mass = force != 0 ? bodies.massAt(cell, axis) : 0;
+    Vec<D> force = Vec<D>::Zero();
+    if (walls.friction) force = frictionAt<D>(level, settings, space, walls, cells, bodies, cell, axis);
+    force[axis] += forceAt<D>(level, space, walls, settings.referencePressure, cell, axis);
+    const double mass = !force.isZero(0) ? bodies.massAt(cell, axis) : 0;
     if (!(mass > 0)) return;
     if (!settings.areRigid)
       forEach<D>(bodies.nodesAt(cell, axis), [&](const Index<D>& node) {
         for (std::size_t m = 0; m < forces.size(); ++m)
           if (const double own = records[m][node][mpm::solid::lane::mass]; own > 0 && forces[m].box().contains(node))
-            forces[m][node][axis] += force * (own / mass);
+            forces[m][node] += force * (own / mass);
       });
-    Vec<D> along = Vec<D>::Zero();
-    along[axis] = force;
-    if (ownsFace<D>(patch, cell, axis)) total.add(level.expandDirection<D>(along));
+    if (ownsFace<D>(patch, cell, axis)) total.add(level.expandDirection<D>(force));
   };
   near.forEachIn(around, [&](const Index<D>& cell) {
     for (int axis = 0; axis < D; ++axis)

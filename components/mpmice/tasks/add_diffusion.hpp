@@ -1,0 +1,178 @@
+#pragma once
+
+#include "components/euler/boundary.hpp"
+#include "components/euler/tasks/add_diffusion.hpp"
+#include "components/mpmice/tasks/compute_stable_time_step.hpp"
+#include "components/mpmice/wall_friction.hpp"
+
+namespace tushar::mpmice {
+
+/// Temperature of a gas, K, from its density and the last of its primitive variables: (p + p_inf) / (R rho), or by its
+/// own equation of state.
+inline double temperatureOf(const euler::Gas& gas, double density, double last) {
+  if (gas.law) return gas.temperature(density, gas.energyOf(density, last));
+  return (last + gas.pInfinity) / (gas.gasConstant() * density);
+}
+
+/// Viscosity and conduction through the faces beside bodies, as far as these are open. T and v count in the middle of
+/// a cell's gas, and where a cell has none, that of its neighbour at the face stands for it.
+template <int D>
+class DiffusionBeside {
+ public:
+  DiffusionBeside(const Level& level, const Settings& settings, const GasInCells<D>& cells, const euler::Rows<D>& w)
+      : level_(level), diffusion_(settings.diffusion), cells_(cells), space_(level, settings, cells), w_(w) {}
+
+  /// Pa and W/m² through the lower face of a cell across an axis.
+  euler::State<D> fluxThrough(const Index<D>& cell, int axis) const {
+    const Index<D> below = cell - Index<D>::unit(axis);
+    euler::State<D> flux{};
+    const double open = openFor(cell, below, axis);
+    if (!(open > 0)) return flux;
+    const double perWidth = level_.inverseSpacing(axis) / distance(cell, below, axis);
+    const double along = rise(cell, below, euler::kVelocity(axis)) * perWidth;
+    double others = 0;
+    for (int k = 0; k < D; ++k) {
+      if (k == axis) continue;
+      others += slope(cell, below, k, euler::kVelocity(k));
+      flux[euler::kVelocity(k)] = -diffusion_.viscosity * (rise(cell, below, euler::kVelocity(k)) * perWidth +
+                                                           slope(cell, below, k, euler::kVelocity(axis)));
+    }
+    flux[euler::kVelocity(axis)] = -diffusion_.viscosity * (2 * along - 2.0 / 3 * (along + others));
+    double energy = -diffusion_.conductivity * rise(cell, below, euler::kDensity) * perWidth;
+    for (int k = 0; k < D; ++k) {
+      const std::size_t v = euler::kVelocity(k);
+      energy += flux[v] * 0.5 * (w_.number(cell, v) + w_.number(below, v));
+    }
+    flux[euler::kPressure<D>] = energy;
+    for (double& number : flux) number *= open;
+    return flux;
+  }
+
+ private:
+  /// The cell itself or, beyond the grid, that which it mirrors.
+  Index<D> onGrid(Index<D> cell) const {
+    for (int d = 0; d < D; ++d)
+      if (!level_.isPeriodic(d)) cell[d] = std::clamp(cell[d], level_.cells().lower[d], level_.cells().upper[d] - 1);
+    return cell;
+  }
+  bool isBeyond(const Index<D>& cell, int axis) const {
+    return !level_.isPeriodic(axis) &&
+           (cell[axis] < level_.cells().lower[axis] || cell[axis] >= level_.cells().upper[axis]);
+  }
+  /// The open share of a face; no more than a step of the time that cells allow may use up.
+  double openFor(const Index<D>& cell, const Index<D>& below, int axis) const {
+    const double open = isBeyond(cell, axis) ? space_.aperture(below, axis, 1) : space_.aperture(cell, axis, 0);
+    return std::min(open, 2 * std::min(cells_.free[onGrid(cell)], cells_.free[onGrid(below)]));
+  }
+  double rise(const Index<D>& cell, const Index<D>& below, std::size_t number) const {
+    return w_.number(cell, number) - w_.number(below, number);
+  }
+  /// Slope of a number across another axis at a face.
+  double slope(const Index<D>& cell, const Index<D>& below, int axis, std::size_t number) const {
+    double sum = 0;
+    for (const Index<D>& at : {cell, below})
+      for (const int side : {-1, 1}) {
+        const Index<D> next = side < 0 ? at - Index<D>::unit(axis) : at + Index<D>::unit(axis);
+        sum += side * w_.number(space_.isEmpty(onGrid(next)) ? at : next, number);
+      }
+    return 0.25 * level_.inverseSpacing(axis) * sum;
+  }
+  /// How far apart, in cells, the gas of two cells is along an axis.
+  double distance(const Index<D>& cell, const Index<D>& below, int axis) const {
+    if (isBeyond(cell, axis) || isBeyond(below, axis)) {
+      const bool isUpper = isBeyond(cell, axis);  // the mirror image is as far away from the side
+      return 1 + (isUpper ? -2 : 2) * middle(isUpper ? below : cell, axis);
+    }
+    return std::max(0.5, 1 + middle(cell, axis) - middle(below, axis));
+  }
+  /// Where the middle of a cell's gas is along an axis, in cells from that of the cell: away from its walls, and
+  /// towards a small cell with which it shares.
+  double middle(const Index<D>& cell, int axis) const {
+    const OpenFaces faces = space_.faces(cell, axis);
+    const double walls = faces.wall(0) + faces.wall(1);
+    double middle = walls > 0 ? 0.5 * (1 - cells_.free[cell]) * (faces.wall(0) - faces.wall(1)) / walls : 0;
+    for (const int side : {0, 1}) {
+      if (space_.isAtSide(cell, axis, side) || !(faces.open[side] > 0)) continue;
+      const double next = cells_.free[side == 0 ? cell - Index<D>::unit(axis) : cell + Index<D>::unit(axis)];
+      if (next < smallFreeVolume && next < cells_.free[cell]) middle += (side == 0 ? -0.5 : 0.5) * next;
+    }
+    return std::clamp(middle, -0.25, 0.25);
+  }
+
+  const Level& level_;
+  const euler::Diffusion& diffusion_;
+  const GasInCells<D>& cells_;
+  FreeSpace<D> space_;
+  const euler::Rows<D>& w_;
+};
+
+/// T and v of the gas in the cells of the work's box; where there is none, numbers that nothing uses.
+template <int D>
+void findTemperatures(const euler::Gas& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
+                      euler::Rows<D>& w) {
+  euler::findTemperature<D>(gas, level, cells.held, w);
+  near.forEachIn(level.clipCells(w.box()), [&](const Index<D>& cell) {
+    if (!(cells.free[cell] < 1) && !cells.isEmpty(cell)) return;
+    euler::State<D> state{};
+    if (!cells.isEmpty(cell)) {
+      state = cells.primitive(gas, cell);
+      state[euler::kDensity] = temperatureOf(gas, state[euler::kDensity], state[euler::kPressure<D>]);
+    }
+    euler::store<D>(w.at(cell), 0, state);
+  });
+}
+
+/// Adds what viscosity and conduction change within the gas in a step, from the state at its start, to that before
+/// small cells share: through faces as far as they are open. Friction at walls is with their pressure. Where no body is
+/// near, it is that of `euler`, to the last bit.
+template <int D>
+void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
+                  CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
+  const Level& level = patch.level();
+  const euler::Gas& gas = settings.gas.gas;
+  const euler::GhostRules<D> rules = euler::diffusionRules<D>(level, gas);
+  const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
+  std::size_t room = 1;
+  for (int d = 0; d < D; ++d) room *= std::min(patch.cells().extent(d), euler::kBlock<D>[d]) + 2;
+  euler::Rows<D> w(room), flux(room);
+  euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
+    w.hold(block.grown(1, D));
+    flux.hold(w.box());
+    findTemperatures<D>(gas, level, cells, near, w);
+    euler::fillBeyondGrid<D>(level, rules, w);
+    const DiffusionBeside<D> beside(level, settings, cells, w);
+    for (int axis = 0; axis < D; ++axis) {
+      Box faces = block;
+      ++faces.upper[axis];
+      euler::computeDiffusiveFluxes<D>(settings.diffusion, level, faces, axis, w, flux);
+      near.forEachIn(faces,
+                     [&](const Index<D>& cell) { euler::store<D>(flux.at(cell), 0, beside.fluxThrough(cell, axis)); });
+      euler::addDiffused<D>(dt / level.spacing(axis), block, axis, flux, momentum, totalEnergy);
+    }
+  });
+}
+
+/// dt = cfl / max(sum_d (|v_d| + c) / h_d + 2 nu / (l h_d)²) of the gas, nu the greatest diffusivity, l the thickness
+/// of its layer in cells.
+template <int D>
+void limitDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
+  const euler::Gas& gas = settings.gas.gas;
+  const Level& level = patch.level();
+  double widths = 0, squares = 0, greatest = 0;
+  for (int d = 0; d < D; ++d) widths += level.inverseSpacing(d);
+  for (int d = 0; d < D; ++d) squares += level.inverseSpacing(d) * level.inverseSpacing(d);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (cells.isEmpty(cell)) return;
+    const double perFree = 1 / cells.free[cell], layer = std::min(1.0, layerOf(cells.free[cell]));
+    const double rho = cells.held.density[cell] * perFree;
+    const Vec<D> momentum = cells.held.momentum[cell] * perFree;
+    const double internal = cells.held.totalEnergy[cell] * perFree - 0.5 * momentum.squaredNorm() / rho;
+    const double c2 = gas.soundSpeedSquared(rho, gas.last(rho, internal));
+    double rate = std::sqrt(c2) * widths + 2 * settings.diffusion.greatest(gas, rho) * squares / (layer * layer);
+    for (int d = 0; d < D; ++d) rate += std::abs(momentum[d]) / rho * level.inverseSpacing(d);
+    greatest = rate > greatest ? rate : greatest;
+  });
+  if (greatest > 0) dt.add(settings.gas.cfl / greatest, "diffusion");
+}
+
+}  // namespace tushar::mpmice

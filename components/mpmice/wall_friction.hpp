@@ -1,0 +1,129 @@
+#pragma once
+
+#include "components/mpm/solid/material.hpp"
+#include "components/mpmice/bodies_at_nodes.hpp"
+#include "components/mpmice/free_space.hpp"
+#include "components/mpmice/near_bodies.hpp"
+
+namespace tushar::mpmice {
+
+/// Thickness of the layer of gas, in cells, that a cell's velocity stands for: of a small cell, together with the
+/// neighbour that shares its own.
+inline double layerOf(double free) { return free < smallFreeVolume ? 1 + free : free; }
+
+/// How a cell's walls drag along its gas, at each face: viscosity times the wall's area along its surface over the
+/// distance from there to the middle of the gas, per volume of the cell.
+template <int D>
+class CellFriction {
+ public:
+  /// `massAt(face, axis)`: mass of bodies that the face belongs to; a wall without any drags nothing.
+  template <class MassAt>
+  CellFriction(const Level& level, const FreeSpace<D>& space, const Index<D>& cell, double free, double viscosity,
+               MassAt&& massAt)
+      : normal_(space.normal(cell)) {
+    std::array<OpenFaces, D> all;
+    for (int a = 0; a < D; ++a) all[a] = space.faces(cell, a);
+    slip_ = facingOneWay<D>(level, all);
+    for (int a = 0; a < D; ++a) {
+      const OpenFaces& faces = all[a];
+      const double along = slip_ * std::abs(normal_[a]) + (1 - slip_);
+      const double perWidth = level.inverseSpacing(a);
+      for (int side = 0; side < 2; ++side) {
+        const double wall = faces.wall(side);
+        if (!(wall > 0) || !(massAt(side == 0 ? cell : cell + Index<D>::unit(a), a) > 0)) continue;
+        drag_[a][side] = viscosity * wall * along * perWidth * perWidth / (0.5 * layerOf(free));
+        all_ += drag_[a][side];
+      }
+    }
+  }
+
+  /// Pa s/m² of all walls together; 0 without walls.
+  double all() const { return all_; }
+  /// The share of the friction at a face.
+  double share(int axis, int side) const { return drag_[axis][side] > 0 ? drag_[axis][side] / all_ : 0; }
+  /// The part of a velocity along the walls: less what goes into an oblique wall, and into each one between walls.
+  Vec<D> alongWalls(const Vec<D>& velocity) const {
+    Vec<D> along = velocity - slip_ * velocity.dot(normal_) * normal_;
+    for (int a = 0; a < D; ++a) along[a] -= (1 - slip_) * (share(a, 0) + share(a, 1)) * velocity[a];
+    return along;
+  }
+
+ private:
+  Vec<D> normal_;
+  double slip_ = 0;
+  std::array<std::array<double, 2>, D> drag_{};
+  double all_ = 0;
+};
+
+/// The shares of the friction at the faces of a cell with gas.
+template <int D>
+CellFriction<D> frictionWeights(const Level& level, const Settings& settings, const GasInCells<D>& cells,
+                                const FreeSpace<D>& space, const BodiesAtNodes<D>& bodies, const Index<D>& cell) {
+  return {level, space, cell, cells.free[cell], settings.diffusion.viscosity, [&](const Index<D>& face, int axis) {
+            return bodies.massAt(face, axis);
+          }};
+}
+
+/// Friction of a step on the gas of a cell, N/m³ of the cell.
+template <int D>
+struct FrictionOfStep {
+  const Level& level;
+  const Settings& settings;
+  const GasInCells<D>& cells;
+  const FreeSpace<D>& space;
+  const BodiesAtNodes<D>& bodies;
+  double dt;
+
+  /// mu A dv / d, but no more than brings gas and walls to one velocity within the step.
+  Vec<D> on(const Index<D>& cell) const {
+    const CellFriction<D> weights = frictionWeights<D>(level, settings, cells, space, bodies, cell);
+    if (!(weights.all() > 0)) return Vec<D>::Zero();
+    Vec<D> walls = Vec<D>::Zero();
+    double ofBodies = 0;
+    for (int a = 0; a < D; ++a)
+      for (int side = 0; side < 2; ++side) {
+        const double share = weights.share(a, side);
+        if (!(share > 0)) continue;
+        const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(a);
+        walls += share * bodies.velocityAt(face, a, mpm::solid::lane::velocity);
+        ofBodies += share / bodies.massAt(face, a);
+      }
+    if (settings.areRigid) ofBodies = 0;
+    const Vec<D> gas = cells.held.momentum[cell] / cells.held.density[cell];
+    const double perMass = 1 / massAbout(cell) + ofBodies * level.cellVolume();
+    return std::min(weights.all(), 1 / (dt * perMass)) * weights.alongWalls(walls - gas);
+  }
+
+ private:
+  /// Mass that a cell's friction moves, kg/m³: of a small cell, with that of the neighbour that has most.
+  double massAbout(const Index<D>& cell) const {
+    const double own = cells.held.density[cell];
+    if (!(cells.free[cell] < smallFreeVolume)) return own;
+    double most = 0;
+    for (int a = 0; a < D; ++a)
+      for (int side = 0; side < 2; ++side) {
+        if (space.isAtSide(cell, a, side) || !(space.aperture(cell, a, side) > 0)) continue;
+        const Index<D> next = side == 0 ? cell - Index<D>::unit(a) : cell + Index<D>::unit(a);
+        if (cells.free[next] > cells.free[cell]) most = std::max(most, cells.held.density[next]);
+      }
+    return own + most;
+  }
+};
+
+/// Finds the friction of walls on the gas of each cell, by the velocities of both at the start of the step.
+template <int D>
+void computeWallFriction(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
+                         double dt, const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
+                         CellView<Vec<D>> friction) {
+  const Level& level = patch.level();
+  friction.fill(Vec<D>::Zero());
+  const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
+  const FreeSpace<D> space(level, settings, cells);
+  const BodiesAtNodes<D> bodies(level, records);
+  const FrictionOfStep<D> step{level, settings, cells, space, bodies, dt};
+  near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
+    if (!space.isEmpty(cell)) friction[cell] = step.on(cell);
+  });
+}
+
+}  // namespace tushar::mpmice
