@@ -86,6 +86,10 @@ void declareWorkers(CLI::App& app, Arguments& arguments) {
   app.add_option("--writers", arguments.run.writers,
                  "ranks that write outputs and checkpoints; by default one on each node. The files do not depend on it")
       ->check(CLI::Range(1, 1'000'000));
+  app.add_option("--behind", arguments.run.behind,
+                 "MB of an output that a writer may keep while steps go on; without it as many as a rank has of it, or "
+                 "32. 0: steps wait until the system has it")
+      ->check(CLI::Range(0, 1'000'000));
 }
 
 /// Declares all options of sus; `arguments` must outlive `app`.

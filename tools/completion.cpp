@@ -58,7 +58,7 @@ _sus() {
     -completion) _sus_offer "$typed" bash ;;
     -restart | -output) _sus_files "$typed" ;;
     -trace | -json | -graph) _sus_files "$typed" '*' ;;
-    -t | -layout | -nthreads | -writers | -petsc | -dry-run | -checkpoint) ;;
+    -t | -layout | -nthreads | -writers | -behind | -petsc | -dry-run | -checkpoint) ;;
     *)
       case $typed in
         --*) _sus_offer "$typed" "$_sus_options" ;;

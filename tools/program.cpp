@@ -49,14 +49,12 @@ void checkWritable(const std::string& path) {
   if (!existed) std::filesystem::remove(path);
 }
 
-/// Finds the checkpoint to go on from, and says what was found damaged on the way; the first rank does so for all.
+/// Finds the checkpoint to go on from; the first rank says what was found damaged on the way.
 simulation::Restart findRestart(const Arguments& arguments, const mpi::Communicator& ranks) {
-  simulation::Restart restart;
-  ranks.onFirst([&] { restart = scene::findRestart(arguments.scene, arguments.checkpoint); });
+  const simulation::Restart restart = scene::findRestart(arguments.scene, arguments.checkpoint, ranks);
+  if (!ranks.isFirst() || restart.notes.empty()) return restart;
   for (const std::string& note : restart.notes) fmt::print(stderr, "sus: {}\n", withNumber(note));
-  if (!restart.notes.empty()) fmt::print(stderr, "sus: continues from the checkpoint of step {}\n", restart.step);
-  restart.archive = ranks.broadcast(restart.archive.string());
-  restart.step = ranks.broadcast(restart.step);
+  fmt::print(stderr, "sus: continues from the checkpoint of step {}\n", restart.step);
   return restart;
 }
 

@@ -62,11 +62,12 @@ XXH64_hash_t hashOf(const output::Array& array, XXH64_hash_t seed, const output:
   const std::size_t bytes = output::entryBytes(array);
   const std::size_t piece = first.ranks().isAlone() ? 1 << 14 : std::max<std::size_t>(1, mostOfPiece(first) / bytes);
   output::Pieces pieces(first);
+  std::vector<std::byte> buffer;
   const std::unique_ptr<XXH64_state_t, HashFree> state(XXH64_createState());
   XXH64_reset(state.get(), seed);
   for (output::Piece next; next.first < array.entries(); next.first += next.count) {
     next.count = std::min(piece, array.entries() - next.first);
-    const std::span<const std::byte> entries = pieces.bring(array, {&next, 1});
+    const std::span<const std::byte> entries = pieces.bring(array, {&next, 1}, buffer);
     XXH64_update(state.get(), entries.data(), entries.size());
   }
   return first.mine() == 0 ? XXH64_digest(state.get()) : 0;

@@ -25,8 +25,10 @@ std::string linesUpTo(const std::string& lines, double time) {
 void removeUnlisted(const fs::path& folder, const ArchiveIndex& index) {
   std::vector<fs::path> unlisted;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const auto step = stepOf(entry.path().stem().string());
-    if (entry.path().extension() == ".h5" && step && !index.lists(*step)) unlisted.push_back(entry.path());
+    const bool isWhole = entry.path().extension() != ".tmp";
+    const fs::path output = isWhole ? entry.path() : entry.path().stem();
+    const auto step = stepOf(output.stem().string());
+    if (output.extension() == ".h5" && step && !(isWhole && index.lists(*step))) unlisted.push_back(entry.path());
   }
   std::error_code ignored;
   for (const fs::path& output : unlisted) fs::remove(output, ignored);

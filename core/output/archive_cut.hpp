@@ -10,7 +10,8 @@ namespace tushar::output {
 /// The lines of a `.dat` file that belong to times up to `time` [s]; an unfinished last line is left out.
 std::string linesUpTo(const std::string& lines, double time);
 
-/// Removes the outputs of an archive's folder that its index does not list.
+/// Removes the outputs of an archive's folder that its index does not list, and those that a killed run has left
+/// unfinished.
 void removeUnlisted(const std::filesystem::path& folder, const ArchiveIndex& index);
 
 /// The text of an XML file whose outermost tag is `root`; `otherwise` where the file is missing or torn.

@@ -96,7 +96,7 @@ ChunkPacker::~ChunkPacker() {
   if (state_->file >= 0) H5Fclose(state_->file);
 }
 
-void ChunkPacker::begin(const Array& array, const Extents& shape, bool asFloat) {
+void ChunkPacker::begin(const Array::Values& type, const Extents& shape, bool asFloat) {
   const Silence silence;
   state_->closeData();
   const Extents chunk = chunkOf(shape);
@@ -112,7 +112,7 @@ void ChunkPacker::begin(const Array& array, const Extents& shape, bool asFloat) 
                                   H5P_DEFAULT);
         state_->whole.resize(numbersOf(chunk) * sizeof(Number));
       },
-      array.values);
+      type);
   refuseUnless(state_->data >= 0);
 }
 

@@ -54,8 +54,8 @@ class ChunkPacker {
   ChunkPacker(const ChunkPacker&) = delete;
   ChunkPacker& operator=(const ChunkPacker&) = delete;
 
-  /// The chunks that follow are of an array, and of this shape.
-  void begin(const Array& array, const Extents& shape, bool asFloat);
+  /// The chunks that follow are of an array with values of this type, and of this shape.
+  void begin(const Array::Values& type, const Extents& shape, bool asFloat);
   /// `entries` is as many numbers as a chunk has, or fewer for one at an end. Throws FileError.
   PackedChunk pack(std::span<const std::byte> entries);
 

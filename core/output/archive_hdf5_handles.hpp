@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -27,10 +28,10 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// Keeps HDF5 from printing its errors while it lives.
+/// Keeps HDF5 from printing its errors while it lives, and other threads from calling HDF5, which knows only one.
 class Silence {
  public:
-  Silence() {
+  Silence() : alone_(mutex_) {
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
@@ -39,6 +40,8 @@ class Silence {
   Silence& operator=(const Silence&) = delete;
 
  private:
+  static inline std::recursive_mutex mutex_;
+  std::lock_guard<std::recursive_mutex> alone_;
   H5E_auto2_t function_ = nullptr;
   void* data_ = nullptr;
 };

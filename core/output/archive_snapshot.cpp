@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "core/output/archive_files.hpp"
-#include "core/output/shared_hdf5.hpp"
+#include "core/output/pieces.hpp"
 
 namespace tushar::output {
 
@@ -78,22 +78,72 @@ void writeFirst(Hdf5File& out, const Snapshot& snapshot, const std::string& vers
   for (const ParticleBlock& block : snapshot.particles) writeGroup(out, block);
 }
 
+/// Stands for values that are elsewhere by now.
+class Gone : public Source {
+ public:
+  explicit Gone(std::size_t entries) : entries_(entries) {}
+  std::size_t entries() const override { return entries_; }
+  void read(std::size_t, std::size_t, std::byte*) const override { assert(false); }
+
+ private:
+  std::size_t entries_;
+};
+
+/// Calls `visit(array)` for each array of a snapshot that may have a source.
+template <class AnySnapshot, class Visit>
+void forEachArray(AnySnapshot& snapshot, Visit&& visit) {
+  for (auto& block : snapshot.particles)
+    for (auto& array : block.arrays) visit(array);
+  for (auto& field : snapshot.fields) visit(field.array);
+}
+
 }  // namespace
 
-void writeSnapshot(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options,
-                   const Writers& writers) {
-  const std::filesystem::path temporary = temporaryOf(file);
-  const mpi::Communicator& ranks = writers.ranks();
+SnapshotInFlight::SnapshotInFlight(std::filesystem::path file, const Snapshot& snapshot, const ArchiveOptions& options,
+                                   const Writers& writers, Behind& behind)
+    : path_(std::move(file)) {
   try {
-    writeTogether(
-        writers, temporary, {options.doubleAsFloat, options.compression},
+    file_ = std::make_unique<FileInFlight>(
+        writers, behind, temporaryOf(path_), Storage{options.doubleAsFloat, options.compression},
         [&](Hdf5File& out) { writeFirst(out, snapshot, options.version); }, datasetsOf(snapshot));
-    ranks.onFirst([&] { moveInto(temporary, file); });
   } catch (...) {
-    std::error_code ignored;
-    if (ranks.isFirst()) std::filesystem::remove(temporary, ignored);
+    if (writers.ranks().isFirst()) abandon();
     throw;
   }
+}
+
+void SnapshotInFlight::finish(const mpi::Communicator& ranks) {
+  try {
+    file_->finish(ranks);
+    ranks.onFirst([&] { moveInto(temporaryOf(path_), path_); });
+  } catch (...) {
+    if (ranks.isFirst()) abandon();
+    throw;
+  }
+}
+
+void SnapshotInFlight::abandon() {
+  std::error_code ignored;
+  std::filesystem::remove(temporaryOf(path_), ignored);
+}
+
+void writeSnapshot(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options) {
+  const Writers alone;
+  Behind atOnce;
+  SnapshotInFlight(file, snapshot, options, alone, atOnce).finish(alone.ranks());
+}
+
+std::uint64_t bytesInFlight(const Snapshot& snapshot) {
+  std::uint64_t bytes = 0;
+  forEachArray(snapshot, [&](const Array& array) { bytes += array.source ? bytesOf(array) : 0; });
+  return bytes;
+}
+
+Snapshot withoutValues(Snapshot snapshot) {
+  forEachArray(snapshot, [](Array& array) {
+    if (array.source) array.source = std::make_shared<Gone>(array.entries());
+  });
+  return snapshot;
 }
 
 std::string pathInFile(const ParticleBlock& block, const Array& array) {

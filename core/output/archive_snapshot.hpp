@@ -2,18 +2,43 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/output/archive.hpp"
+#include "core/output/shared_hdf5.hpp"
 #include "core/output/writers.hpp"
 
 namespace tushar::output {
 
-/// Writes a snapshot as an HDF5 file, first under a temporary name. All ranks call it, each with the values that it
-/// has. FileError on a rank that cannot, FailedElsewhere on the others.
-void writeSnapshot(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options,
-                   const Writers& writers = {});
+/// A snapshot on its way into an HDF5 file, under a temporary name until it is whole. When one is made, the values have
+/// been taken over, and `behind` brings them to the file. All ranks make one, each with the values that it has. Both
+/// functions throw FileError on a rank that cannot write, FailedElsewhere on the others; no file is left then.
+class SnapshotInFlight {
+ public:
+  /// `writers` and `behind` must outlive it.
+  SnapshotInFlight(std::filesystem::path file, const Snapshot& snapshot, const ArchiveOptions& options,
+                   const Writers& writers, Behind& behind);
+  /// Waits until the file is whole, and gives it its name. Collective on `ranks`: those of the writers, or the first
+  /// alone where it is the only writer.
+  void finish(const mpi::Communicator& ranks);
+  /// Removes what there is of it.
+  void abandon();
+
+ private:
+  std::filesystem::path path_;
+  std::unique_ptr<FileInFlight> file_;
+};
+
+/// Writes a snapshot at once.
+void writeSnapshot(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options);
+
+/// The bytes of the values of a snapshot that have sources, on all ranks together.
+std::uint64_t bytesInFlight(const Snapshot& snapshot);
+
+/// A snapshot without its values, but with how many of them there are.
+Snapshot withoutValues(Snapshot snapshot);
 
 /// The path of a particle array in the HDF5 file: `/particles/gas/p.density`.
 std::string pathInFile(const ParticleBlock& block, const Array& array);

@@ -47,16 +47,16 @@ std::optional<XXH64_hash_t> hashOf(std::ifstream& in, std::uint64_t first, std::
   throw FileError(fmt::format("cannot read '{}'", file.string()));
 }
 
-/// The hashes of the blocks of a file that are a writer's.
-std::vector<std::uint64_t> hashesOf(const fs::path& file, std::uint64_t size, int writer, int writers) {
+/// The hashes of the blocks of a file that are the share of one of several.
+std::vector<std::uint64_t> hashesOf(const fs::path& file, std::uint64_t size, int one, int several) {
   std::ifstream in(file, std::ios::binary);
   if (!in) refuseToRead(file);
   const std::uint64_t blocks = (size + blockBytes - 1) / blockBytes;
   const auto cut = [&](int before) {
-    return blocks * static_cast<std::uint64_t>(before) / static_cast<std::uint64_t>(writers);
+    return blocks * static_cast<std::uint64_t>(before) / static_cast<std::uint64_t>(several);
   };
   std::vector<std::uint64_t> hashes;
-  for (std::uint64_t block = cut(writer); block < cut(writer + 1); ++block) {
+  for (std::uint64_t block = cut(one); block < cut(one + 1); ++block) {
     const std::uint64_t first = block * blockBytes;
     const auto hash = hashOf(in, first, std::min(blockBytes, size - first));
     if (!hash) refuseToRead(file);
@@ -65,17 +65,21 @@ std::vector<std::uint64_t> hashesOf(const fs::path& file, std::uint64_t size, in
   return hashes;
 }
 
-/// The hash of a file that has been written. `onDisk`: waits until it is there.
-std::string hashByBlocks(const fs::path& file, std::uint64_t size, const Writers& writers, bool onDisk) {
+/// The hash of a file in a manifest, by those of its blocks.
+std::string hashOf(const std::vector<std::uint64_t>& blocks) {
+  if (blocks.size() == 1) return fmt::format("{:016x}", blocks.front());
+  return fmt::format("{:016x}/{}", XXH64(blocks.data(), blocks.size() * sizeof(blocks[0]), 0), blocks.size());
+}
+
+/// The hash of a file that has been written; it is on the disk then.
+std::string hashOnDisk(const fs::path& file, std::uint64_t size, const Writers& writers) {
   std::vector<std::uint64_t> mine;
   mpi::together(writers.ranks(), [&] {
     if (writers.mine() < 0) return;
     mine = hashesOf(file, size, writers.mine(), writers.count());
-    if (onDisk) syncToDisk(file);
+    syncToDisk(file);
   });
-  const std::vector<std::uint64_t> all = mpi::allOf(writers.ranks(), mine);
-  if (all.size() == 1) return fmt::format("{:016x}", all.front());
-  return fmt::format("{:016x}/{}", XXH64(all.data(), all.size() * sizeof(all[0]), 0), all.size());
+  return hashOf(mpi::allOf(writers.ranks(), mine));
 }
 
 std::string lastLine(const std::string& lines) {
@@ -108,33 +112,54 @@ std::vector<ListedFile> listedIn(const fs::path& folder, const mpi::Communicator
   return files;
 }
 
-/// The hash of a file by the first rank alone, as older versions have made it; empty if it cannot be read.
-std::string hashOfWhole(const fs::path& file, std::uint64_t size) {
-  std::ifstream in(file, std::ios::binary);
-  const auto hash = in ? hashOf(in, 0, size) : std::nullopt;
-  return hash ? fmt::format("{:016x}", *hash) : "";
-}
-
-/// What is wrong with the file of a manifest's line `hash size name`, or `hash/blocks size name`.
-std::string damageOfLine(const fs::path& folder, const std::string& line) {
-  std::istringstream words(line);
+/// A line of a manifest: `hash size name`, or `hash/blocks size name`.
+struct Line {
   std::string hash, name;
   std::uintmax_t size = 0;
-  words >> hash >> size >> std::ws;
-  std::getline(words, name);
-  std::error_code error;
-  const std::uintmax_t found = fs::file_size(folder / name, error);
-  if (error) return fmt::format("{} is missing", name);
-  if (found != size) return fmt::format("{} has {} bytes instead of {}", name, found, size);
-  try {
-    const bool isByBlocks = hash.find('/') != std::string::npos;
-    const std::string now =
-        isByBlocks ? hashByBlocks(folder / name, size, {}, false) : hashOfWhole(folder / name, size);
-    if (now.empty()) return fmt::format("{} cannot be read", name);
-    return now == hash ? "" : fmt::format("the content of {} has changed", name);
-  } catch (const FileError&) {
-    return fmt::format("{} cannot be read", name);
+};
+
+std::vector<Line> linesOf(const std::string& text) {
+  std::vector<Line> lines;
+  std::istringstream in(text);
+  for (Line line; in >> line.hash >> line.size >> std::ws && std::getline(in, line.name);) lines.push_back(line);
+  return lines;
+}
+
+/// What is wrong with the manifest, or with the names and sizes of files; `lines` gets those of the files.
+std::string damageOfList(const fs::path& folder, std::string& lines) {
+  const auto text = textOf(folder / manifestName);
+  if (!text) return fmt::format("{} is missing", manifestName);
+  const std::size_t end = text->rfind('\n', text->size() < 2 ? 0 : text->size() - 2);
+  lines = text->substr(0, end == std::string::npos ? 0 : end + 1);
+  if (lines.empty() || *text != lines + lastLine(lines))
+    return fmt::format("the content of {} has changed", manifestName);
+  for (const Line& line : linesOf(lines)) {
+    std::error_code error;
+    const std::uintmax_t found = fs::file_size(folder / line.name, error);
+    if (error) return fmt::format("{} is missing", line.name);
+    if (found != line.size) return fmt::format("{} has {} bytes instead of {}", line.name, found, line.size);
   }
+  return "";
+}
+
+/// The hash of a file as the manifest has it; empty if it cannot be read. That of a large file of older versions is not
+/// by blocks, and made by the first rank alone.
+std::string hashNow(const fs::path& file, const Line& line, const mpi::Communicator& ranks) {
+  const bool isByBlocks = line.hash.find('/') != std::string::npos;
+  bool failed = false;
+  std::vector<std::uint64_t> hashes;
+  try {
+    if (isByBlocks) hashes = hashesOf(file, line.size, ranks.rank(), ranks.size());
+  } catch (const FileError&) {
+    failed = true;
+  }
+  if (!isByBlocks && ranks.isFirst()) {
+    std::ifstream in(file, std::ios::binary);
+    const auto hash = in ? hashOf(in, 0, line.size) : std::nullopt;
+    failed = !hash;
+    hashes.push_back(hash.value_or(0));
+  }
+  return ranks.any(failed) ? "" : hashOf(mpi::allOf(ranks, hashes));
 }
 
 }  // namespace
@@ -142,20 +167,20 @@ std::string damageOfLine(const fs::path& folder, const std::string& line) {
 void writeManifest(const fs::path& folder, const Writers& writers) {
   std::string lines;
   for (const auto& [name, size] : listedIn(folder, writers.ranks()))
-    lines += fmt::format("{} {} {}\n", hashByBlocks(folder / name, size, writers, true), size, name);
+    lines += fmt::format("{} {} {}\n", hashOnDisk(folder / name, size, writers), size, name);
   writers.ranks().onFirst([&] { replaceFileOnDisk(folder / manifestName, lines + lastLine(lines)); });
 }
 
-std::string damageOf(const fs::path& folder) {
-  const auto text = textOf(folder / manifestName);
-  if (!text) return fmt::format("{} is missing", manifestName);
-  const std::size_t end = text->rfind('\n', text->size() < 2 ? 0 : text->size() - 2);
-  const std::string lines = text->substr(0, end == std::string::npos ? 0 : end + 1);
-  if (lines.empty() || *text != lines + lastLine(lines))
-    return fmt::format("the content of {} has changed", manifestName);
-  std::istringstream in(lines);
-  for (std::string line; std::getline(in, line);)
-    if (std::string damage = damageOfLine(folder, line); !damage.empty()) return damage;
+std::string damageOf(const fs::path& folder, const mpi::Communicator& ranks) {
+  std::string damage, lines;
+  if (ranks.isFirst()) damage = damageOfList(folder, lines);
+  damage = ranks.broadcast(damage);
+  if (!damage.empty()) return damage;
+  for (const Line& line : linesOf(ranks.broadcast(lines))) {
+    const std::string now = hashNow(folder / line.name, line, ranks);
+    if (now.empty()) return fmt::format("{} cannot be read", line.name);
+    if (now != line.hash) return fmt::format("the content of {} has changed", line.name);
+  }
   return "";
 }
 

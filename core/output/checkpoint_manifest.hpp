@@ -14,7 +14,7 @@ namespace tushar::output {
 void writeManifest(const std::filesystem::path& folder, const Writers& writers = {});
 
 /// The damage in a folder that has a manifest: which file is missing, shorter, longer or has other bytes. Empty if it
-/// is as it was.
-std::string damageOf(const std::filesystem::path& folder);
+/// is as it was. Ranks share the blocks among themselves. Collective; all get the same.
+std::string damageOf(const std::filesystem::path& folder, const mpi::Communicator& ranks = mpi::Communicator::alone());
 
 }  // namespace tushar::output

@@ -61,6 +61,7 @@ void unpack(const mpi::Bytes& message, std::size_t bytes, std::byte* to) {
 
 void load(Array& array, const Writers& first, Pieces& pieces) {
   if (!array.source) return;
+  std::vector<std::byte> buffer;
   const std::size_t bytes = entryBytes(array), most = std::max<std::size_t>(1, mostOfPiece(first) / bytes);
   const bool isMine = first.mine() == 0;
   std::visit(
@@ -69,7 +70,7 @@ void load(Array& array, const Writers& first, Pieces& pieces) {
         auto* to = reinterpret_cast<std::byte*>(values.data());
         for (Piece next; next.first < array.entries(); next.first += next.count) {
           next.count = std::min(most, array.entries() - next.first);
-          const std::span<const std::byte> piece = pieces.bring(array, {&next, 1});
+          const std::span<const std::byte> piece = pieces.bring(array, {&next, 1}, buffer);
           if (isMine) std::memcpy(to + next.first * bytes, piece.data(), piece.size());
         }
       },
@@ -90,12 +91,14 @@ std::size_t entryBytes(const Array& array) {
   return number * static_cast<std::size_t>(array.components);
 }
 
-std::span<std::byte> Pieces::bring(const Array& array, std::span<const Piece> of) {
+std::uint64_t bytesOf(const Array& array) { return std::uint64_t{array.entries()} * entryBytes(array); }
+
+std::span<std::byte> Pieces::bring(const Array& array, std::span<const Piece> of, std::vector<std::byte>& into) {
   const std::size_t bytes = entryBytes(array);
   const mpi::Communicator& ranks = writers_->ranks();
   const Piece mine = writers_->mine() < 0 ? Piece{} : of[writers_->mine()];
-  piece_.resize(std::max(piece_.size(), mine.count * bytes));
-  if (mine.count > 0) array.source->read(mine.first, mine.count, piece_.data());
+  if (into.size() < mine.count * bytes) into.resize(mine.count * bytes);
+  if (mine.count > 0) array.source->read(mine.first, mine.count, into.data());
   std::vector<mpi::Letter> letters;
   for (int writer = 0; !ranks.isAlone() && writer < writers_->count(); ++writer) {
     const Piece& piece = of[writer];
@@ -104,8 +107,8 @@ std::span<std::byte> Pieces::bring(const Array& array, std::span<const Piece> of
     if (!message.empty()) letters.push_back({writers_->rankOf(writer), std::move(message)});
   }
   mpi::exchange(ranks, outbox_, std::move(letters),
-                [&](int, const mpi::Bytes& message) { unpack(message, bytes, piece_.data()); });
-  return {piece_.data(), mine.count * bytes};
+                [&](int, const mpi::Bytes& message) { unpack(message, bytes, into.data()); });
+  return {into.data(), mine.count * bytes};
 }
 
 void load(Snapshot& snapshot, const mpi::Communicator& ranks) {

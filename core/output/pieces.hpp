@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,8 +20,9 @@ struct Piece {
 /// who have to wait for each other for each of them, what is still little beside 64 MB.
 std::size_t mostOfPiece(const Writers& writers);
 
-/// Bytes of an entry in memory.
+/// Bytes of an entry in memory, and of all entries on all ranks.
 std::size_t entryBytes(const Array& array);
+std::uint64_t bytesOf(const Array& array);
 
 /// Brings pieces of an array of which each rank has some entries to the writers, one to each at a time: so none needs
 /// memory for more than a piece, and for what it sends of those of the others.
@@ -30,13 +32,12 @@ class Pieces {
   explicit Pieces(const Writers& writers) : writers_(&writers), outbox_(writers.ranks()) {}
 
   /// Brings to each writer its piece of the array, which has a source; `of[w]` is for writer w. The entries of that of
-  /// this rank, good until the next call. Collective.
-  std::span<std::byte> bring(const Array& array, std::span<const Piece> of);
+  /// this rank, in `into`, which grows to have room for them. Collective.
+  std::span<std::byte> bring(const Array& array, std::span<const Piece> of, std::vector<std::byte>& into);
 
  private:
   const Writers* writers_;
   mpi::Outbox outbox_;
-  std::vector<std::byte> piece_;
 };
 
 /// Brings the values of all arrays into the memory of the first rank; the others lose theirs. Collective.

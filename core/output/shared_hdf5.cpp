@@ -1,13 +1,14 @@
 #include "core/output/shared_hdf5.hpp"
 
 #include <cstring>
+#include <deque>
 #include <exception>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "core/base/mpi_together.hpp"
 #include "core/output/archive_hdf5_chunks.hpp"
-#include "core/output/slabs.hpp"
 
 namespace tushar::output {
 
@@ -17,52 +18,119 @@ bool isNarrowed(const Storage& how, const Array& array) {
   return how.doubleAsFloat && std::holds_alternative<std::vector<double>>(array.values);
 }
 
-/// Compresses datasets: each writer one chunk at a time; the first rank, which has the file, writes the chunks in their
-/// order.
-class ChunkWriter {
+/// A file whose values come later, on the first rank.
+struct Begun {
+  std::shared_ptr<Hdf5File> file;
+  std::vector<std::uint64_t> rooms;  ///< where those of each dataset with a source go
+};
+
+void begin(Begun& begun, const std::filesystem::path& path, const Storage& how,
+           const std::function<void(Hdf5File&)>& header, const std::vector<Dataset>& datasets) {
+  begun.file = std::make_shared<Hdf5File>(path, how.doubleAsFloat, how.compression);
+  header(*begun.file);
+  for (const Dataset& dataset : datasets) {
+    if (dataset.array.source)
+      begun.rooms.push_back(begun.file->room(dataset.name, dataset.array, dataset.shape));
+    else
+      begun.file->dataset(dataset.name, dataset.array, dataset.shape);
+  }
+  if (how.compression == 0) begun.file->close();
+}
+
+std::vector<Slab> slabsOf(const Writers& writers, const Storage& how, const std::vector<Dataset>& datasets,
+                          const std::vector<std::uint64_t>& roomsOfFirst) {
+  const std::vector<std::uint64_t> rooms = mpi::allOf(writers.ranks(), roomsOfFirst);
+  std::vector<Slab> slabs;
+  for (const Dataset& dataset : datasets)
+    if (dataset.array.source)
+      slabs.push_back({dataset.name, &dataset.array, rooms[slabs.size()], isNarrowed(how, dataset.array)});
+  return slabs;
+}
+
+}  // namespace
+
+/// Compresses datasets: the writers a chunk each at a time, which the first rank puts into the file in their order: at
+/// once where it is the only writer, else when all have theirs.
+class FileInFlight::Chunks {
  public:
-  ChunkWriter(const Writers& writers, const Storage& how, Hdf5File* file)
-      : writers_(writers), how_(how), file_(file), pieces_(writers), outbox_(writers.ranks()) {
-    if (writers.mine() >= 0) attempt([&] { packer_.emplace(how.compression); });
+  /// The first rank has the file.
+  Chunks(const Writers& writers, Behind& behind, const Storage& how, std::shared_ptr<Hdf5File> file)
+      : writers_(writers),
+        behind_(behind),
+        how_(how),
+        file_(std::move(file)),
+        outbox_(writers.ranks()),
+        packer_(std::make_shared<std::optional<ChunkPacker>>()) {
+    if (writers.mine() >= 0) behind_.put({}, [packer = packer_, level = how.compression] { packer->emplace(level); });
   }
 
-  void run(const Dataset& dataset) {
+  void add(const Dataset& dataset) {
     const Extents shape = fullShape(dataset.shape, dataset.array);
-    const Chunks chunks(shape);
+    const output::Chunks chunks(shape);
     if (chunks.count() == 0) return;
-    if (packer_) attempt([&] { packer_->begin(dataset.array, shape, isNarrowed(how_, dataset.array)); });
-    const std::size_t most = writers_.count();
-    for (std::size_t first = 0; first < chunks.count(); first += most) writeRound(dataset, chunks, first);
-  }
-
-  /// Throws what has failed on this rank.
-  void check() const {
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
- private:
-  /// Does something unless this rank has failed, and keeps what it throws: the others wait for this rank.
-  template <class Action>
-  void attempt(Action&& action) {
-    if (failure_) return;
-    try {
-      action();
-    } catch (...) {
-      failure_ = std::current_exception();
+    if (writers_.mine() >= 0)
+      behind_.put({}, [packer = packer_, values = dataset.array.values, shape,
+                       asFloat = isNarrowed(how_, dataset.array)] { (*packer)->begin(values, shape, asFloat); });
+    const auto most = static_cast<std::size_t>(writers_.count());
+    Pieces pieces(writers_);
+    for (std::size_t first = 0; first < chunks.count(); first += most) {
+      if (rounds_.size() * largestChunk > behind_.most()) placeNext();
+      addRound(dataset, chunks, first, pieces);
     }
   }
 
-  void writeRound(const Dataset& dataset, const Chunks& chunks, std::size_t first) {
-    std::vector<Piece> of(writers_.count());
-    for (std::size_t k = 0; k < of.size() && first + k < chunks.count(); ++k)
+  void finish(const mpi::Communicator& ranks) {
+    while (!rounds_.empty()) placeNext();
+    mpi::together(ranks, [&] {
+      behind_.wait();
+      if (failure_) std::rethrow_exception(failure_);
+      if (file_) file_->close();
+    });
+  }
+
+ private:
+  static constexpr std::size_t largestChunk = std::size_t{1} << 20;  ///< bytes
+
+  /// A chunk for each writer, of one dataset.
+  struct Round {
+    std::string dataset;
+    std::vector<Extents> corners;
+    std::shared_ptr<PackedChunk> mine;
+    long job;  ///< after which it is packed
+  };
+
+  void addRound(const Dataset& dataset, const output::Chunks& chunks, std::size_t first, Pieces& pieces) {
+    Round round{dataset.name, {}, std::make_shared<PackedChunk>(), 0};
+    std::vector<Piece> of(static_cast<std::size_t>(writers_.count()));
+    for (std::size_t k = 0; k < of.size() && first + k < chunks.count(); ++k) {
       of[k] = chunks.entries(first + k, dataset.array.components);
-    const std::span<const std::byte> entries = pieces_.bring(dataset.array, of);
-    PackedChunk mine;
-    if (!entries.empty()) attempt([&] { mine = packer_->pack(entries); });
-    for (PackedChunk& chunk : gathered(std::move(mine))) {
-      if (!chunk.bytes.empty())
-        attempt([&] { file_->chunk(dataset.name, chunks.corner(first), chunk.skipped, chunk.bytes); });
-      ++first;
+      round.corners.push_back(chunks.corner(first + k));
+    }
+    const std::size_t mine =
+        writers_.mine() < 0 ? 0 : of[static_cast<std::size_t>(writers_.mine())].count * entryBytes(dataset.array);
+    std::vector<std::byte> buffer;
+    if (mine > 0) buffer = behind_.buffer(mine);
+    const std::span<const std::byte> entries = pieces.bring(dataset.array, of, buffer);
+    const bool isOnly = writers_.count() == 1;
+    if (mine > 0)
+      round.job = behind_.put(std::move(buffer), [packer = packer_, file = isOnly ? file_ : nullptr, entries, round] {
+        *round.mine = (*packer)->pack(entries);
+        if (file) file->chunk(round.dataset, round.corners.front(), round.mine->skipped, round.mine->bytes);
+      });
+    if (!isOnly) rounds_.push_back(std::move(round));
+  }
+
+  /// Brings the chunks of a round to the first rank, which puts them into the file.
+  void placeNext() {
+    const Round round = std::move(rounds_.front());
+    rounds_.pop_front();
+    behind_.waitFor(round.job);
+    const std::vector<PackedChunk> chunks = gathered(std::move(*round.mine));
+    try {
+      for (std::size_t k = 0; k < chunks.size() && !failure_; ++k)
+        if (!chunks[k].bytes.empty()) file_->chunk(round.dataset, round.corners[k], chunks[k].skipped, chunks[k].bytes);
+    } catch (...) {
+      failure_ = std::current_exception();  // the others wait for this rank
     }
   }
 
@@ -87,61 +155,37 @@ class ChunkWriter {
   }
 
   const Writers& writers_;
-  const Storage& how_;
-  Hdf5File* file_;
-  Pieces pieces_;
+  Behind& behind_;
+  Storage how_;
+  std::shared_ptr<Hdf5File> file_;
   mpi::Outbox outbox_;
-  std::optional<ChunkPacker> packer_;
+  std::shared_ptr<std::optional<ChunkPacker>> packer_;
+  std::deque<Round> rounds_;  ///< whose chunks are not yet in the file
   std::exception_ptr failure_;
 };
 
-/// A file whose values come later, on the first rank.
-struct Begun {
-  std::optional<Hdf5File> file;
-  std::vector<std::uint64_t> rooms;  ///< where those of each dataset with a source go
-};
-
-void begin(Begun& begun, const std::filesystem::path& path, const Storage& how,
-           const std::function<void(Hdf5File&)>& header, const std::vector<Dataset>& datasets) {
-  Hdf5File& file = begun.file.emplace(path, how.doubleAsFloat, how.compression);
-  header(file);
-  for (const Dataset& dataset : datasets) {
-    if (dataset.array.source)
-      begun.rooms.push_back(file.room(dataset.name, dataset.array, dataset.shape));
-    else
-      file.dataset(dataset.name, dataset.array, dataset.shape);
+FileInFlight::FileInFlight(const Writers& writers, Behind& behind, const std::filesystem::path& file,
+                           const Storage& how, const std::function<void(Hdf5File&)>& header,
+                           const std::vector<Dataset>& datasets) {
+  Begun begun;
+  writers.ranks().onFirst([&] { begin(begun, file, how, header, datasets); });
+  if (how.compression == 0) {
+    slabs_.emplace(writers, behind, file, slabsOf(writers, how, datasets, begun.rooms));
+    return;
   }
-  if (how.compression == 0) file.close();
-}
-
-std::vector<Slab> slabsOf(const Writers& writers, const Storage& how, const std::vector<Dataset>& datasets,
-                          const std::vector<std::uint64_t>& roomsOfFirst) {
-  const std::vector<std::uint64_t> rooms = mpi::allOf(writers.ranks(), roomsOfFirst);
-  std::vector<Slab> slabs;
+  chunks_ = std::make_unique<Chunks>(writers, behind, how, std::move(begun.file));
   for (const Dataset& dataset : datasets)
-    if (dataset.array.source)
-      slabs.push_back({dataset.name, &dataset.array, rooms[slabs.size()], isNarrowed(how, dataset.array)});
-  return slabs;
+    if (dataset.array.source) chunks_->add(dataset);
 }
 
-void writeChunks(const Writers& writers, const Storage& how, Hdf5File* file, const std::vector<Dataset>& datasets) {
-  ChunkWriter chunks(writers, how, file);
-  for (const Dataset& dataset : datasets)
-    if (dataset.array.source) chunks.run(dataset);
-  mpi::together(writers.ranks(), [&] {
-    chunks.check();
-    if (file) file->close();
-  });
-}
+FileInFlight::~FileInFlight() = default;
 
-}  // namespace
+void FileInFlight::finish(const mpi::Communicator& ranks) { slabs_ ? slabs_->finish(ranks) : chunks_->finish(ranks); }
 
 void writeTogether(const Writers& writers, const std::filesystem::path& file, const Storage& how,
                    const std::function<void(Hdf5File&)>& header, const std::vector<Dataset>& datasets) {
-  Begun begun;
-  writers.ranks().onFirst([&] { begin(begun, file, how, header, datasets); });
-  if (how.compression > 0) return writeChunks(writers, how, begun.file ? &*begun.file : nullptr, datasets);
-  writeSlabs(writers, file, slabsOf(writers, how, datasets, begun.rooms));
+  Behind atOnce;
+  FileInFlight(writers, atOnce, file, how, header, datasets).finish(writers.ranks());
 }
 
 }  // namespace tushar::output

@@ -3,10 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/output/archive_hdf5.hpp"
+#include "core/output/slabs.hpp"
 #include "core/output/snapshot.hpp"
 #include "core/output/writers.hpp"
 
@@ -25,10 +28,31 @@ struct Storage {
   int compression = 0;         ///< gzip level, 0 (none) to 9
 };
 
-/// Writes an HDF5 file that ranks have together: the first makes it, has `header` write what is its alone, and writes
-/// the datasets whose values are in memory; all bring the values of those that have a source. How many ranks and
-/// writers there are changes no byte. Collective: all have the same datasets. Throws FileError on a rank that cannot
-/// write, and FailedElsewhere on the others; what is there of the file then is the caller's to remove.
+/// An HDF5 file that ranks write together: the first makes it, has `header` write what is its alone, and writes the
+/// datasets whose values are in memory; all bring the values of those that have a source. How many ranks and writers
+/// there are changes no byte, nor whether steps go on meanwhile: when one is made, the values have been taken over, and
+/// `behind` brings them to the file. Collective: all have the same datasets. Both functions throw FileError on a rank
+/// that cannot write, and FailedElsewhere on the others; what is there of the file then is the caller's to remove.
+class FileInFlight {
+ public:
+  /// `writers` and `behind` must outlive it.
+  FileInFlight(const Writers& writers, Behind& behind, const std::filesystem::path& file, const Storage& how,
+               const std::function<void(Hdf5File&)>& header, const std::vector<Dataset>& datasets);
+  ~FileInFlight();
+  FileInFlight(const FileInFlight&) = delete;
+  FileInFlight& operator=(const FileInFlight&) = delete;
+
+  /// Waits until the file is whole, and closes it. Collective on `ranks`: those of the writers, or the first alone
+  /// where it is the only writer.
+  void finish(const mpi::Communicator& ranks);
+
+ private:
+  class Chunks;
+  std::optional<SlabsInFlight> slabs_;
+  std::unique_ptr<Chunks> chunks_;  ///< of a file that is compressed
+};
+
+/// Writes such a file at once. Collective.
 void writeTogether(const Writers& writers, const std::filesystem::path& file, const Storage& how,
                    const std::function<void(Hdf5File&)>& header, const std::vector<Dataset>& datasets);
 

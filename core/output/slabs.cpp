@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <optional>
+#include <utility>
 
 #include "core/base/mpi_together.hpp"
 #include "core/output/pieces.hpp"
-#include "core/output/shared_file.hpp"
 
 namespace tushar::output {
 
@@ -27,12 +26,13 @@ std::span<std::byte> narrowed(std::span<std::byte> numbers) {
   return numbers.first(count * sizeof(float));
 }
 
-/// Writes one array, all writers a piece of it at a time.
+/// Brings one array to the writers, a piece to each at a time.
 class SlabWriter {
  public:
-  SlabWriter(const Writers& writers, SharedFile* file, Pieces& pieces, const Slab& slab)
+  SlabWriter(const Writers& writers, Behind& behind, std::shared_ptr<SharedFile> file, Pieces& pieces, const Slab& slab)
       : writers_(writers),
-        file_(file),
+        behind_(behind),
+        file_(std::move(file)),
         pieces_(pieces),
         slab_(slab),
         entry_bytes_(entryBytes(*slab.array) / (slab.asFloat ? 2 : 1)),
@@ -64,16 +64,22 @@ class SlabWriter {
   void writePieces(std::uint64_t done) {
     std::vector<Piece> of;
     for (int writer = 0; writer < writers_.count(); ++writer) of.push_back(entriesOf(next(writer, done)));
-    std::span<std::byte> entries = pieces_.bring(*slab_.array, of);
+    const Piece mine = file_ ? of[writers_.mine()] : Piece{};
+    std::vector<std::byte> buffer;
+    if (mine.count > 0) buffer = behind_.buffer(mine.count * entryBytes(*slab_.array));
+    const std::span<std::byte> entries = pieces_.bring(*slab_.array, of, buffer);
     if (entries.empty()) return;
-    if (slab_.asFloat) entries = narrowed(entries);
     const ByteRange bytes = next(writers_.mine(), done);
-    const std::uint64_t start = slab_.offset + of[writers_.mine()].first * entry_bytes_;
-    file_->write(bytes.first, entries.data() + (bytes.first - start), bytes.size(), slab_.name);
+    const std::uint64_t skipped = bytes.first - (slab_.offset + mine.first * entry_bytes_);
+    behind_.put(std::move(buffer), [file = file_, entries, bytes, skipped, asFloat = slab_.asFloat, name = slab_.name] {
+      const std::span<const std::byte> all = asFloat ? narrowed(entries) : entries;
+      file->write(bytes.first, all.data() + skipped, bytes.size(), name);
+    });
   }
 
   const Writers& writers_;
-  SharedFile* file_;
+  Behind& behind_;
+  std::shared_ptr<SharedFile> file_;
   Pieces& pieces_;
   const Slab& slab_;
   std::uint64_t entry_bytes_;  ///< in the file
@@ -93,13 +99,18 @@ ByteRange slabOf(const ByteRange& all, int writer, int writers) {
   return {cut(writer), cut(writer + 1)};
 }
 
-void writeSlabs(const Writers& writers, const std::filesystem::path& file, const std::vector<Slab>& slabs) {
-  std::optional<SharedFile> mine;
-  if (writers.mine() >= 0) mine.emplace(file);
+SlabsInFlight::SlabsInFlight(const Writers& writers, Behind& behind, const std::filesystem::path& file,
+                             const std::vector<Slab>& slabs)
+    : behind_(behind) {
+  if (writers.mine() >= 0) file_ = std::make_shared<SharedFile>(file);
   Pieces pieces(writers);
-  for (const Slab& slab : slabs) SlabWriter(writers, mine ? &*mine : nullptr, pieces, slab).run();
-  mpi::together(writers.ranks(), [&] {
-    if (mine) mine->close();
+  for (const Slab& slab : slabs) SlabWriter(writers, behind, file_, pieces, slab).run();
+}
+
+void SlabsInFlight::finish(const mpi::Communicator& ranks) {
+  mpi::together(ranks, [&] {
+    behind_.wait();
+    if (file_) file_->close();
   });
 }
 

@@ -2,9 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/output/behind.hpp"
+#include "core/output/shared_file.hpp"
 #include "core/output/snapshot.hpp"
 #include "core/output/writers.hpp"
 
@@ -31,8 +34,19 @@ struct Slab {
   bool asFloat = false;      ///< real numbers take 4 bytes there
 };
 
-/// Puts arrays into a file that the first rank has made: each writer the slab that is its own. Collective. Throws
-/// FileError on a rank that cannot write, FailedElsewhere on the others.
-void writeSlabs(const Writers& writers, const std::filesystem::path& file, const std::vector<Slab>& slabs);
+/// Arrays on their way into a file that the first rank has made: each writer puts there the slab that is its own. When
+/// one is made, the values have been taken over, and `behind` brings them to the file. Collective.
+class SlabsInFlight {
+ public:
+  SlabsInFlight(const Writers& writers, Behind& behind, const std::filesystem::path& file,
+                const std::vector<Slab>& slabs);
+  /// Waits until they are there. Collective on `ranks`. Throws FileError on a rank that could not write,
+  /// FailedElsewhere on the others.
+  void finish(const mpi::Communicator& ranks);
+
+ private:
+  Behind& behind_;
+  std::shared_ptr<SharedFile> file_;  ///< of a writer
+};
 
 }  // namespace tushar::output

@@ -29,6 +29,7 @@ Json wallOf(const Report& report) {
   Json wall = {{"startup", report.wallStartup},
                {"loop", report.wallLoop},
                {"output", report.wallOutput},
+               {"output_wait", report.wallOutputWait},
                {"exchange", report.exchange},
                {"tasks", tasks},
                {"use",
@@ -178,6 +179,7 @@ std::string timeTable(const Report& report) {
   if (report.patches > 1) row("  ghost exchange", report.exchange);
   if (isRefined(report)) row("  regridding", report.wallRegrid);
   row("output", report.wallOutput);
+  if (report.wallOutputWait > 0) row("  waiting for the one before", report.wallOutputWait);
   return text + useLine(report) + memoryLine(report) + rebalancingLine(report);
 }
 

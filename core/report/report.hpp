@@ -66,6 +66,7 @@ struct Report {
   ResidentMemory memory;  ///< after the last step, of the rank that has most
   MemoryOfRanks memoryOfRanks;
   double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
+  double wallOutputWait = 0;  ///< s of the output spent waiting for one that was still being written
   TimeUse use;
   Rebalancing rebalancing;
   std::vector<long> levels;  ///< cells of each level at the end, the coarsest first; 0 for a single level

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/base/error.hpp"
+#include "core/base/mpi_together.hpp"
 #include "core/output/archive_files.hpp"
 #include "core/output/archive_hdf5_input.hpp"
 #include "core/output/archive_index.hpp"
@@ -41,45 +43,61 @@ std::string damageSentence(const output::CheckpointStore& store, int step, const
   return fmt::format("the checkpoint {} is damaged: {}", store.folder(step).string(), damage);
 }
 
-int chosen(const fs::path& archive, const output::CheckpointStore& store, int step) {
-  const std::vector<int> steps = store.steps();
-  const std::string there =
-      fmt::format("there {} {}", steps.size() == 1 ? "is that of step" : "are those of steps", fmt::join(steps, ", "));
-  if (!std::binary_search(steps.begin(), steps.end(), step))
-    refuse(archive, fmt::format("there is no checkpoint of step {}; {}", step, there));
-  if (const std::string damage = output::damageOf(store.folder(step)); !damage.empty())
-    refuse(archive, fmt::format("{}; {}", damageSentence(store, step, damage), there));
-  return step;
+std::string listed(const std::vector<int>& steps) {
+  return fmt::format("there {} {}", steps.size() == 1 ? "is that of step" : "are those of steps",
+                     fmt::join(steps, ", "));
 }
 
-/// The last checkpoint that is whole, from LATEST back; the others get their sentence.
-int lastWhole(const output::CheckpointStore& store, std::vector<std::string>& notes) {
-  std::vector<InputProblem> problems;
+/// Steps whose checkpoints may be taken, the first that is whole: the chosen one, or those from LATEST back.
+std::vector<int> candidatesOf(const std::string& uda, const fs::path& archive, std::optional<int> chosen) {
+  const output::CheckpointStore store(archive, 1);
   const std::vector<int> steps = store.steps();
-  auto next = std::upper_bound(steps.begin(), steps.end(), store.latest());
-  while (next != steps.begin()) {
-    const int step = *--next;
-    const std::string damage = output::damageOf(store.folder(step));
-    if (damage.empty()) return step;
-    notes.push_back(damageSentence(store, step, damage));
-    problems.push_back({{}, "", notes.back()});
-  }
+  if (steps.empty()) refuse(uda, "there are no checkpoints; ask for them with <checkpoint .../> in <DataArchiver>");
+  if (!chosen)
+    return {std::make_reverse_iterator(std::upper_bound(steps.begin(), steps.end(), store.latest())), steps.rend()};
+  if (!std::binary_search(steps.begin(), steps.end(), *chosen))
+    refuse(archive, fmt::format("there is no checkpoint of step {}; {}", *chosen, listed(steps)));
+  return {*chosen};
+}
+
+[[noreturn]] void refuseDamaged(const simulation::Restart& restart, std::optional<int> chosen) {
+  if (chosen)
+    refuse(restart.archive,
+           fmt::format("{}; {}", restart.notes.back(), listed(output::CheckpointStore(restart.archive, 1).steps())));
+  std::vector<InputProblem> problems;
+  for (const std::string& note : restart.notes) problems.push_back({{}, "", note});
   problems.push_back({{}, "", "no earlier checkpoint is intact; start the run again from its scene"});
   throw InputError(std::move(problems));
 }
 
+void restoreScene(simulation::Restart& restart) {
+  if (!output::textOf(restart.scene()).value_or("").empty()) return;
+  output::replaceFileOnDisk(restart.scene(), output::Hdf5Input(restart.state()).text("/scene"));
+  restart.notes.push_back(fmt::format("{} was lost and is that of the checkpoint now", restart.scene().string()));
+}
+
 }  // namespace
 
-simulation::Restart findRestart(const std::string& uda, std::optional<int> step) {
-  simulation::Restart restart{folderOf(uda), 0, {}};
+simulation::Restart findRestart(const std::string& uda, std::optional<int> step, const mpi::Communicator& ranks) {
+  simulation::Restart restart;
+  std::vector<std::uint64_t> candidates;
+  ranks.onFirst([&] {
+    restart.archive = folderOf(uda);
+    for (const int candidate : candidatesOf(uda, restart.archive, step))
+      candidates.push_back(static_cast<std::uint64_t>(candidate));
+  });
+  restart.archive = ranks.broadcast(restart.archive.string());
   const output::CheckpointStore store(restart.archive, 1);
-  if (store.steps().empty())
-    refuse(uda, "there are no checkpoints; ask for them with <checkpoint .../> in <DataArchiver>");
-  restart.step = step ? chosen(restart.archive, store, *step) : lastWhole(store, restart.notes);
-  if (output::textOf(restart.scene()).value_or("").empty()) {
-    output::replaceFileOnDisk(restart.scene(), output::Hdf5Input(restart.state()).text("/scene"));
-    restart.notes.push_back(fmt::format("{} was lost and is that of the checkpoint now", restart.scene().string()));
+  for (const std::uint64_t candidate : mpi::allOf(ranks, candidates)) {
+    restart.step = static_cast<int>(candidate);
+    const std::string damage = output::damageOf(store.folder(restart.step), ranks);
+    if (damage.empty()) {
+      ranks.onFirst([&] { restoreScene(restart); });
+      return restart;
+    }
+    restart.notes.push_back(damageSentence(store, restart.step, damage));
   }
+  ranks.onFirst([&] { refuseDamaged(restart, step); });
   return restart;
 }
 

@@ -39,6 +39,7 @@ void Checkpoints::writeLast() {
 
 void Checkpoints::write() {
   if (last_ == run_.time.step()) return;
+  outputs_.finishOutput();
   const auto started = Clock::now();
   const trace::Span span(trace::Kind::output, "checkpoint");
   const PeakGrowth growth(memory_);

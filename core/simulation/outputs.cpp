@@ -7,7 +7,6 @@
 #include "core/base/memory.hpp"
 #include "core/base/trace.hpp"
 #include "core/output/archive_files.hpp"
-#include "core/output/archive_snapshot.hpp"
 #include "core/output/checkpoint_store.hpp"
 #include "core/simulation/checkpoint_file.hpp"
 #include "core/simulation/snapshot_of.hpp"
@@ -27,6 +26,15 @@ Outputs::Outputs(RunState& run, std::filesystem::path parent)
       parent_(std::move(parent)),
       times_(run.problem.time.initTime, run.problem.archive.outputInterval),
       saves_(!run.phases.savedFields().empty() || !run.phases.savedGlobals().empty() || samples()) {}
+
+Outputs::~Outputs() {
+  if (!on_its_way_ || !run_.ranks.isFirst()) return;
+  try {
+    run_.writers.count() == 1 ? finish(mpi::Communicator::alone()) : on_its_way_->file.abandon();
+  } catch (const FileError&) {
+    // Something else has ended the run, and is told.
+  }
+}
 
 void Outputs::lockArchive() {
   run_.ranks.onFirst([&] { lock_.emplace(run_.problem.restart->archive); });
@@ -111,7 +119,8 @@ void Outputs::saveIfDue() {
   const bool due = isDue();
   passMilestones();
   if (due) save();
-  if (archive_) archive_->keepUp();
+  finishIfWritten();
+  if (archive_ && !on_its_way_) archive_->keepUp();
 }
 
 void Outputs::save() {
@@ -120,21 +129,49 @@ void Outputs::save() {
   const auto started = Clock::now();
   const trace::Span span(trace::Kind::output, "save");
   const PeakGrowth growth(memory_);
+  if (on_its_way_) finish(run_.ranks);
   output::Snapshot state = snapshotOf(run_, run_.phases.savedFields());
   for (const auto& analysis : run_.problem.analyses)
     for (output::Array& column : analysis->exactProfile(run_.problem.grid->finest()))
       state.reference.push_back(std::move(column));
-  const ArchiveSettings& settings = run_.problem.archive;
+  behind_.setMost(mostBehind(bytesInFlight(state)));
   const std::filesystem::path file = std::filesystem::path(folder_) / output::outputName(run_.time.step());
-  output::writeSnapshot(file, state, howOf(settings), run_.writers);
-  run_.ranks.onFirst([&] { archive_->list(state); });
+  output::SnapshotInFlight inFlight(file, state, howOf(run_.problem.archive), run_.writers, behind_);
+  on_its_way_.emplace(OnItsWay{std::move(inFlight), output::withoutValues(std::move(state))});
+  if (behind_.most() == 0) finish(run_.ranks);
   last_ = run_.time.step();
   seconds_ += secondsSince(started);
-  run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} saved in {}", run_.time.step(),
-                                 run_.time.time(), run_.time.delT(), folder_));
+}
+
+/// As much as a rank has of an output on average, or what is little beside a state. Nothing of a small output: a thread
+/// would take as long to wake up.
+std::size_t Outputs::mostBehind(std::uint64_t bytes) const {
+  constexpr std::uint64_t small = std::uint64_t{1} << 20, little = std::uint64_t{32} << 20;
+  if (bytes <= small) return 0;
+  return run_.mostBehind.value_or(std::max(little, bytes / static_cast<std::uint64_t>(run_.ranks.size())));
+}
+
+void Outputs::finish(const mpi::Communicator& ranks) {
+  OnItsWay output = std::move(*std::exchange(on_its_way_, std::nullopt));
+  output.file.finish(ranks);
+  if (archive_) archive_->list(output.listed);
+  run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} saved in {}", output.listed.step,
+                                 output.listed.time, output.listed.delT, folder_));
+}
+
+void Outputs::finishIfWritten() {
+  if (on_its_way_ && !run_.ranks.any(!behind_.isDone())) finishOutput();
+}
+
+void Outputs::finishOutput() {
+  if (!on_its_way_) return;
+  const auto started = Clock::now();
+  finish(run_.ranks);
+  seconds_ += secondsSince(started);
 }
 
 void Outputs::flush() {
+  finishOutput();
   if (!archive_) return;
   flushAnalyses();
   archive_->flush();

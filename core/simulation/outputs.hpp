@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/output/archive.hpp"
+#include "core/output/archive_snapshot.hpp"
 #include "core/output/folder_lock.hpp"
 #include "core/simulation/run_state.hpp"
 
@@ -17,6 +18,10 @@ class Outputs {
  public:
   /// A new archive will be made in this folder; empty: the current one.
   Outputs(RunState& run, std::filesystem::path parent);
+  /// Of a run that ends by an exception: finishes the output on its way if rank 0 can do so alone.
+  ~Outputs();
+  Outputs(const Outputs&) = delete;
+  Outputs& operator=(const Outputs&) = delete;
 
   /// Locks the folder of the run that this one continues. Throws FileError if another process has locked it.
   void lockArchive();
@@ -27,11 +32,13 @@ class Outputs {
   void saveStart();
   /// Saves the globals, and the samples that are due, after a step.
   void saveGlobals();
-  /// Writes an output after a step, if one is due.
+  /// Writes an output after a step, if one is due; finishes the one before if it is written.
   void saveIfDue();
-  /// Writes an output, if the scene has any and this step has none yet.
+  /// Begins to write an output, if the scene has any and this step has none yet: steps may go on.
   void save();
-  /// Brings the lists of the archive up to date, and the files of analysis modules.
+  /// Waits for the output on its way.
+  void finishOutput();
+  /// The same; brings the lists of the archive up to date, and the files of analysis modules.
   void flush();
   /// As above for a checkpoint; if there is an archive, with its current extent.
   output::ArchivePoint sync();
@@ -44,12 +51,23 @@ class Outputs {
   const std::string& folder() const { return folder_; }
   /// The archive; null if there is none, and on all ranks but rank 0.
   output::Archive* archive() const { return archive_.get(); }
-  /// Wall time spent collecting and writing, s.
+  /// Wall time spent collecting and writing, s, without what was written while steps went on.
   double seconds() const { return seconds_; }
+  /// How much of it was spent waiting for an output on its way, s.
+  double waited() const { return behind_.waited(); }
   /// The increase of this rank's peak memory by collecting and writing, bytes.
   double memory() const { return memory_; }
 
  private:
+  /// An output that is being written.
+  struct OnItsWay {
+    output::SnapshotInFlight file;
+    output::Snapshot listed;  ///< without values
+  };
+  /// Gives the output on its way its name when it is written, and lists it; `ranks` as for SnapshotInFlight::finish().
+  void finish(const mpi::Communicator& ranks);
+  void finishIfWritten();
+  std::size_t mostBehind(std::uint64_t bytes) const;
   void makeArchive(const output::ArchiveOptions& how);
   void reopenArchive(const output::ArchiveOptions& how);
   bool isDue() const;
@@ -65,6 +83,8 @@ class Outputs {
   std::unique_ptr<output::Archive> archive_;  ///< on rank 0
   std::string folder_;
   Milestones times_;
+  output::Behind behind_;
+  std::optional<OnItsWay> on_its_way_;
   int last_ = -1;       ///< step of the last output
   bool saves_ = false;  ///< whether the scene has outputs, globals or samples
   double seconds_ = 0, memory_ = 0;

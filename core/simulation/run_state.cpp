@@ -2,11 +2,20 @@
 
 namespace tushar::simulation {
 
+namespace {
+
+std::optional<std::size_t> bytesOf(std::optional<int> megabytes) {
+  return megabytes ? std::optional(static_cast<std::size_t>(*megabytes) << 20) : std::nullopt;
+}
+
+}  // namespace
+
 RunState::RunState(Problem givenProblem, const RunOptions& options, Clock::time_point startedAt,
                    const mpi::Communicator& givenRanks)
     : problem(std::move(givenProblem)),
       ranks(givenRanks),
       writers(output::Writers::spread(givenRanks, options.writers)),
+      mostBehind(ranks.broadcast(bytesOf(options.behind))),
       phases(*problem.component, problem.analyses),
       warehouse(*problem.grid, table, ranks),
       scheduler(warehouse, problem.threads, problem.cellsPerThread),

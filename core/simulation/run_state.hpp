@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct RunState {
   Problem problem;
   const mpi::Communicator& ranks;
   output::Writers writers;
+  std::optional<std::size_t> mostBehind;  ///< bytes of an output that a writer may keep; else what suits it
   data::VariableTable table;
   Phases phases;
   data::Warehouse warehouse;

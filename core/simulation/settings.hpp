@@ -76,10 +76,11 @@ struct RegridSettings {
 
 /// The options of a run on the command line.
 struct RunOptions {
-  std::string jsonPath;      ///< where the report goes; empty: nowhere
-  std::string outputFolder;  ///< instead of the current folder
-  bool quiet = false;        ///< no progress
-  int writers = 0;           ///< ranks that put files on the disk; 0: one on each node
+  std::string jsonPath;         ///< where the report goes; empty: nowhere
+  std::string outputFolder;     ///< instead of the current folder
+  bool quiet = false;           ///< no progress
+  int writers = 0;              ///< ranks that put files on the disk; 0: one on each node
+  std::optional<int> behind{};  ///< MB of an output that a writer may keep while steps go on; else what suits it
 };
 
 }  // namespace tushar::simulation

@@ -251,6 +251,7 @@ report::Report Simulation::makeReport() {
   report.regrids = regridder_.regrids();
   report.wallRegrid = regridder_.seconds();
   report.wallOutput = outputSeconds();
+  report.wallOutputWait = run_.ranks.max(outputs_.waited());
   report.archive = outputs_.folder();
   report.unusedOptions = solvers::unusedOptions();
   return report;

@@ -28,6 +28,8 @@ class InMemory : public Source {
     const auto& values = std::get<std::vector<double>>(array_.values);
     std::memcpy(to, reinterpret_cast<const std::byte*>(values.data()) + first * bytes, count * bytes);
   }
+  /// Steps go on: the memory of the values gets others.
+  void forget() { array_ = counting("a", array_.components, array_.entries(), 7); }
 
  private:
   Array array_;
@@ -82,6 +84,28 @@ TEST(WriteTogether, WritesWhatIsReadBackToTheBitPackedOrNot) {
 
         EXPECT_TRUE(Hdf5Input(here / "a.h5").dataset("/a") == whole.values) << compression << ' ' << components;
       }
+}
+
+TEST(FileInFlight, HasTakenOverItsValuesWhenItIsMadeAndHasTheBytesOfOneThatIsWrittenAtOnce) {
+  const TemporaryFolder here;
+  const std::vector<std::uint64_t> shape{7, 400, 311};
+  for (const Storage& how : {Storage{}, Storage{true, 0}, Storage{false, 1}})
+    for (const std::size_t most : {std::size_t{2} << 20, std::size_t{64} << 20}) {
+      auto changing = std::make_shared<InMemory>(counting("a", 3, 7 * 400 * 311, 0.5));
+      const std::vector<Dataset> datasets{{"/a", {"a", "m", "", 3, std::vector<double>{}, changing}, shape}};
+      writeTogether(
+          {}, here / "at_once.h5", how, [](Hdf5File&) {}, datasets);
+      Behind behind;
+      behind.setMost(most);
+      const Writers alone;
+
+      FileInFlight file(
+          alone, behind, here / "behind.h5", how, [](Hdf5File&) {}, datasets);
+      changing->forget();
+      file.finish(alone.ranks());
+
+      EXPECT_TRUE(read(here / "behind.h5") == read(here / "at_once.h5")) << how.compression << ' ' << most;
+    }
 }
 
 TEST(WriteTogether, RoundsAsFarAsHdf5Does) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 
 #include "core/base/mpi_together.hpp"
 #include "core/collect/sums_before.hpp"
 #include "core/output/archive_hdf5_chunks.hpp"
+#include "core/output/checkpoint_manifest.hpp"
 #include "core/output/pieces.hpp"
 #include "core/output/shared_hdf5.hpp"
 #include "core/output/slabs.hpp"
@@ -86,7 +88,8 @@ class SharedFolder {
 };
 
 /// A file of datasets that are small, cut by slabs, of several components, of scattered entries, and of none.
-std::string fileOf(const Writers& writers, const SharedFolder& folder, const Storage& how) {
+std::string fileOf(const Writers& writers, const SharedFolder& folder, const Storage& how,
+                   std::size_t behindOthers = 0) {
   const mpi::Communicator& ranks = writers.ranks();
   const std::vector<Dataset> datasets{{"/a/small", sharedArray(ranks, 3, 1, 1), {3}},
                                       {"/a/rows", sharedArray(ranks, 7 * 30 * 2000, 1, 100), {7, 30, 2000}},
@@ -94,8 +97,10 @@ std::string fileOf(const Writers& writers, const SharedFolder& folder, const Sto
                                       {"/b/scattered", sharedArray(ranks, 200000, 1, 1), {200000}},
                                       {"/b/none", sharedArray(ranks, 0, 1, 1), {0}},
                                       {"/b/values", {"v", "", "", 1, std::vector<double>{1, 2}}, {2}}};
-  writeTogether(
-      writers, folder / "a.h5", how, [](Hdf5File& file) { file.attribute("/", "step", 7); }, datasets);
+  Behind behind;
+  behind.setMost(behindOthers);
+  const auto header = [](Hdf5File& file) { file.attribute("/", "step", 7); };
+  FileInFlight(writers, behind, folder / "a.h5", how, header, datasets).finish(ranks);
   const std::string bytes = read(folder / "a.h5");
   ranks.any(false);  // nobody writes the next before all have read this one
   return bytes;
@@ -133,10 +138,11 @@ TEST(WriteTogether, MakesTheSameBytesOnAnyRanksByAnyWriters) {
     const std::string expected = allRanks().broadcast(allRanks().isFirst() ? fileOf({}, folder, how) : "");
     for (const int count : {2, 3, 4})
       for (int writers = 1; writers <= count; ++writers)
-        onRanks(count, [&](const mpi::Communicator& ranks) {
-          EXPECT_TRUE(fileOf(Writers::spread(ranks, writers), folder, how) == expected)
-              << count << " ranks, " << writers << " writers, compression " << how.compression;
-        });
+        for (const std::size_t behind : {0, 3 << 20})
+          onRanks(count, [&](const mpi::Communicator& ranks) {
+            EXPECT_TRUE(fileOf(Writers::spread(ranks, writers), folder, how, behind) == expected)
+                << count << " ranks, " << writers << " writers, compression " << how.compression << ", " << behind;
+          });
   }
 }
 
@@ -158,6 +164,28 @@ TEST(WriteTogether, TellsOnTheRankThatCannotWriteAndEndsOnTheOthers) {
 
   EXPECT_EQ(failedElsewhere, writers.mine() < 0);
   EXPECT_EQ(said.find("gone.h5': No such file or directory") != std::string::npos, writers.mine() >= 0) << said;
+}
+
+TEST(CheckpointManifest, IsCheckedByAllRanksWhichAllSeeWhatOneHasFound) {
+  const SharedFolder folder(allRanks());
+  constexpr std::size_t block = std::size_t{1} << 24;
+  std::string content(2 * block + 5, 's');
+  const auto put = [&] { allRanks().onFirst([&] { std::ofstream(folder / "state.h5") << content; }); };
+  put();
+  writeManifest(folder / "", Writers(allRanks(), {0, 2}));
+  EXPECT_EQ(damageOf(folder / "", allRanks()), "");
+  onRanks(2, [&](const mpi::Communicator& ranks) { EXPECT_EQ(damageOf(folder / "", ranks), ""); });
+  for (const std::size_t place : {std::size_t{0}, block, 2 * block + 4}) {
+    content[place] ^= 1;
+    put();
+    EXPECT_EQ(damageOf(folder / "", allRanks()), "the content of state.h5 has changed") << place;
+    content[place] ^= 1;
+  }
+  content.pop_back();
+  put();
+  EXPECT_EQ(damageOf(folder / "", allRanks()), "state.h5 has 33554436 bytes instead of 33554437");
+  allRanks().onFirst([&] { std::filesystem::remove(folder / "state.h5"); });
+  EXPECT_EQ(damageOf(folder / "", allRanks()), "state.h5 is missing");
 }
 
 TEST(Writers, AreSpreadEvenlyAndStayIfTheySaySo) {

@@ -34,8 +34,9 @@ PATIENCE = 200  # seconds after which a job hangs, even on a machine with much e
 
 
 class Writers(FolderTest):
-    def run_by(self, here, scene, sets, writers, layout):
-        words = [scene, "--output", here.path, "-layout", layout, *(["-writers", writers] if here.ranks > 1 else [])]
+    def run_by(self, here, scene, sets, writers, layout, behind=2):
+        words = [scene, "--output", here.path, "-layout", layout, "-behind", behind,
+                 *(["-writers", writers] if here.ranks > 1 else [])]
         code, errors, report = here.finish(words, (*sets, *EVERY))
         self.assertEqual((code, errors), (0, ""))
         return report
@@ -48,13 +49,14 @@ class Writers(FolderTest):
     def test_the_same_bytes_by_any_ranks_and_writers(self):
         for name, (scene, sets, layout) in CASES.items():
             alone = self.folder(1)
-            expected = self.run_by(alone, scene, sets, 1, layout)
+            expected = self.run_by(alone, scene, sets, 1, layout, behind=0)
+            self.assertEqual(expected["wall"]["output_wait"], 0)
             files = self.files(alone)
             self.assertEqual(len(files), 3 + 2 * 2)
-            for ranks, writers in RANKS_AND_WRITERS:
+            for ranks, writers in ((1, 1), *RANKS_AND_WRITERS):
                 with self.subTest(name, ranks=ranks, writers=writers):
                     here = self.folder(ranks)
-                    report = self.run_by(here, scene, sets, writers, layout)
+                    report = self.run_by(here, scene, sets, writers, layout, behind=(ranks + writers) % 3)
                     self.assertEqual(report["fingerprint"], expected["fingerprint"])
                     found = self.files(here)
                     self.assertEqual(found.keys(), files.keys())
