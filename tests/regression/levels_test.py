@@ -25,6 +25,7 @@ PLANE = (BASE + "[16,16,1]", REGRIDDER + "min_patch_size=[[4,4,1]]", REGRIDDER +
 # Scene -> what makes it small, and steps in which its grid changes several times, unless it stays.
 SCENES = {"ups/euler/sod_levels.ups": ((), 60), "ups/euler/lax_liu_3_levels.ups": (PLANE, 80),
           "ups/euler/blast_levels.ups": (PLANE, 120), "ups/heat/levels.ups": ((), 60),
+          "ups/euler/noh_levels.ups": ((), 40),
           "ups/heat/spot_levels.ups": (("Heat/refinement_tolerance=.004", REGRIDDER + "min_patch_size=[[4,4,1]]",
                                         REGRIDDER + "min_timestep_interval=4"), 60),
           "ups/burgers/levels.ups": ((), 60)}
