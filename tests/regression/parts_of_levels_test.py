@@ -16,6 +16,7 @@ import numpy as np
 import tushar
 from sus import ROOT
 from uda import FolderTest
+from vtk_readers import MISSING, h5py, vtk_to_numpy, vtkHDFReader
 
 BLAST = ROOT / "ups/euler/blast_levels.ups"
 SMALL = ("Grid/Level/Box/resolution=[16,16,1]", "AMR/Regridder/min_patch_size=[[4,4,1]]", "AMR/Regridder/max_levels=3",
@@ -137,6 +138,26 @@ class PartsOfLevels(FolderTest):
                 for label in ("c.density", "c.velocity"):
                     expected = np.take(state[label][:], [row], axis=2 - axis)
                     np.testing.assert_array_equal(part[k][label][:], expected, err_msg=f"{plane} {label} {step}")
+
+    @unittest.skipIf(MISSING, MISSING)
+    def test_vtk_reads_the_boxes_of_a_slice(self):
+        folder = self.ran(STEPS)[0].uda / "slice/x=0.16"
+        reader = vtkHDFReader()
+        reader.SetFileName(str(folder / "slice.vtkhdf"))
+        reader.UpdateInformation()
+        with h5py.File(folder / "t00120.h5") as output:
+            reader.UpdateTimeStep(output.attrs["time"])
+            amr, boxes = reader.GetOutputDataObject(0), output["grid/boxes"][()]
+            values, first, seen = output["cells/c.density"][()], 0, {}
+            for level, *corners in boxes:
+                image = amr.GetDataSetAsImageData(int(level), seen.get(level, 0))
+                seen[level] = seen.get(level, 0) + 1
+                read = vtk_to_numpy(image.GetCellData().GetArray("c.density"))
+                self.assertEqual(len(read), corners[4] - corners[1])
+                np.testing.assert_array_equal(read, values[first:first + len(read)])
+                first += len(read)
+            self.assertEqual(first, len(values))
+            self.assertGreater(len(seen), 1)
 
     def test_any_layout_and_a_restart_leave_the_same_bytes(self):
         expected = self.files_of(self.ran(STEPS)[0])

@@ -122,18 +122,6 @@ TEST(RefinedScenes, SaveNoFluxesThroughRims) {
   EXPECT_EQ(problems.find("and 'rim"), std::string::npos) << problems;
 }
 
-TEST(RefinedScenes, ShowNoNodesOnLines) {
-  const std::string line =
-      "<DataAnalysis><Module name=\"lineExtract\"><samplingFrequency>1</samplingFrequency><timeStart>0</timeStart>"
-      "<timeStop>1</timeStop><Variables><analyze label=\"g.mass\"/></Variables><lines><line name=\"axis\">"
-      "<startingPt>[0,0,0]</startingPt><endingPt>[.1,0,0]</endingPt></line></lines></Module></DataAnalysis>"
-      "</Uintah_specification>";
-  const std::string path = changed("ups/solid/penetration_levels.ups", "</Uintah_specification>", line);
-
-  EXPECT_EQ(problemsOf(path),
-            "'g.mass' is a node variable; on several levels only cell and particle variables are saved\n");
-}
-
 TEST(RefinedScenes, CanBePlannedForManyRanks) {
   const DryRun planned = dryRun(withLevel("ups/heat/sine.ups"), {}, catalogue(), {1, false, 3, Index3{{1, 1, 1}}});
 

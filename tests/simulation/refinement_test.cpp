@@ -242,6 +242,48 @@ TEST(Regridding, RefinesWhereAComponentMarksAndFillsNewCellsAsItSays) {
   EXPECT_EQ(heatOf(run), expected);
 }
 
+namespace {
+
+constexpr NodeLabel<double> corner{"g.corner", "1", "a number of each node"};
+
+class WithNodes : public test::Cooling {
+ public:
+  void scheduleDiagnostics(TaskList& tasks) const override {
+    tasks.perPatch(
+        "number", [](const Patch&, NodeView<double> numbers) { numbers.fill(1); }, computes(corner));
+  }
+};
+
+/// Looks at nodes in a window.
+class NodesOfAWindow : public Analysis {
+ public:
+  void schedule(tasks::TaskList&) const override {}
+  void setTime(double, double) override {}
+  std::vector<SaveRequest> samples() const override { return {{"g.corner", "", {"a.ups", 3, 4}, {}}}; }
+  std::vector<collect::Window> windows() const override { return {{}}; }
+};
+
+}  // namespace
+
+TEST(Levels, ShowNoNodesInPartsOfTheGrid) {
+  std::vector<std::unique_ptr<Analysis>> analyses;
+  analyses.push_back(std::make_unique<NodesOfAWindow>());
+  const grid::Grid one(test::domain({{8, 1, 1}})), several(row());
+  for (const grid::Grid* grid : {&one, &several}) {
+    Phases phases(WithNodes{}, analyses);
+    data::VariableTable table;
+    std::string problem;
+    try {
+      phases.compile(analyses, {}, *grid, table);
+    } catch (const InputError& error) {
+      problem = error.problems().front().sentence;
+    }
+    EXPECT_EQ(problem, grid == &one ? ""
+                                    : "'g.corner' is a node variable; on several levels only cell and particle "
+                                      "variables are saved");
+  }
+}
+
 TEST(MarkedBlocks, KeepRegionsOfTheScene) {
   grid::Domain domain = row();
   domain.refinement.regions.push_back({1, Vec3(0.3, 0, 0), Vec3(0.4, 0, 0)});
