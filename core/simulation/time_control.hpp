@@ -38,7 +38,8 @@ class TimeControl {
 
   /// The next time step [s] from what the physics allow: timestep_multiplier times `stable`, within max_delt_increase,
   /// delt_min and delt_max; at the start no longer than delt_init, be that below delt_min; and (where the scene asks)
-  /// up to maxTime or the next output exactly. Throws NumericalError for a step that is not positive or too small to
+  /// up to maxTime or the next output exactly. Where rounding alone would leave a rest up to maxTime, that is part of
+  /// the step. Throws NumericalError for a step that is not positive or too small to
   /// move time on.
   double next(const data::Minimum& stable, double nextOutput);
   /// A shorter time step [s] from where `next` started: times the factor that was `asked` for, but at least 0.1 and at
