@@ -74,6 +74,45 @@ void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element
                      fmt::format("does nothing: density and temperature give {:g} Pa", pressure));
 }
 
+/// The Dirichlet condition of a face for the gas, if it has one; the pressure is shared with material 0.
+std::optional<Element> dirichletOf(const Element& face, const grid::BoundaryVariable& label, int gas) {
+  const bool isShared = label.name == euler::boundary::pressure.name;
+  for (const Element& condition : face.children("BCType")) {
+    const int material = materialOf(condition);
+    if (condition.attribute("label") == label.name && condition.attribute("var") == nameOf(BoundaryKind::dirichlet) &&
+        (material < 0 || material == gas || (isShared && material == 0)))
+      return condition;
+  }
+  return {};
+}
+
+/// Of density, pressure and temperature two make the third: a face that has all three must have one that fits.
+void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagnostics) {
+  const auto sides = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
+  if (!sides) return;
+  const auto valueOf = [](const Element& condition) -> std::optional<double> {
+    const auto text = condition.child("value");
+    return text ? input::parse<double>(text->text()).value : std::nullopt;
+  };
+  for (const Element& face : sides->children("Face")) {
+    const auto density = dirichletOf(face, euler::boundary::density, gas.material),
+               pressure = dirichletOf(face, euler::boundary::pressure, gas.material),
+               temperature = dirichletOf(face, euler::boundary::temperature, gas.material);
+    if (!density || !pressure || !temperature) continue;
+    const auto rho = valueOf(*density), p = valueOf(*pressure), t = valueOf(*temperature);
+    if (!rho || !p || !t) {
+      diagnostics.error(*temperature, "Density and Pressure already give a temperature; keep two of the three");
+      continue;
+    }
+    const double fitting = *p / (gas.gasConstant() * *rho);
+    if (!(std::abs(*t - fitting) <= 1e-3 * fitting))
+      diagnostics.error(*temperature,
+                        fmt::format("found {:g} K, but the Density, at {}, and the Pressure, at {}, give {:g} K; keep "
+                                    "two of the three",
+                                    *t, density->where().text(), pressure->where().text(), fitting));
+  }
+}
+
 void readMaterial(const GasMaterial& material, const Element& element, GasScene& scene, Diagnostics& diagnostics) {
   scene.gas.name = material.name;
   scene.specificHeat = material.specificHeat;
@@ -159,6 +198,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   if (properties.exchange) scene.exchange = properties.exchange->coefficients;
   readMaterial(properties.ice.materials.front(), *root.child("MaterialProperties")->child("ICE")->child("material"),
                scene, diagnostics);
+  checkInflows(root, scene.gas.gas, diagnostics);
   return scene;
 }
 

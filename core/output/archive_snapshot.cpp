@@ -9,6 +9,7 @@
 
 #include "core/output/archive_files.hpp"
 #include "core/output/pieces.hpp"
+#include "core/output/shared_hdf5.hpp"
 
 namespace tushar::output {
 
@@ -111,6 +112,9 @@ SnapshotInFlight::SnapshotInFlight(std::filesystem::path file, const Snapshot& s
     throw;
   }
 }
+
+SnapshotInFlight::~SnapshotInFlight() = default;
+SnapshotInFlight::SnapshotInFlight(SnapshotInFlight&&) noexcept = default;
 
 void SnapshotInFlight::finish(const mpi::Communicator& ranks) {
   try {

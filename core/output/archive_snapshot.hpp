@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "core/output/archive.hpp"
-#include "core/output/shared_hdf5.hpp"
+#include "core/output/behind.hpp"
 #include "core/output/writers.hpp"
 
 namespace tushar::output {
+
+class FileInFlight;
 
 /// A snapshot on its way into an HDF5 file, under a temporary name until it is whole. When one is made, the values have
 /// been taken over, and `behind` brings them to the file. All ranks make one, each with the values that it has. Both
@@ -20,6 +22,8 @@ class SnapshotInFlight {
   /// `writers` and `behind` must outlive it.
   SnapshotInFlight(std::filesystem::path file, const Snapshot& snapshot, const ArchiveOptions& options,
                    const Writers& writers, Behind& behind);
+  ~SnapshotInFlight();
+  SnapshotInFlight(SnapshotInFlight&&) noexcept;
   /// Waits until the file is whole, and gives it its name. Collective on `ranks`: those of the writers, or the first
   /// alone where it is the only writer.
   void finish(const mpi::Communicator& ranks);

@@ -241,7 +241,7 @@ std::string toJson(const Report& report) {
 std::string toText(const Report& report) {
   std::string text = fmt::format("{} to t = {:.6g} s ({}), {}", counted(report.steps, "step"), report.time,
                                  report.ended, counted(report.cells, "cell"));
-  if (report.particles > 0) {
+  if (report.particles > 0 || report.dropped > 0) {
     text += ", " + counted(report.particles, "particle");
     if (report.dropped > 0) text += fmt::format(" ({} left the grid)", report.dropped);
     if (report.wallLoop > 0)

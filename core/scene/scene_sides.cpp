@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace tushar::scene {
 
@@ -181,12 +182,24 @@ bool fitsPlane(const grid::BoundaryVariable& label, const grid::BoundaryConditio
          (!label.isVector || (!condition.formula && condition.value[axis] == 0));
 }
 
+/// Where conditions of a face were given: by label, and by the materials that they hold for.
+using SeenConditions = std::map<std::string, std::map<std::string, Location>>;
+
+/// Where a condition of the same variable was given before that holds for some of the same materials.
+std::optional<Location> givenBefore(const ConditionSection& given, const Location& where, SeenConditions& seen) {
+  auto& places = seen[given.label];
+  for (const auto& [id, place] : places)
+    if (id == given.id || id == "all" || given.id == "all") return place;
+  places.emplace(given.id, where);
+  return {};
+}
+
 /// What is read of a face.
 struct ReadFace {
   const SideWords& words;
   int axis;                                          ///< across it
   std::vector<grid::BoundaryCondition>& conditions;  ///< of it, and of the same part read before
-  std::map<std::string, Location>& seen;             ///< where each of them was given
+  SeenConditions& seen;                              ///< where each of them was given
 };
 
 /// Adds the condition of a tag, unless its label is none that has an effect.
@@ -214,9 +227,9 @@ void readCondition(const ConditionSection& given, const Element& tag, bool onPla
   const bool onOddPlane = onPlane && !fitsPlane(*label, condition, face.axis);
   if (const std::string problem = contradiction(condition, onOddPlane); !problem.empty())
     diagnostics.error(placeOf({&tag.whereOf("var"), &tag.whereOf("label")}, tag.where()), tag.path(), problem);
-  if (const auto [first, isNew] = face.seen.emplace(given.label + given.id, tag.where()); !isNew)
-    diagnostics.error(tag, fmt::format("{} already has a condition on this face, at {}; keep one", label->name,
-                                       first->second.text()));
+  if (const auto first = givenBefore(given, tag.where(), face.seen))
+    diagnostics.error(
+        tag, fmt::format("{} already has a condition on this face, at {}; keep one", label->name, first->text()));
   face.conditions.push_back(std::move(condition));
 }
 
@@ -246,13 +259,13 @@ std::vector<GivenPart> readFaces(const Element& section, const FacesSection& fac
   if (!group) return parts;
   const std::vector<Element> elements = group->children("Face");
   std::map<std::string, Location> sides;
-  std::map<std::pair<int, std::size_t>, std::map<std::string, Location>> seenOnParts;
+  std::map<std::pair<int, std::size_t>, SeenConditions> seenOnParts;
   for (std::size_t f = 0; f < faces.faces.size() && f < elements.size(); ++f) {
     const FaceSection& given = faces.faces[f];
     const int face = given.face();
     if (!checkFaceWords(elements[f], diagnostics)) continue;
     if (const auto side = elements[f].attribute("side")) {
-      std::map<std::string, Location> seen;
+      SeenConditions seen;
       readConditions(given, elements[f], {words, face / 2, boundaries.faces[face], seen}, diagnostics);
       if (const auto [first, isNew] = sides.emplace(*side, elements[f].where()); !isNew)
         diagnostics.error(elements[f],

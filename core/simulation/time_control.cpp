@@ -39,6 +39,9 @@ double TimeControl::next(const data::Minimum& stable, double nextOutput) {
   target_ = time_ + dt;
   if (settings_.clampTimeToOutput) lower(target_, nextOutput, "clamp_time_to_output");
   if (settings_.endAtMaxTimeExactly) lower(target_, settings_.maxTime, "end_at_max_time_exactly");
+  const double rest = settings_.maxTime - target_;
+  if (settings_.endAtMaxTimeExactly && rest <= std::min(timeResolution * std::abs(settings_.maxTime), 1e-3 * dt))
+    target_ = settings_.maxTime;
   del_t_ = target_ == time_ + dt ? dt : target_ - time_;
   return del_t_;
 }

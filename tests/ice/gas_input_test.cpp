@@ -73,4 +73,25 @@ TEST(GasScene, CountsSolidsBeforeTheGas) {
   EXPECT_EQ(diagnostics.sorted()[0].sentence, "there is no material 1: the gas is number 0");
 }
 
+TEST(GasScene, RefusesATemperatureAtASideThatDensityAndPressureContradict) {
+  const auto problemOf = [](const std::string& temperature) {
+    const std::string sides =
+        "<BCType id=\"1\" label=\"Density\" var=\"Dirichlet\"><value>1.2</value></BCType>"
+        "<BCType id=\"0\" label=\"Pressure\" var=\"Dirichlet\"><value>103104</value></BCType>"
+        "<BCType id=\"1\" label=\"Temperature\" var=\"Dirichlet\"><value>" +
+        temperature + "</value></BCType>";
+    const std::size_t old = scene.find("<BCType id=\"1\""), end = scene.find("  </Face>");
+    input::Diagnostics diagnostics;
+    const std::string text = scene.substr(0, old) + sides + scene.substr(end);
+    const input::Document document = input::Document::parse(text, "gas.ups", diagnostics);
+    readGas(document.root(), 1, diagnostics);
+    return diagnostics.any() ? diagnostics.sorted()[0].sentence : "";
+  };
+  EXPECT_EQ(problemOf("300.1"), "") << "1.2 kg/m³ and 103104 Pa make 300 K";
+  EXPECT_EQ(problemOf("500"),
+            "found 500 K, but the Density, at gas.ups:4:5, and the Pressure, at gas.ups:4:74, give 300 K; keep two of "
+            "the three");
+  EXPECT_EQ(problemOf("300 + x"), "Density and Pressure already give a temperature; keep two of the three");
+}
+
 }  // namespace tushar::ice

@@ -71,6 +71,15 @@ class Sides(SceneTest):
         again = SECOND.replace(CIRCLE, SLOT)
         self.assert_refused(JET.replace("</Face>", again, 1), "Velocity already has a condition on this face, at SCENE")
 
+    def test_a_condition_of_all_materials_beside_one_of_a_material(self):
+        for first, second in (("0", "all"), ("all", "0")):
+            with self.subTest(first):
+                face = "".join(f'<BCType id="{number}" label="Velocity" var="Dirichlet"><value>[{u},0,0]</value>'
+                               "</BCType>" for number, u in ((first, 1), (second, 2)))
+                text = JET.replace('<Face side="z-">', f'<Face side="x+">{face}</Face><Face side="z-">')
+                self.assertNotEqual(text, JET)
+                self.assert_refused(text, "Velocity already has a condition on this face, at SCENE")
+
     def test_a_part_of_a_periodic_side(self):
         self.assert_refused(JET.replace("<Level>", "<Level><periodic>[1,0,0]</periodic>"),
                             "x is periodic, so no part of this side can have conditions")

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "core/base/error.hpp"
@@ -88,6 +89,26 @@ TEST(TimeControl, EndsAtMaxTimeExactlyAndAtOutputsWhereAsked) {
 
   EXPECT_TRUE(time.done());
   EXPECT_EQ(time.time(), 0.3);
+}
+
+TEST(TimeControl, LeavesNoStepToRoundingAtTheEnd) {
+  TimeControl time({.maxTime = 1, .deltMax = 0.1, .endAtMaxTimeExactly = true});
+  double least = 1;
+  while (!time.done()) {
+    least = std::min(least, time.next({never}, never));
+    time.advance();
+  }
+  EXPECT_EQ(time.step(), 10) << "ten times .1 are 1 - 1.1e-16";
+  EXPECT_EQ(time.time(), 1);
+  EXPECT_GT(least, 0.0999);
+}
+
+TEST(TimeControl, TakesAShortStepThatIsNotRounding) {
+  TimeControl time({.maxTime = 0.1 + 1e-9, .deltMax = 0.1, .endAtMaxTimeExactly = true});
+  time.next({never}, never);
+  time.advance();
+  EXPECT_FALSE(time.done());
+  EXPECT_NEAR(time.next({never}, never), 1e-9, 1e-16);
 }
 
 TEST(TimeControl, RunsPastMaxTimeWhereNotAsked) {
