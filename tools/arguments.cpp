@@ -88,7 +88,7 @@ void declareWorkers(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--behind", arguments.run.behind,
                  "MB of an output that a writer may keep while steps go on; without it as many as a rank has of it, or "
-                 "32. 0: steps wait until the system has it")
+                 "16. 0: steps wait until the system has it")
       ->check(CLI::Range(0, 1'000'000));
 }
 

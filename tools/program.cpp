@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -204,14 +205,22 @@ struct Failure {
   std::vector<InputProblem> problems;  ///< of the scene
 };
 
+/// The first of them, and how many more there are: a generated scene may have the same mistake in thousands of
+/// materials.
+std::string listOf(const std::vector<InputProblem>& problems) {
+  constexpr std::size_t most = 100;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(most, problems.size()); ++k) text += withNumber(problems[k].text()) + '\n';
+  if (problems.size() > most) text += fmt::format("and {} more\n", problems.size() - most);
+  return text;
+}
+
 /// What went wrong; no text where another rank has it.
 Failure failureOf(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const InputError& error) {
-    std::string text;
-    for (const InputProblem& problem : error.problems()) text += withNumber(problem.text()) + '\n';
-    return {text, ExitCode::badInput, error.problems()};
+    return {listOf(error.problems()), ExitCode::badInput, error.problems()};
   } catch (const NumericalError& error) {
     const std::string advice = error.advice().empty() ? "" : fmt::format("     try {}\n", error.advice());
     return {fmt::format("sus: {}\n{}", withNumber(error.what()), advice), ExitCode::numerical, {}};

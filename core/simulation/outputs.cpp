@@ -146,7 +146,7 @@ void Outputs::save() {
 /// As much as a rank has of an output on average, or what is little beside a state. Nothing of a small output: a thread
 /// would take as long to wake up.
 std::size_t Outputs::mostBehind(std::uint64_t bytes) const {
-  constexpr std::uint64_t small = std::uint64_t{1} << 20, little = std::uint64_t{32} << 20;
+  constexpr std::uint64_t small = std::uint64_t{1} << 20, little = std::uint64_t{16} << 20;
   if (bytes <= small) return 0;
   return run_.mostBehind.value_or(std::max(little, bytes / static_cast<std::uint64_t>(run_.ranks.size())));
 }

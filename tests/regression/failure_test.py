@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A run that goes wrong: what it says, what it leaves behind, and that one can go on from there."""
+import json
 import pathlib
 import re
 import subprocess
@@ -55,6 +56,18 @@ class Failure(unittest.TestCase):
                    "Time/recompute_timestep=true")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"time step limited by CFL \d+, .*p.density \d+; \d+ repeated with a smaller one")
+
+    def test_a_long_list_of_mistakes_is_cut_on_the_screen_and_whole_as_json(self):
+        text = (ROOT / "ups/heat/sine.ups").read_text()
+        for mistakes, more in ((100, ""), (103, "and 3 more\n")):
+            scene = pathlib.Path(self.folder, "many.ups")
+            wrong = "".join(f"<wrong{k}/>" for k in range(mistakes))
+            scene.write_text(text.replace("</Uintah_specification>", wrong + "</Uintah_specification>"))
+            done = run("--check", scene)
+            self.assertEqual((done.returncode, done.stderr.count("<wrong")), (3, 100), done.stderr)
+            self.assertTrue(done.stderr.endswith(more or "]\n"), done.stderr)
+            problems = json.loads(run("--check", scene, "--json").stdout)
+            self.assertEqual(len(problems), mistakes)
 
 
 if __name__ == "__main__":

@@ -30,6 +30,7 @@ CASES = {
 }
 RANKS_AND_WRITERS = ((2, 1), (2, 2), (3, 2), (3, 3), (5, 1), (5, 4), (5, 5))
 LITTLE = 64e6  # bytes that a rank may need beyond its state to write
+HEAPS = {"MALLOC_ARENA_MAX": "1"}  # the C library reserves 64 MB of addresses for each thread, and uses few of them
 PATIENCE = 200  # seconds after which a job hangs, even on a machine with much else to do
 
 
@@ -85,7 +86,7 @@ class Writers(FolderTest):
 
     def most_space(self, here, words, sets):
         """The most address space of a rank of a job, bytes, as the system counts it."""
-        job, most = self.start(here, words, sets), 0
+        job, most = self.start(here, words, sets, **HEAPS), 0
         while job.poll() is None:
             for pid in subprocess.run(["pgrep", "-P", str(job.pid)], capture_output=True, text=True).stdout.split():
                 try:
@@ -108,10 +109,10 @@ class Writers(FolderTest):
         saves = (*silent, "DataArchiver/outputInitTimestep=true", "DataArchiver/outputTimestepInterval=1",
                  "DataArchiver/checkpoint/@timestepInterval=1")
         for writers in (1, 3):
-            job = self.start(here, [*words, "-writers", writers], saves, bounded)
+            job = self.start(here, [*words, "-writers", writers], saves, bounded, **HEAPS)
             self.assertEqual((job.communicate()[1], job.returncode), ("", 0))
             self.assertEqual(len(list(here.uda.glob("t*.h5"))), 3)
-        job = self.start(here, ["-restart", here.uda, "-layout", "2x4x1"], ("Time/max_Timesteps=3",), bounded)
+        job = self.start(here, ["-restart", here.uda, "-layout", "2x4x1"], ("Time/max_Timesteps=3",), bounded, **HEAPS)
         self.assertEqual((job.communicate()[1], job.returncode), ("", 0))
 
     def end_of(self, here, sets, rank, limit, *words):
