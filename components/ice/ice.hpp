@@ -14,8 +14,11 @@ template <int D>
 class Ice : public euler::Euler<D> {
  public:
   explicit Ice(const GasScene& scene)
-      : euler::Euler<D>(scene.gas), diffusion_{scene.viscosity, scene.conductivity}, gravity_(scene.gravity) {}
+      : euler::Euler<D>(scene.gas), diffusion_{scene.viscosity, scene.conductivity}, gravity_(scene.gravity) {
+    for (const ScalarSettings& one : scene.scalars) scalars_.push_back(std::make_shared<const CarriedScalar>(one));
+  }
 
+  void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
@@ -24,7 +27,15 @@ class Ice : public euler::Euler<D> {
   std::vector<std::pair<std::string, std::string>> otherNames() const override;
   std::vector<std::string> gasNames() const override { return {this->settings().name}; }
 
+ protected:
+  bool keepsFaceMasses() const override { return !scalars_.empty(); }
+  /// What the gas carries along, behind its step.
+  void scheduleScalars(TaskList& tasks) const;
+  /// The limits that it has for the steps.
+  void scheduleStepsOfScalars(TaskList& tasks) const;
+
  private:
+  CarriedScalars scalars_;
   euler::Diffusion diffusion_;
   Vec3 gravity_;
 };

@@ -226,8 +226,8 @@ TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
 }
 
 TEST(IceScene, RefusesModels) {
-  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"PassiveScalar\"/></Models>\n  <CFD>")),
-            "is not available; take it out: nothing burns or is carried along");
+  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"Steady_Burn\"/></Models>\n  <CFD>")),
+            "of type 'Steady_Burn' is not available; take it out: a PassiveScalar is carried along, and nothing burns");
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/euler/face_masses.hpp"
 #include "components/ice/face_flow.hpp"
 
 namespace tushar::ice {
@@ -111,7 +112,8 @@ class ImplicitStep {
 /// Source: as FaceFlow; J. von Neumann & R. D. Richtmyer, J. Appl. Phys. 21 (1950) 232, for the shocks.
 template <int D>
 void advanceImplicitly(const Patch& patch, const ImplicitGas& settings, const euler::OldState<D>& before, double time,
-                       double dt, CellView<const double> pressure, const euler::NewState<D>& fresh) {
+                       double dt, CellView<const double> pressure, const euler::NewState<D>& fresh,
+                       const euler::FaceMasses<D>& masses) {
   const Level& level = patch.level();
   const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas, time);
   double most = 0;
@@ -124,6 +126,7 @@ void advanceImplicitly(const Patch& patch, const ImplicitGas& settings, const eu
       most = std::max(most, step.computeFluxes(faces, Axis));
       euler::addFluxes<D, Axis>(dt / level.spacing(Axis), block, before, step.flux(), fresh);
       step.addGravity(block, Axis, fresh);
+      masses.keep(block, Axis, step.flux());
     };
     sweep.template operator()<0>();
     if constexpr (D > 1) sweep.template operator()<1>();
