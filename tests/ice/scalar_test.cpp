@@ -145,6 +145,8 @@ TEST(PassiveScalar, ComesInThroughASideThatGivesIt) {
   scene = changedScene(scene, "<periodic>[1,1,0]</periodic>", "<periodic>[0,1,0]</periodic>");
   scene = changedScene(scene, "<scalar name=\"wave\">", "<scalar name=\"f\">");
   scene = changedScene(scene, "c.scalar-wave", "c.scalar-f");
+  for (const char* name : {"scalar-wave", "totalSum_scalar-wave"})
+    scene = changedScene(scene, "<save label=\"" + std::string(name) + "\"/>", "");
   Overrides overrides = coarse;
   overrides.insert(overrides.end(), {"MaterialProperties/ICE/material/geom_object/velocity=[1,0,0]",
                                      "DataAnalysis/Module/value=0.25", "Time/maxTime=2"});

@@ -151,7 +151,7 @@ TEST(IceScene, RefusesOtherEquationsOfState) {
 TEST(IceScene, TellsWhichNumberOfAnEquationOfStateIsMissing) {
   const std::string numbers = "<B>1</B><R1>4</R1><R2>1</R2><om>.3</om><rho0>1</rho0>";
   EXPECT_EQ(problemOf(changedScene(sod, "<EOS type=\"ideal_gas\"/>", "<EOS type=\"JWL\">" + numbers + "</EOS>")),
-            "missing tag <A> in <EOS>");
+            "missing tag <A> in <EOS> (of exp(-R1 rho0 / rho))");
 }
 
 TEST(IceScene, HasTheFrontOfAShockInProductsOfExplosives) {
