@@ -27,7 +27,7 @@ template <int D>
 void Euler<D>::scheduleTimeAdvance(TaskList& tasks) const {
   tasks.perPatch("euler::advance", chooseAdvance<D>(settings_.method, settings_.gas), with(settings_.gas),
                  all<OldState<D>>(reach(settings_.method)), startTime(), requiresOld(delT), all<NewState<D>>(),
-                 all<RimFluxes<D>>());
+                 all<RimFluxes<D>>(keepsFaceMasses()));
 }
 
 template <int D>

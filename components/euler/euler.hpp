@@ -33,6 +33,8 @@ class Euler : public Component, public reference::GasSolution {
 
  protected:
   const Settings& settings() const { return settings_; }
+  /// Whether something goes with the mass through faces.
+  virtual bool keepsFaceMasses() const { return false; }
 
  private:
   Settings settings_;

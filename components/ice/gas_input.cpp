@@ -176,7 +176,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   const CfdSection cfd = simulation::readSection(root, cfdSchema(), diagnostics);
   const ConstantsSection constants = simulation::readOptionalSection(root, constantsSchema(), diagnostics);
   const PropertiesSection properties = simulation::readSection(root, propertiesSchema(), diagnostics);
-  simulation::readOptionalSection(root, modelsSchema(), diagnostics);
+  ModelsSection models = simulation::readOptionalSection(root, modelsSchema(), diagnostics);
   noteIdle(root, cfd.ice, diagnostics);
   checkConditions(root, solids, diagnostics);
   GasScene scene;
@@ -188,6 +188,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   scene.gas.cfl = cfd.cfl;
   scene.gas.gas.material = solids;
   scene.thinWalls = cfd.ice.thinWalls;
+  scene.scalars = std::move(models.scalars);
   scene.gravity = constants.gravity;
   scene.referencePressure = constants.referencePressure;
   if (isImplicit(cfd.ice)) scene.implicit = implicitPressureOf(cfd.ice);
@@ -217,8 +218,10 @@ std::vector<std::string> gasSections() {
 }
 
 std::vector<grid::BoundaryVariable> gasBoundaryLabels() {
-  return {grid::symmetric, euler::boundary::density, euler::boundary::velocity, euler::boundary::pressure,
-          euler::boundary::temperature};
+  std::vector<grid::BoundaryVariable> all{grid::symmetric, euler::boundary::density, euler::boundary::velocity,
+                                          euler::boundary::pressure, euler::boundary::temperature};
+  for (const char* name : scalarsAtSides) all.push_back(BoundaryLabel<double>(name));
+  return all;
 }
 
 void describeGas(std::ostream& out) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "components/euler/settings.hpp"
+#include "components/ice/scalar.hpp"
 #include "core/input/diagnostics.hpp"
 #include "core/simulation/catalogue.hpp"
 #include "core/solvers/solver.hpp"
@@ -36,6 +37,7 @@ struct GasScene {
   std::optional<bool> thinWalls = {};     ///< whether bodies thinner than a cell hold the gas back
   std::optional<Exchange> exchange = {};  ///< with other materials
   std::optional<ImplicitPressure> implicit = {};
+  std::vector<ScalarSettings> scalars = {};  ///< that the gas carries along
 };
 
 /// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> except its MPM, and the conditions at the sides of the grid.

@@ -228,13 +228,4 @@ const Schema<ConstantsSection>& constantsSchema() {
   return schema;
 }
 
-const Schema<ModelsSection>& modelsSchema() {
-  static const Schema<ModelsSection> schema = [] {
-    Schema<ModelsSection> tags("Models", "Sources of mass, momentum and energy.");
-    input::refuseTag(tags, "Model", "take it out: nothing burns or is carried along");
-    return tags;
-  }();
-  return schema;
-}
-
 }  // namespace tushar::ice

@@ -97,7 +97,10 @@ const input::Schema<CfdSection>& cfdSchema();
 const input::Schema<PropertiesSection>& propertiesSchema();
 const input::Schema<ConstantsSection>& constantsSchema();
 
-struct ModelsSection {};
+/// `Models`.
+struct ModelsSection {
+  std::vector<ScalarSettings> scalars;
+};
 const input::Schema<ModelsSection>& modelsSchema();
 
 }  // namespace tushar::ice

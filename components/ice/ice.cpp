@@ -4,6 +4,7 @@
 #include "components/euler/tasks/add_gravity.hpp"
 #include "components/ice/diagnose.hpp"
 #include "components/ice/tasks/advance_implicitly.hpp"
+#include "components/ice/tasks/carry_scalar.hpp"
 #include "components/ice/tasks/limit_implicit_step.hpp"
 #include "components/ice/tasks/solve_pressure.hpp"
 #include "components/ice/uintah_words.hpp"
@@ -25,8 +26,38 @@ void scheduleDiffusion(TaskList& tasks, const euler::Gas& gas, const euler::Diff
 }  // namespace
 
 template <int D>
+void Ice<D>::scheduleInitialize(TaskList& tasks) const {
+  euler::Euler<D>::scheduleInitialize(tasks);
+  for (const auto& one : scalars_)
+    tasks.perPatch("ice::initializeScalar", initializeScalar<D>, with(one.get()), requiresNew(euler::c::density),
+                   computes(one->held()));
+}
+
+template <int D>
+void Ice<D>::scheduleScalars(TaskList& tasks) const {
+  const bool hasSlopes = this->settings().method.reconstruction != euler::Reconstruction::firstOrder;
+  for (const auto& one : scalars_) {
+    tasks.perPatch("ice::carryScalar", carryScalar<D>, with(one.get()), with(this->settings().gas), with(hasSlopes),
+                   all<ScalarBefore<D>>(one.get()), startTime(), requiresOld(delT), computes(one->held()),
+                   keepsFlux(one->held()));
+    if (!one->settings().interior.empty())
+      tasks.perPatch("ice::raiseScalar", raiseScalar<D>, with(one.get()), requiresNew(euler::c::density),
+                     modifies(one->held()));
+  }
+}
+
+template <int D>
+void Ice<D>::scheduleStepsOfScalars(TaskList& tasks) const {
+  for (const auto& one : scalars_)
+    if (one->settings().diffusivity > 0)
+      tasks.perPatch("ice::limitScalarDiffusion", limitScalarDiffusion<D>, with(one->settings().diffusivity),
+                     with(this->settings().cfl), requiresOld(euler::c::density), computes(delT));
+}
+
+template <int D>
 void Ice<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   euler::Euler<D>::scheduleComputeStableTimeStep(tasks);
+  scheduleStepsOfScalars(tasks);
   if (acting_.diffusion.acts())
     tasks.perPatch("euler::limitDiffusion", euler::limitDiffusion<D>, with(this->settings().gas),
                    with(acting_.diffusion), with(this->settings().cfl), requiresOld(euler::c::density),
@@ -36,6 +67,7 @@ void Ice<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 template <int D>
 void Ice<D>::scheduleTimeAdvance(TaskList& tasks) const {
   euler::Euler<D>::scheduleTimeAdvance(tasks);
+  scheduleScalars(tasks);
   scheduleDiffusion<D>(tasks, this->settings().gas, acting_.diffusion);
   if (!acting_.gravity.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(acting_.gravity), requiresNew(euler::c::density),
@@ -54,18 +86,33 @@ void Ice<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("ice::computeSoundSpeed", computeSoundSpeed<D>, with(this->settings().gas),
                  requiresOld(euler::c::density), requiresOld(euler::c::momentum<D>), requiresOld(euler::c::totalEnergy),
                  computes(c::soundSpeed));
+  for (const auto& one : scalars_) {
+    tasks.perPatch("ice::computeScalar", computeScalar<D>, requiresOld(euler::c::density), requiresOld(one->held()),
+                   computes(one->value()));
+    tasks.perPatch("ice::sumScalar", sumScalar<D>, requiresOld(one->held()), computes(one->total()));
+  }
   tasks.perPatch("ice::computeSpecificVolume", computeSpecificVolume<D>, requiresOld(euler::c::density),
                  computes(c::specificVolume));
 }
 
 template <int D>
 std::vector<std::string> Ice<D>::foreignLabels() const {
-  return uintahsLabels;
+  auto labels = uintahsLabels;
+  for (const auto& one : scalars_) {
+    const std::string name = one->names().first;
+    labels.push_back("mag_grad_" + name);
+    for (const char* end : {"_src", "_diffCoef", "_expDecayCoef", "RemovedScalar", "_X_FC_flux", "_Y_FC_flux",
+                            "_Z_FC_flux", "_X_FC_corr", "_Y_FC_corr", "_Z_FC_corr"})
+      labels.push_back(name + end);
+  }
+  return labels;
 }
 
 template <int D>
 simulation::OtherNames Ice<D>::otherNames() const {
-  return uintahsNames;
+  simulation::OtherNames names = uintahsNames;
+  for (const auto& one : scalars_) names.push_back(one->names());
+  return names;
 }
 
 template <int D>
@@ -80,6 +127,7 @@ template <int D>
 void ImplicitIce<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   tasks.perPatch("ice::limitImplicitStep", limitImplicitStep<D>, with(this->settings()), with(this->acting()),
                  all<euler::OldState<D>>(2), startTime(), requiresOld(c::pressureAtEnd, 2), computes(delT));
+  this->scheduleStepsOfScalars(tasks);
 }
 
 template <int D>
@@ -89,7 +137,8 @@ void ImplicitIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
                 computes(c::pressureAtEnd), totals<SolveTotals>());
   tasks.perPatch("ice::advanceImplicitly", advanceImplicitly<D>, with(this->settings()), with(this->acting()),
                  all<euler::OldState<D>>(2), startTime(), requiresOld(delT), requiresNew(c::pressureAtEnd, 2),
-                 all<euler::NewState<D>>());
+                 all<euler::NewState<D>>(), all<euler::FaceMasses<D>>(this->keepsFaceMasses()));
+  this->scheduleScalars(tasks);
   scheduleDiffusion<D>(tasks, this->settings().gas, this->acting().diffusion);
 }
 

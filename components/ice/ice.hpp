@@ -16,11 +16,13 @@ class Ice : public euler::Euler<D> {
   explicit Ice(const GasScene& scene)
       : euler::Euler<D>(scene.gas),
         acting_{.diffusion = {scene.viscosity, scene.conductivity}, .gravity = scene.gravity} {
+    for (const ScalarSettings& one : scene.scalars) scalars_.push_back(std::make_shared<const CarriedScalar>(one));
     if (!scene.implicit) return;
     acting_.soundSpeedKnob = scene.implicit->soundSpeedKnob;
     acting_.solver = scene.implicit->solver;
   }
 
+  void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
@@ -31,8 +33,14 @@ class Ice : public euler::Euler<D> {
 
  protected:
   const IceSettings& acting() const { return acting_; }
+  bool keepsFaceMasses() const override { return !scalars_.empty(); }
+  /// What the gas carries along, behind its step.
+  void scheduleScalars(TaskList& tasks) const;
+  /// The limits that it has for the steps.
+  void scheduleStepsOfScalars(TaskList& tasks) const;
 
  private:
+  CarriedScalars scalars_;
   IceSettings acting_;
 };
 

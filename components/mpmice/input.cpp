@@ -113,6 +113,9 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
     diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
                       "is not available beside bodies: steps are explicit, and as short as sound allows. Take it out, "
                       "or run with --set CFD/ICE/explicit=true");
+  if (!scene.scalars.empty())
+    diagnostics.error(scene.scalars.front().where, "Models/Model",
+                      "is not available beside bodies; take it out, or keep the gas alone");
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};

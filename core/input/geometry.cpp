@@ -196,8 +196,8 @@ bool collectAbove(const Element& from, const Element& until, std::vector<Element
   return false;
 }
 
-/// In the same section of the scene (MaterialProperties, PhysicalBC, …), as each has labels of its own; with those in
-/// parts of the section that are read first.
+/// In the same section of the scene (MaterialProperties, PhysicalBC, …), as each has labels of its own, before which
+/// those of others do not count; with those in parts of the section that are read first.
 std::vector<Element> labelledAbove(const Element& shape) {
   Element section = shape, part = shape;
   while (section.parent() && section.parent()->parent()) {
@@ -214,6 +214,15 @@ std::vector<Element> labelledAbove(const Element& shape) {
   return found;
 }
 
+/// Those of all sections above.
+std::vector<Element> labelledInScene(const Element& shape) {
+  Element scene = shape;
+  while (scene.parent()) scene = *scene.parent();
+  std::vector<Element> found;
+  collectAbove(scene, shape, found);
+  return found;
+}
+
 std::vector<Element> definitions(const std::string& label, const std::vector<Element>& labelled) {
   std::vector<Element> found;
   for (const Element& shape : labelled)
@@ -223,7 +232,8 @@ std::vector<Element> definitions(const std::string& label, const std::vector<Ele
 
 PiecePtr readReference(const Element& reference, const std::string& label, Diagnostics& diagnostics) {
   const std::vector<Element> labelled = labelledAbove(reference);
-  const std::vector<Element> originals = definitions(label, labelled);
+  std::vector<Element> originals = definitions(label, labelled);
+  if (originals.empty()) originals = definitions(label, labelledInScene(reference));
   if (originals.empty()) {
     std::vector<std::string> labels;
     for (const Element& shape : labelled) labels.push_back(*labelOf(shape));

@@ -58,13 +58,14 @@ class GasBox {
     std::vector<Vec<D>> newMomentum(density.size());
     const int ghost = reach(method);
     for (const Patch& patch : grid.patches())
-      chooseAdvance<D>(method, gas)(patch, gas,
-                               {{seen<const double>(density, patch, ghost), seen<const Vec<D>>(momentum, patch, ghost),
-                                 seen<const double>(energy, patch, ghost)}},
-                               time, dt,
-                               {{seen<double>(newDensity, patch, 0), seen<Vec<D>>(newMomentum, patch, 0),
-                                 seen<double>(newEnergy, patch, 0)}},
-                               {});
+      chooseAdvance<D>(method, gas)(
+          patch, gas,
+          {{seen<const double>(density, patch, ghost), seen<const Vec<D>>(momentum, patch, ghost),
+            seen<const double>(energy, patch, ghost)}},
+          time, dt,
+          {{seen<double>(newDensity, patch, 0), seen<Vec<D>>(newMomentum, patch, 0),
+            seen<double>(newEnergy, patch, 0)}},
+          {});
     time += dt;
     density = newDensity;
     momentum = newMomentum;

@@ -151,7 +151,7 @@ TEST(IceScene, RefusesOtherEquationsOfState) {
 TEST(IceScene, TellsWhichNumberOfAnEquationOfStateIsMissing) {
   const std::string numbers = "<B>1</B><R1>4</R1><R2>1</R2><om>.3</om><rho0>1</rho0>";
   EXPECT_EQ(problemOf(changedScene(sod, "<EOS type=\"ideal_gas\"/>", "<EOS type=\"JWL\">" + numbers + "</EOS>")),
-            "missing tag <A> in <EOS>");
+            "missing tag <A> in <EOS> (of exp(-R1 rho0 / rho))");
 }
 
 TEST(IceScene, HasTheFrontOfAShockInProductsOfExplosives) {
@@ -226,8 +226,8 @@ TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
 }
 
 TEST(IceScene, RefusesModels) {
-  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"PassiveScalar\"/></Models>\n  <CFD>")),
-            "is not available; take it out: nothing burns or is carried along");
+  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"Steady_Burn\"/></Models>\n  <CFD>")),
+            "of type 'Steady_Burn' is not available; take it out: a PassiveScalar is carried along, and nothing burns");
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {

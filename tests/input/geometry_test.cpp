@@ -181,6 +181,24 @@ TEST(Geometry, FindsAShapeAgainByItsLabel) {
   expectBounds(*piece, {0, 0, 0}, {1, 1, 1});
 }
 
+TEST(Geometry, FindsAShapeOfAnotherSectionWhereItsOwnHasNone) {
+  // Two sections: M has b once, N refers to it; its own c counts before that of M.
+  const Document document = documentOf(
+      "<M><a>" + box("[0,0,0]", "[1,1,1]", "b") + "</a><a>" + box("[0,0,0]", "[1,1,1]", "c") + "</a></M><N><a>" +
+      box("[0,0,0]", "[2,2,2]", "c") + "</a><d><box label='b'/></d><e><box label='c'/></e></N>");
+  Diagnostics diagnostics;
+  const Element section = *document.root().child("N");
+
+  const PiecePtr other = readGeometry(*section.child("d"), diagnostics);
+  const PiecePtr own = readGeometry(*section.child("e"), diagnostics);
+
+  EXPECT_FALSE(diagnostics.any());
+  ASSERT_NE(other, nullptr);
+  ASSERT_NE(own, nullptr);
+  expectBounds(*other, {0, 0, 0}, {1, 1, 1});
+  expectBounds(*own, {0, 0, 0}, {2, 2, 2});
+}
+
 TEST(Geometry, SaysThatALabelIsUnknown) {
   EXPECT_EQ(problemsOf("<a>" + box("[0,0,0]", "[1,1,1]", "gp3") + "</a>\n<b><box label='gp4'/></b>"),
             Lines{"s.ups:3:5: M/b/box: there is no shape labelled 'gp4' above (did you mean 'gp3'?)"});

@@ -1,21 +1,24 @@
 #pragma once
 
+#include "components/euler/face_masses.hpp"
 #include "components/euler/settings.hpp"
 #include "components/euler/state_views.hpp"
 
 namespace tushar::euler {
 
-/// The fluxes of the state through the rim of the level, kg/(m² s), Pa and W/m².
+/// The fluxes of the state through the rim of the level, kg/(m² s), Pa and W/m², and those of mass through all faces.
 template <int D>
 struct RimFluxes {
   RimFlux<double> mass;
   RimFlux<Vec<D>> momentum;
   RimFlux<double> energy;
+  FaceMasses<D> masses = {};
 
-  static RimFluxes from(auto& take) {
+  static RimFluxes from(auto& take, bool keepsMasses) {
     return {.mass = take(keepsFlux(c::density)),
             .momentum = take(keepsFlux(c::momentum<D>)),
-            .energy = take(keepsFlux(c::totalEnergy))};
+            .energy = take(keepsFlux(c::totalEnergy)),
+            .masses = FaceMasses<D>::from(take, keepsMasses)};
   }
 };
 

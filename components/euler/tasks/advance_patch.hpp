@@ -128,6 +128,7 @@ void sweep(const G& gas, const Level& level, const Box& block, double dt, const 
   ++faces.upper[Axis];
   computeFluxes<D, Flux, Shape, Axis>(gas, faces, work);
   keepAtRim<D>(rims, faces, Axis, work.flux);
+  rims.masses.keep(block, Axis, work.flux);
   addFluxes<D, Axis>(dt / level.spacing(Axis), block, old, work.flux, fresh);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/euler/face_masses.hpp"
 #include "components/ice/face_flow.hpp"
 
 namespace tushar::ice {
@@ -119,7 +120,7 @@ class ImplicitStep {
 template <int D>
 void advanceImplicitly(const Patch& patch, const euler::Settings& method, const IceSettings& settings,
                        const euler::OldState<D>& before, double time, double dt, CellView<const double> pressure,
-                       const euler::NewState<D>& fresh) {
+                       const euler::NewState<D>& fresh, const euler::FaceMasses<D>& masses) {
   const Level& level = patch.level();
   const euler::GhostRules<D> rules = euler::ghostRules<D>(level, method.gas, time);
   ImplicitStep<D> step(level, method, settings, rules, euler::largestBlock<D>(patch.cells()), dt);
@@ -133,6 +134,7 @@ void advanceImplicitly(const Patch& patch, const euler::Settings& method, const 
       most = std::max(most, step.computeFluxes(faces, Axis));
       euler::addFluxes<D, Axis>(dt / level.spacing(Axis), block, before, step.flux(), fresh);
       step.addGravity(block, Axis, fresh);
+      masses.keep(block, Axis, step.flux());
     };
     sweep.template operator()<0>();
     if constexpr (D > 1) sweep.template operator()<1>();

@@ -112,7 +112,7 @@ void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, c
   numerics::CellSystem<D> system(patches, ranks);
   const auto equationOf = [&](std::size_t p, const Index<D>& cell) {
     return method.gas.law ? equationByLaw<D>(level, flows[p], cell, dt)
-                            : pressureEquation<D>(level, flows[p], cell, dt);
+                          : pressureEquation<D>(level, flows[p], cell, dt);
   };
   const solvers::Outcome outcome = system.solve(settings.solver, rise, equationOf);
   system.requireConvergence(outcome, "the pressure", "CFD/ICE/ImplicitSolver", "c.pressure",

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "components/euler/labels.hpp"
+#include "components/euler/rows.hpp"
+
+namespace tushar::euler {
+
+namespace c {
+/// Of a step, for what the gas carries along.
+template <int D>
+inline constexpr CellLabel<Vec<D>> massFluxBelow{"c.massFluxBelow", "kg/(m^2 s)", "mass through the lower faces"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> massFluxAbove{"c.massFluxAbove", "kg/(m^2 s)", "mass through the upper faces"};
+}  // namespace c
+
+/// The mass that went through the faces of cells in a step, per area and time; empty where nothing needs it.
+template <int D>
+struct FaceMasses {
+  std::optional<CellView<Vec<D>>> below = {}, above = {};
+
+  static FaceMasses from(auto& take, bool areKept) {
+    if (!areKept) return {};
+    return {.below = take(computes(c::massFluxBelow<D>)), .above = take(computes(c::massFluxAbove<D>))};
+  }
+  /// Takes those of the cells of a block across an axis from the fluxes.
+  void keep(const Box& block, int axis, const Rows<D>& flux) const {
+    if (!below) return;
+    forEach<D>(block, [&](const Index<D>& cell) {
+      (*below)[cell][axis] = flux.number(cell, kDensity);
+      (*above)[cell][axis] = flux.number(cell + Index<D>::unit(axis), kDensity);
+    });
+  }
+};
+
+}  // namespace tushar::euler

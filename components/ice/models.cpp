@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "components/ice/gas_schemas.hpp"
+#include "core/input/refuse.hpp"
+
+// The section Models: what the gas carries along.
+
+namespace tushar::ice {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+namespace {
+
+const Schema<ScalarRegion>& startSchema() {
+  static const Schema<ScalarRegion> schema = [] {
+    Schema<ScalarRegion> tags("geom_object", "A region at the start; where regions overlap, the last one counts.");
+    input::addShape(tags, &ScalarRegion::where, &ScalarRegion::shape,
+                    "the region: cells whose middle is inside; several are united")
+        .required("scalar", &ScalarRegion::value, "1", "the scalar there", input::WithoutTime())
+        .value("sinusoidalInitialize", &ScalarRegion::isSine, false, "1",
+               "instead the sum over axes of sin(2 pi freq d), d from 0 to 1 through the region")
+        .value("freq", &ScalarRegion::waves, Vec3::Zero(), "1", "waves along each axis")
+        .value("linearInitialize", &ScalarRegion::isLinear, false, "1", "slope . d more than that, d as above")
+        .value("slope", &ScalarRegion::slope, Vec3::Zero(), "1", "rise through the region along each axis")
+        .ignored("coeff", "belongs to shapes that a formula can have")
+        .ignoredAttribute("name", "for readers");
+    for (const char* tag : {"triangularInitialize", "quadraticInitialize", "cubicInitialize",
+                            "exponentialInitialize_1D", "exponentialInitialize_2D"})
+      input::refuseSwitch(tags, tag, "give <scalar> a formula");
+    return tags;
+  }();
+  return schema;
+}
+
+const Schema<ScalarRegion>& interiorSchema() {
+  static const Schema<ScalarRegion> schema = [] {
+    Schema<ScalarRegion> tags("geom_object", "A region in which a scalar rises in each step.");
+    input::addShape(tags, &ScalarRegion::where, &ScalarRegion::shape, "the region: cells whose middle is inside")
+        .required("scalar", &ScalarRegion::value, "1", "what it rises by in each step", input::WithoutTime())
+        .value("maxScalar", &ScalarRegion::most, std::numeric_limits<double>::max(), "1", "as far as it rises");
+    return tags;
+  }();
+  return schema;
+}
+
+struct RegionList {
+  std::vector<ScalarRegion> list;
+};
+struct ScalarConstants {
+  double diffusivity = 0;
+};
+struct ScalarSection {
+  Location where;
+  std::string name;
+  ScalarConstants constants;
+  RegionList start;
+  std::optional<RegionList> interior;
+};
+struct PassiveScalarSection {
+  ScalarSection scalar;
+};
+
+const Schema<ScalarSection>& scalarSchema() {
+  static const Schema<ScalarConstants> constants = [] {
+    Schema<ScalarConstants> tags("constants", "Numbers of a scalar.");
+    tags.value("diffusivity", &ScalarConstants::diffusivity, 0, "m^2/s", "by which it spreads", input::nonNegative())
+        .ignored("AMR_Refinement_Criteria",
+                 "a <Variable> of <Refinement_Criteria_Thresholds> says where cells are finer")
+        .ignored("initialize_diffusion_knob", "nothing spreads before the first step");
+    input::refuseOtherValues(tags, "rateOfChange0", {"0", "0.0", "0.", "0.0e0"},
+                             "sources are those of <interiorSources>");
+    input::refuseOtherValues(tags, "rateOfChange1", {"0", "0.0", "0.", "0.0e0"},
+                             "sources are those of <interiorSources>");
+    return tags;
+  }();
+  static const Schema<RegionList> start =
+      Schema<RegionList>("initialization", "The scalar at the start.")
+          .list("geom_object", &RegionList::list, startSchema(),
+                "a region; where regions overlap, the last one counts; they must cover the grid", 1);
+  static const Schema<RegionList> interior =
+      Schema<RegionList>("interiorSources", "Where it rises.")
+          .list("geom_object", &RegionList::list, interiorSchema(), "a region", 1);
+  static const Schema<ScalarSection> schema = [] {
+    Schema<ScalarSection> tags("scalar", "A number per mass that the gas carries along.");
+    tags.location(&ScalarSection::where)
+        .requiredAttribute("name", &ScalarSection::name, "1", "it is saved as scalar-NAME and totalSum_scalar-NAME")
+        .section("constants", &ScalarSection::constants, constants)
+        .requiredSection("initialization", &ScalarSection::start, start)
+        .section("interiorSources", &ScalarSection::interior, interior)
+        .ignored("test_conservation", "totalSum_scalar-NAME is there for whoever saves it");
+    input::refuseSwitch(tags, "reinitializeDomain", "a run starts with <initialization>");
+    input::refuseTag(tags, "exponentialDecay", "a scalar that decays is its start times a function of time");
+    return tags;
+  }();
+  return schema;
+}
+
+const Schema<PassiveScalarSection>& passiveScalarSchema() {
+  static const Schema<PassiveScalarSection> schema =
+      Schema<PassiveScalarSection>("PassiveScalar", "A number per mass that the gas carries along.")
+          .requiredSection("scalar", &PassiveScalarSection::scalar, scalarSchema())
+          .ignored("material", "there is one gas");
+  return schema;
+}
+
+void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
+  const std::string type = model.attribute("type").value_or("");
+  if (type != "PassiveScalar")
+    return diagnostics.error(model,
+                             fmt::format("of type '{}' is not available; take it out: a PassiveScalar is carried "
+                                         "along, and nothing burns",
+                                         type));
+  const auto given = model.child("PassiveScalar");
+  if (!given) return diagnostics.error(model, "missing tag <PassiveScalar> in <Model>");
+  const std::size_t before = diagnostics.size();
+  ScalarSection read = passiveScalarSchema().read(*given, diagnostics).scalar;
+  if (diagnostics.size() > before) return;
+  const auto isIt = [&](const ScalarSettings& other) { return other.name == read.name; };
+  if (std::any_of(models.scalars.begin(), models.scalars.end(), isIt))
+    return diagnostics.error(*given, fmt::format("the name '{}' is given twice", read.name));
+  models.scalars.push_back({.where = read.where,
+                            .name = read.name,
+                            .diffusivity = read.constants.diffusivity,
+                            .start = std::move(read.start.list),
+                            .interior = read.interior.value_or(RegionList()).list});
+}
+
+}  // namespace
+
+double ScalarRegion::at(const Vec3& point) const {
+  if (!isSine && !isLinear) return value(point);
+  const input::Box3 bounds = shape->bounds();
+  const Vec3 through = (point - bounds.min).cwiseQuotient(bounds.max - bounds.min);
+  if (isLinear) return value(point) + slope.dot(through);
+  double sum = 0;
+  for (int d = 0; d < 3; ++d) sum += std::sin(2 * std::numbers::pi * waves[d] * through[d]);
+  return sum;
+}
+
+const Schema<ModelsSection>& modelsSchema() {
+  static const Schema<ModelsSection> schema =
+      Schema<ModelsSection>("Models", "What the gas carries along.")
+          .custom(
+              "Model",
+              [](ModelsSection& models, const Element& section, Diagnostics& diagnostics) {
+                for (const Element& model : section.children("Model")) readModel(model, models, diagnostics);
+              },
+              {"Model"}, "type=\"PassiveScalar\": a number per mass that the gas carries along",
+              [](std::ostream& out, int indent) { passiveScalarSchema().describe(out, indent); })
+          .forms({{.tags = {"Model"}, .demands = {{"type", {"PassiveScalar"}}}}});
+  return schema;
+}
+
+}  // namespace tushar::ice

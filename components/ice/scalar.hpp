@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/core.hpp"
+#include "core/input/expression.hpp"
+#include "core/input/geometry.hpp"
+
+namespace tushar::ice {
+
+/// A region of a scalar: where it starts, or where it rises.
+struct ScalarRegion {
+  Location where;  ///< in the scene
+  std::shared_ptr<const input::GeometryPiece> shape;
+  input::Expression value;  ///< of the scalar, or what it rises by in each step
+  double most = 0;          ///< as far as it rises
+  bool isSine = false, isLinear = false;
+  Vec3 waves = Vec3::Zero();  ///< sin(2 pi waves_a d_a) along each axis, d from 0 to 1 through the region
+  Vec3 slope = Vec3::Zero();  ///< slope . d more than the value
+
+  /// The scalar of the region at a point [m].
+  double at(const Vec3& point) const;
+};
+
+/// `<Model type="PassiveScalar">`: a number per mass that the gas carries along.
+struct ScalarSettings {
+  Location where;  ///< in the scene
+  std::string name;
+  double diffusivity = 0;              ///< m²/s
+  std::vector<ScalarRegion> start;     ///< where they overlap, the last one counts
+  std::vector<ScalarRegion> interior;  ///< where it rises in each step
+};
+
+/// A scalar and the names of its variables, which keep their place while tasks have them.
+class CarriedScalar {
+ public:
+  explicit CarriedScalar(ScalarSettings settings)
+      : settings_(std::move(settings)),
+        words_{"scalar-" + settings_.name, "c.scalar-" + settings_.name, "c.held-scalar-" + settings_.name,
+               "totalSum_scalar-" + settings_.name} {}
+  CarriedScalar(const CarriedScalar&) = delete;
+  CarriedScalar& operator=(const CarriedScalar&) = delete;
+
+  const ScalarSettings& settings() const { return settings_; }
+  const CellLabel<double>& value() const { return value_; }
+  const CellLabel<double>& held() const { return held_; }
+  const ReductionLabel<Sum>& total() const { return total_; }
+  /// For conditions at sides of the grid.
+  const BoundaryLabel<double>& atSides() const { return atSides_; }
+  /// Uintah's name, and the one here.
+  std::pair<std::string, std::string> names() const { return {words_[0], words_[1]}; }
+
+ private:
+  ScalarSettings settings_;
+  std::array<std::string, 4> words_;
+  BoundaryLabel<double> atSides_{words_[0]};
+  CellLabel<double> value_{words_[1], "1", "a number per mass that the gas carries along"};
+  CellLabel<double> held_{words_[2], "kg/m^3", "what a volume holds of it"};
+  ReductionLabel<Sum> total_{words_[3], "kg", "what all cells hold of it"};
+};
+
+using CarriedScalars = std::vector<std::shared_ptr<const CarriedScalar>>;
+
+/// Scalars for which sides of the grid may have conditions, by Uintah's names.
+inline constexpr std::array<const char*, 4> scalarsAtSides{"scalar-f", "scalar-q", "scalar-f_CC", "scalar-q_CC"};
+
+}  // namespace tushar::ice

@@ -1,0 +1,238 @@
+#pragma once
+
+#include "components/euler/boundary.hpp"
+#include "components/euler/face_masses.hpp"
+#include "components/ice/scalar.hpp"
+#include "core/base/limiters.hpp"
+
+namespace tushar::ice {
+
+/// The scalar at the start, times the density: of the last region that owns the centre of a cell.
+/// Throws InputError where none does.
+template <int D>
+void initializeScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const double> density,
+                      CellView<double> held) {
+  const auto& regions = scalar->settings().start;
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const Vec3 point = patch.level().template expandPoint<D>(patch.level().template cellCentre<D>(cell));
+    const auto region =
+        std::find_if(regions.rbegin(), regions.rend(), [&](const ScalarRegion& one) { return one.shape->owns(point); });
+    if (region == regions.rend())
+      throw InputError({{scalar->settings().where, "Models/Model/PassiveScalar/scalar/initialization",
+                         fmt::format("no geom_object contains the centre of the cell at ({:g}, {:g}, {:g}); every cell "
+                                     "needs a value at the start",
+                                     point[0], point[1], point[2])}});
+    held[cell] = density[cell] * region->at(point);
+  });
+}
+
+/// What a step reads of a scalar f and of the gas that carries it.
+template <int D>
+struct ScalarBefore {
+  CellView<const double> density, held;
+  CellView<const Vec<D>> below, above;
+
+  static ScalarBefore from(auto& take, const CarriedScalar* scalar) {
+    return {.density = take(requiresOld(euler::c::density, 2)),
+            .held = take(requiresOld(scalar->held(), 2)),
+            .below = take(requiresNew(euler::c::massFluxBelow<D>, 1)),
+            .above = take(requiresNew(euler::c::massFluxAbove<D>, 1))};
+  }
+  double value(const Index<D>& cell) const { return held[cell] / density[cell]; }
+};
+
+/// A scalar at the faces of cells.
+///
+/// f of a cell falls or rises by van Leer's slopes, and is taken half a step ahead, as what leaves through its faces
+/// takes it along. Then its differences from the mean are shrunk until all that leaves, and what then stays, lies
+/// between the values of the cell and its neighbours: so no step makes a value that was not there before.
+/// Source: X. Zhang & C.-W. Shu, J. Comput. Phys. 229 (2010) 3091, of this way to keep a maximum principle.
+template <int D>
+class ScalarAtFaces {
+ public:
+  using Faces = std::array<std::array<double, 2>, D>;
+
+  ScalarAtFaces(const Level& level, const ScalarBefore<D>& before, double dt, bool hasSlopes, const Box& block)
+      : level_(level), before_(before), dt_(dt), hasSlopes_(hasSlopes), box_(level.clipCells(block.grown(1, D))) {
+    values_.resize(box_.size());
+    forEach<D>(box_, [&](const Index<D>& cell) { values_[offset(cell)] = facesOf(cell); });
+  }
+  /// f of a cell's gas that leaves through its lower (0) or upper (1) face.
+  double at(const Index<D>& cell, int axis, int side) const { return values_[offset(cell)][axis][side]; }
+  bool has(const Index<D>& cell) const { return box_.contains(cell); }
+
+ private:
+  std::size_t offset(const Index<D>& cell) const {
+    std::size_t at = 0;
+    for (int d = D - 1; d >= 0; --d) at = at * box_.extent(d) + (cell[d] - box_.lower[d]);
+    return at;
+  }
+  Faces facesOf(const Index<D>& cell) const {
+    const double f = before_.value(cell);
+    Faces change{};
+    double least = 0, most = 0;
+    if (hasSlopes_) {
+      const Box known = level_.clipCells(box_.grown(1, D));
+      double ahead = 0;
+      std::array<double, D> slopes{};
+      for (int d = 0; d < D; ++d) {
+        const Index<D> lower = cell - Index<D>::unit(d), upper = cell + Index<D>::unit(d);
+        const double fall = known.contains(lower) ? f - before_.value(lower) : 0;
+        const double rise = known.contains(upper) ? before_.value(upper) - f : 0;
+        slopes[d] = VanLeer::slope(fall, rise);
+        least = std::min({least, -fall, rise});
+        most = std::max({most, -fall, rise});
+        ahead += 0.25 * (before_.below[cell][d] + before_.above[cell][d]) * perMass(cell, d) * slopes[d];
+      }
+      for (int d = 0; d < D; ++d)
+        for (const int side : {0, 1})
+          change[d][side] = std::clamp((side == 0 ? -0.5 : 0.5) * slopes[d] - ahead, least, most);
+    }
+    const double shrink = least < most ? shrinkage(cell, change, least, most) : 0;
+    Faces faces;
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1}) faces[d][side] = f + shrink * change[d][side];
+    return faces;
+  }
+  double perMass(const Index<D>& cell, int axis) const {
+    return dt_ * level_.inverseSpacing(axis) / before_.density[cell];
+  }
+  /// By how much the differences shrink so that what stays in the cell is within the limits.
+  double shrinkage(const Index<D>& cell, const Faces& change, double least, double most) const {
+    double rest = 1, gone = 0;
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1}) {
+        const double out = side == 0 ? -before_.below[cell][d] : before_.above[cell][d];
+        if (!(out > 0)) continue;
+        rest -= out * perMass(cell, d);
+        gone += out * perMass(cell, d) * change[d][side];
+      }
+    if (!(rest > 0)) return 0;
+    const double stays = -gone / rest;
+    if (stays > most) return most / stays;
+    if (stays < least) return least / stays;
+    return 1;
+  }
+
+  const Level& level_;
+  const ScalarBefore<D>& before_;
+  double dt_;
+  bool hasSlopes_;
+  Box box_;
+  std::vector<Faces> values_;
+};
+
+/// The flux of a scalar through the faces of cells, kg/(m² s).
+template <int D>
+class ScalarFlux {
+ public:
+  ScalarFlux(const Level& level, const euler::Gas& gas, const CarriedScalar& scalar, const ScalarBefore<D>& before,
+             const ScalarAtFaces<D>& faces, double time)
+      : level_(level), gas_(gas), scalar_(scalar), before_(before), faces_(faces), time_(time) {}
+
+  /// Through the lower (0) or upper (1) face of a cell: f of the gas that goes through, and -rho D df/dx.
+  double operator()(const Index<D>& cell, int axis, int side) const {
+    const double mass = side == 0 ? before_.below[cell][axis] : before_.above[cell][axis];
+    const Index<D> next = side == 0 ? cell - Index<D>::unit(axis) : cell + Index<D>::unit(axis);
+    const bool leaves = side == 0 ? mass < 0 : mass > 0;
+    const double diffusivity = scalar_.settings().diffusivity, perWidth = level_.inverseSpacing(axis);
+    if (faces_.has(next)) {
+      const double f = leaves ? faces_.at(cell, axis, side) : faces_.at(next, axis, 1 - side);
+      if (diffusivity == 0) return mass * f;
+      const Index<D>&below = side == 0 ? next : cell, &above = side == 0 ? cell : next;
+      const double rho = 0.5 * (before_.density[below] + before_.density[above]);
+      return mass * f - rho * diffusivity * perWidth * (before_.value(above) - before_.value(below));
+    }
+    const auto given = euler::givenAt(placeOf(cell, axis, side), gas_, scalar_.atSides());
+    const double f = leaves || !given ? faces_.at(cell, axis, side) : *given;
+    if (diffusivity == 0 || !given) return mass * f;
+    const double rise = (side == 0 ? 2 : -2) * (before_.value(cell) - *given);
+    return mass * f - before_.density[cell] * diffusivity * perWidth * rise;
+  }
+
+ private:
+  euler::Place placeOf(const Index<D>& cell, int axis, int side) const {
+    Index<D> beyond = cell;
+    if (side == 1)
+      ++beyond[axis];
+    else
+      --beyond[axis];
+    return {level_, axis, side, level_.partAt<D>(axis, side, beyond), level_.middleOfSide<D>(axis, side, beyond),
+            time_};
+  }
+
+  const Level& level_;
+  const euler::Gas& gas_;
+  const CarriedScalar& scalar_;
+  const ScalarBefore<D>& before_;
+  const ScalarAtFaces<D>& faces_;
+  double time_;
+};
+
+/// A scalar f goes with the mass of the gas: (rho f)' = rho f - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, with the
+/// mass fluxes of the step times f at the faces. So what cells hold of it changes by what flows through sides of the
+/// grid alone, a uniform f stays as it is, and no value leaves the range of those before, but for round-off.
+template <int D>
+void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::Gas& gas, bool hasSlopes,
+                 const ScalarBefore<D>& before, double time, double dt, CellView<double> held,
+                 const RimFlux<double>& rim) {
+  const Level& level = patch.level();
+  euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
+    const ScalarAtFaces<D> faces(level, before, dt, hasSlopes, block);
+    const ScalarFlux<D> flux(level, gas, *scalar, before, faces, time);
+    forEach<D>(block, [&](const Index<D>& cell) {
+      double change = 0;
+      for (int d = 0; d < D; ++d) change += level.inverseSpacing(d) * (flux(cell, d, 1) - flux(cell, d, 0));
+      held[cell] = before.held[cell] - dt * change;
+    });
+    for (int d = 0; d < D; ++d) {
+      Box lower = block;
+      ++lower.upper[d];
+      rim.template forEachFaceIn<D>(lower, d, [&](const Index<D>& face, double& through) {
+        through += block.contains(face) ? flux(face, d, 0) : flux(face - Index<D>::unit(d), d, 1);
+      });
+    }
+  });
+}
+
+/// Where a scalar has interior sources: it rises by their value in each step, as far as their greatest.
+template <int D>
+void raiseScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const double> density,
+                 CellView<double> held) {
+  const Level& level = patch.level();
+  for (const ScalarRegion& region : scalar->settings().interior) {
+    const input::Box3 bounds = region.shape->bounds();
+    forEach<D>(level.cellsNear(bounds.min, bounds.max), [&](const Index<D>& cell) {
+      const Vec3 point = level.expandPoint<D>(level.cellCentre<D>(cell));
+      if (!patch.cells().contains(cell) || !region.shape->owns(point)) return;
+      const double before = held[cell] / density[cell];
+      const double after = std::min(before + region.value(point), region.most);
+      if (after > before) held[cell] = density[cell] * after;
+    });
+  }
+}
+
+/// dt = cfl / (4 sum_d D / h_d²): then diffusion and flow together make no new greatest value either.
+template <int D>
+void limitScalarDiffusion(const Patch& patch, double diffusivity, double cfl, CellView<const double>, Minimum& dt) {
+  double rate = 0;
+  for (int d = 0; d < D; ++d)
+    rate += 4 * diffusivity * patch.level().inverseSpacing(d) * patch.level().inverseSpacing(d);
+  dt.add(cfl / rate, "diffusion of a scalar");
+}
+
+template <int D>
+void computeScalar(const Patch& patch, CellView<const double> density, CellView<const double> held,
+                   CellView<double> value) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { value[cell] = held[cell] / density[cell]; });
+}
+
+/// What the patch holds of a scalar [kg].
+template <int D>
+void sumScalar(const Patch& patch, CellView<const double> held, Sum& total) {
+  WideSum sum(total);
+  const double volume = patch.level().cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { sum.add(volume * held[cell]); });
+}
+
+}  // namespace tushar::ice
