@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "components/euler/diffusion.hpp"
@@ -19,6 +20,10 @@ struct ImplicitGas {
   solvers::LinearSettings solver;
 };
 
+/// Whether a cell has no slopes, as it has a body in it or beside it; none where all have theirs.
+template <int D>
+using IsFlat = std::function<bool(const Index<D>&)>;
+
 /// The gas before a step, beyond sides of the grid too, and what sides give at their faces. A face is named by an axis
 /// and the cell above it.
 template <int D>
@@ -26,11 +31,12 @@ class GasBefore {
  public:
   /// In the cells of `box`, by the rules at the sides, which outlive this.
   GasBefore(const Level& level, const ImplicitGas& settings, const euler::GhostRules<D>& rules, const Box& box,
-            const euler::StateViews<D, const double>& before)
+            const euler::StateViews<D, const double>& before, IsFlat<D> isFlat = {})
       : level_(level),
         rules_(rules),
         gas_(settings.gas),
         gravity_(level.reduce<D>(settings.gravity)),
+        is_flat_(std::move(isFlat)),
         old_(box.size()) {
     old_.hold(box);
     euler::recover<D>(gas_, level, before, old_);
@@ -56,8 +62,10 @@ class GasBefore {
       if (!level_.isPeriodic(d) && (cell[d] < 0 || cell[d] >= level_.cells().upper[d])) return false;
     return true;
   }
+  bool isFlat(const Index<D>& cell) const { return is_flat_ && is_flat_(cell); }
   /// The limited difference of a number of the state across a cell.
   double slope(const Index<D>& cell, int axis, std::size_t number) const {
+    if (isFlat(cell)) return 0;
     const Index<D> step = Index<D>::unit(axis);
     const double middle = old_.number(cell, number);
     return VanLeer::slope(middle - old_.number(cell - step, number), old_.number(cell + step, number) - middle);
@@ -105,6 +113,7 @@ class GasBefore {
   const euler::GhostRules<D>& rules_;
   euler::Gas gas_;
   Vec<D> gravity_;
+  IsFlat<D> is_flat_;
   euler::Rows<D> old_;
 };
 
@@ -121,8 +130,8 @@ class FaceFlow : public GasBefore<D> {
  public:
   /// For the faces of the cells in `box`, from the state in two more layers.
   FaceFlow(const Level& level, const ImplicitGas& settings, const euler::GhostRules<D>& rules, const Box& box,
-           const euler::StateViews<D, const double>& before, double dt)
-      : GasBefore<D>(level, settings, rules, box.grown(2, D), before), dt_(dt), ahead_(this->old()) {
+           const euler::StateViews<D, const double>& before, double dt, IsFlat<D> isFlat = {})
+      : GasBefore<D>(level, settings, rules, box.grown(2, D), before, std::move(isFlat)), dt_(dt), ahead_(this->old()) {
     if (settings.hasSlopes) carryVelocities(level.clipCells(box.grown(1, D)));
   }
 

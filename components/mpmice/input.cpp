@@ -109,14 +109,18 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const std::size_t before = diagnostics.size();
   const int solids = countSolids(root);
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
-  if (scene.implicit)
-    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "is not available beside bodies: steps are explicit, and as short as sound allows. Take it out, "
-                      "or run with --set CFD/ICE/explicit=true");
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};
   settings.diffusion = {scene.viscosity, scene.conductivity};
+  if (scene.implicit)
+    settings.implicit = {.gas = scene.gas.gas,
+                         .diffusion = settings.diffusion,
+                         .gravity = scene.gravity,
+                         .cfl = scene.gas.cfl,
+                         .soundSpeedKnob = scene.implicit->soundSpeedKnob,
+                         .hasSlopes = scene.gas.method.reconstruction != euler::Reconstruction::firstOrder,
+                         .solver = scene.implicit->solver};
   if (scene.exchange) {
     const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
     checkMomentum(*scene.exchange, solids, areRigid, tag, diagnostics);
