@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "components/euler/diffusion.hpp"
@@ -17,6 +18,10 @@ struct IceSettings {
   solvers::LinearSettings solver = {};
 };
 
+/// Whether a cell has no slopes, as it has a body in it or beside it; none where all have theirs.
+template <int D>
+using IsFlat = std::function<bool(const Index<D>&)>;
+
 /// The gas before a step, beyond sides of the grid too, and what sides give at their faces. A face is named by an axis
 /// and the cell above it.
 template <int D>
@@ -24,8 +29,13 @@ class GasBefore {
  public:
   /// Room for boxes of up to `cells` cells; the rules at the sides outlive this.
   GasBefore(const Level& level, const euler::Gas& gas, const Vec3& gravity, const euler::GhostRules<D>& rules,
-            std::size_t cells)
-      : level_(level), rules_(rules), gas_(gas), gravity_(level.reduce<D>(gravity)), old_(cells) {}
+            std::size_t cells, IsFlat<D> isFlat = {})
+      : level_(level),
+        rules_(rules),
+        gas_(gas),
+        gravity_(level.reduce<D>(gravity)),
+        is_flat_(std::move(isFlat)),
+        old_(cells) {}
 
   /// From now on the gas in the cells of `box`.
   void hold(const Box& box, const euler::StateViews<D, const double>& before) {
@@ -52,8 +62,10 @@ class GasBefore {
       if (!level_.isPeriodic(d) && (cell[d] < 0 || cell[d] >= level_.cells().upper[d])) return false;
     return true;
   }
+  bool isFlat(const Index<D>& cell) const { return is_flat_ && is_flat_(cell); }
   /// The limited difference of a number of the state across a cell.
   double slope(const Index<D>& cell, int axis, std::size_t number) const {
+    if (isFlat(cell)) return 0;
     const Index<D> step = Index<D>::unit(axis);
     const double middle = old_.number(cell, number);
     return VanLeer::slope(middle - old_.number(cell - step, number), old_.number(cell + step, number) - middle);
@@ -101,6 +113,7 @@ class GasBefore {
   const euler::GhostRules<D>& rules_;
   const euler::Gas& gas_;
   Vec<D> gravity_;
+  IsFlat<D> is_flat_;
   euler::Rows<D> old_;
 };
 
@@ -117,8 +130,8 @@ class FaceFlow : public GasBefore<D> {
  public:
   /// Room for boxes no larger than `largest`.
   FaceFlow(const Level& level, const euler::Settings& method, const IceSettings& settings,
-           const euler::GhostRules<D>& rules, const Box& largest, double dt)
-      : GasBefore<D>(level, method.gas, settings.gravity, rules, largest.grown(2, D).size()),
+           const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {})
+      : GasBefore<D>(level, method.gas, settings.gravity, rules, largest.grown(2, D).size(), std::move(isFlat)),
         dt_(dt),
         hasSlopes_(method.method.reconstruction != euler::Reconstruction::firstOrder),
         ahead_(this->old()) {}

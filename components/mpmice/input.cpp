@@ -109,17 +109,22 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const std::size_t before = diagnostics.size();
   const int solids = countSolids(root);
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
-  if (scene.implicit)
-    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "is not available beside bodies: steps are explicit, and as short as sound allows. Take it out, "
-                      "or run with --set CFD/ICE/explicit=true");
   if (!scene.scalars.empty())
     diagnostics.error(scene.scalars.front().where, "Models/Model",
                       "is not available beside bodies; take it out, or keep the gas alone");
+  if (scene.implicit && scene.gas.gas.law)
+    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
+                      "is not available beside bodies in a gas that is neither ideal nor stiffened: take it out, or run "
+                      "with --set CFD/ICE/explicit=true");
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};
   settings.diffusion = {scene.viscosity, scene.conductivity};
+  if (scene.implicit)
+    settings.implicit = {.diffusion = settings.diffusion,
+                         .gravity = scene.gravity,
+                         .soundSpeedKnob = scene.implicit->soundSpeedKnob,
+                         .solver = scene.implicit->solver};
   if (scene.exchange) {
     const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
     checkMomentum(*scene.exchange, solids, areRigid, tag, diagnostics);

@@ -27,6 +27,19 @@ template <int D>
 inline constexpr CellLabel<Vec<D>> wallPressureAbove{"c.wallPressureAbove", "Pa", "on walls at the upper faces"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> wallFriction{"c.wallFriction", "N/m^3", "of walls on the gas of the cell"};
+/// Of an implicit step.
+inline constexpr CellLabel<double> aloneDensity{"c.aloneDensity", "kg/m^3", "of the gas itself"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> aloneMomentum{"c.aloneMomentum", "kg/(m^2 s)", "of the gas itself"};
+inline constexpr CellLabel<double> aloneEnergy{"c.aloneEnergy", "J/m^3", "of the gas itself"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> wallSpeedBelow{"c.wallSpeedBelow", "m/s", "of walls at the lower faces"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> wallSpeedAbove{"c.wallSpeedAbove", "m/s", "of walls at the upper faces"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> wallYieldBelow{"c.wallYieldBelow", "m/(s^2 Pa)", "acceleration by pressure, below"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> wallYieldAbove{"c.wallYieldAbove", "m/(s^2 Pa)", "acceleration by pressure, above"};
 /// The state before small cells share theirs with others.
 inline constexpr CellLabel<double> unsharedDensity{"c.unsharedDensity", "kg/m^3", "before small cells share it"};
 template <int D>

@@ -3,6 +3,7 @@
 #include "components/mpmice/tasks/add_diffusion.hpp"
 #include "components/mpmice/tasks/add_gravity.hpp"
 #include "components/mpmice/tasks/advance_gas.hpp"
+#include "components/mpmice/tasks/advance_implicitly.hpp"
 #include "components/mpmice/tasks/compute_stable_time_step.hpp"
 #include "components/mpmice/tasks/conduct_to_bodies.hpp"
 #include "components/mpmice/tasks/diagnose.hpp"
@@ -34,6 +35,9 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
                         withoutMaterial(all<FreeShares<D>>(&c::freeVolume)));
   tasks.perPatch("mpmice::initialize", initialize<D>, with(settings_), requiresNew(c::freeVolume), computes(c::density),
                  computes(c::momentum<D>), computes(c::totalEnergy));
+  if (settings_.implicit)
+    tasks.perPatch("mpmice::guessPressure", guessPressure<D>, with(settings_),
+                   all<GasInCells<D>>(readsNew, typename GasInCells<D>::Reach{}), computes(c::pressureAtEnd));
   tasks.perPatch("mpmice::startImpulse", startSum<D, Vec<D>>, computes(c::impulseSinceStart<D>));
   for (const CellLabel<double>* sum : {&c::workSinceStart, &c::heatSinceStart, &c::leakSinceStart})
     tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(*sum));
@@ -41,10 +45,13 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
 
 template <int D>
 void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) const {
-  tasks.acrossMaterials(
-      "mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
-      withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.mass = 1, .room = 2})),
-      requiresNew(g::record, 1), withoutMaterial(all<WallPressures<D>>()));
+  if (settings_.implicit)
+    schedulePressure(tasks, materials);
+  else
+    tasks.acrossMaterials(
+        "mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
+        withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.mass = 1, .room = 2})),
+        requiresNew(g::record, 1), withoutMaterial(all<WallPressures<D>>()));
   if (isViscous())
     tasks.acrossMaterials(
         "mpmice::computeWallFriction", computeWallFriction<D>, materials, with(settings_), requiresOld(delT),
@@ -57,6 +64,22 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
       computes(total::forceOnBodies), computes(g::surroundingForce<D>));
 }
 
+/// The pressure at the end of the step, that on walls included.
+template <int D>
+void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials) const {
+  constexpr typename GasInCells<D>::Reach reach{.mass = 3, .room = 3};
+  const auto gas = all<GasInCells<D>>(readsOld, reach);
+  tasks.perPatch("mpmice::takeGasAlone", takeGasAlone<D>, with(settings_), gas, all<NewGasAlone<D>>());
+  tasks.acrossMaterials("mpmice::findWallSpeeds", findWallSpeeds<D>, materials, with(settings_), withoutMaterial(gas),
+                        requiresNew(g::record, 1), withoutMaterial(all<NewWallSpeeds<D>>()));
+  tasks.perRank("mpmice::solvePressure", solvePressureBeside<D>, togetherOnRanks(), with(settings_), requiresOld(delT),
+                all<GasAlone<D>>(2), gas, all<WallSpeeds<D>>(), requiresOld(c::pressureAtEnd),
+                computes(c::pressureAtEnd), totals<ice::SolveTotals>());
+  tasks.acrossMaterials("mpmice::takeWallPressure", takeWallPressure<D>, materials, with(settings_),
+                        withoutMaterial(gas), requiresNew(g::record, 1), withoutMaterial(requiresNew(c::pressureAtEnd)),
+                        withoutMaterial(all<WallPressures<D>>()));
+}
+
 template <int D>
 void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) const {
   tasks.perMaterial("mpmice::findBoxes", findBoxes<D>, materials, requiresOld(p::size<D>),
@@ -64,12 +87,19 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, all<MovedBoxes<D>>(),
                         withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume)),
                         withoutMaterial(computes(c::swept<D>)));
-  tasks.acrossMaterials(
-      "mpmice::advanceGas", advanceBody<D>(settings_.gas.method), materials, with(settings_), requiresOld(delT),
-      withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.state = 2, .mass = 2, .room = 3})),
-      withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 1),
-      withoutMaterial(all<UnsharedGas<D>>()), withoutMaterial(all<OfferedExchange<D>>()),
-      computes(total::powerOnBodies));
+  if (settings_.implicit)
+    tasks.acrossMaterials("mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_),
+                          requiresOld(delT), withoutMaterial(all<GasInStep<D>>()),
+                          withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 1),
+                          withoutMaterial(all<UnsharedGas<D>>()), withoutMaterial(all<OfferedExchange<D>>()),
+                          computes(total::powerOnBodies));
+  else
+    tasks.acrossMaterials(
+        "mpmice::advanceGas", advanceBody<D>(settings_.gas.method), materials, with(settings_), requiresOld(delT),
+        withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.state = 2, .mass = 2, .room = 3})),
+        withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 1),
+        withoutMaterial(all<UnsharedGas<D>>()), withoutMaterial(all<OfferedExchange<D>>()),
+        computes(total::powerOnBodies));
   if (settings_.diffusion.acts())
     tasks.perPatch("mpmice::addDiffusion", addDiffusion<D>, with(settings_),
                    all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.state = 1, .mass = 3, .room = 3}),
@@ -82,7 +112,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                           withoutMaterial(requiresNew(c::freeVolume)), withoutMaterial(requiresNew(c::density)),
                           withoutMaterial(requiresNew(c::momentum<D>)), withoutMaterial(modifies(c::totalEnergy)),
                           all<WarmBodies>(), withoutMaterial(offers(c::heat)));
-  if (!settings_.gravity.isZero(0))
+  if (!settings_.gravity.isZero(0) && !settings_.implicit)
     tasks.perPatch("mpmice::addGravity", addGravity<D>, with(settings_.gravity), requiresNew(c::freeVolume),
                    requiresNew(c::density), requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
   scheduleSums(tasks, materials);
@@ -123,6 +153,12 @@ template <int D>
 void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& materials) const {
   tasks.perMaterial("mpmice::limitStepOfBodies", limitStepOfBodies<D>, materials, with(settings_.gas.cfl),
                     requiresOld(mpm::solid::c::stableTimeStep), computes(delT));
+  if (settings_.implicit) {
+    tasks.perPatch("mpmice::limitImplicitStep", limitImplicitStep<D>, with(settings_),
+                   all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.state = 1, .mass = 2, .room = 2}),
+                   computes(delT));
+    return;
+  }
   tasks.perPatch("mpmice::computeStableTimeStep", computeStableTimeStep<D>, with(settings_),
                  all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{}), computes(delT));
   if (settings_.diffusion.acts())

@@ -28,6 +28,7 @@ class GasAround : public mpm::solid::Surroundings {
   bool conductsToBodies() const { return settings_.diffusion.conductivity > 0 && exchangesHeat(); }
   void scheduleConduction(TaskList& tasks, const Materials& materials) const;
   bool isViscous() const { return settings_.diffusion.viscosity > 0; }
+  void schedulePressure(TaskList& tasks, const Materials& materials) const;
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
 
   Settings settings_;

@@ -2,6 +2,7 @@
 
 #include "components/euler/diffusion.hpp"
 #include "components/euler/settings.hpp"
+#include "components/ice/face_flow.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpmice {
@@ -14,7 +15,8 @@ struct Settings {
   std::vector<double> heat;      ///< W/(m³ K) between pairs of materials, row by row, the gas last; empty: none flows
   bool thinWalls = false;        ///< bodies thinner than a cell hold the gas back, too
   bool areRigid = false;         ///< bodies move as they started, whatever the gas does
-  euler::Diffusion diffusion = {};  ///< in the gas
+  euler::Diffusion diffusion = {};                ///< in the gas
+  std::optional<ice::IceSettings> implicit = {};  ///< where sound does not limit the steps
 };
 
 /// Free volumes below this are none.

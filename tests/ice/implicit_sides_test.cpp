@@ -54,7 +54,7 @@ class Line {
     std::vector<double> density(4), energy(4), pushed;
     std::vector<Vec<1>> momentum(4);
     advanceImplicitly<1>(patch(), method_, settings_, before(), 0, dt, seen<const double>(pressure_, 2),
-                         {{seen<double>(density, 0), seen<Vec<1>>(momentum, 0), seen<double>(energy, 0)}});
+                         {{seen<double>(density, 0), seen<Vec<1>>(momentum, 0), seen<double>(energy, 0)}}, {});
     for (const Vec<1>& one : momentum) pushed.push_back(one[0]);
     return pushed;
   }

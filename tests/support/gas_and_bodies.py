@@ -141,6 +141,16 @@ def moving_piston(cells):
     return {"ahead": mean(pushed) / shock - 1, "behind": mean(drawn) / .8 ** 7 - 1}
 
 
+def slow_piston(cells):
+    """Greatest relative errors of the pressure on both sides of it, away from its faces, and the number of steps."""
+    run_of = Outcome("slow_piston", cells)
+    cut = list(zip(run_of.fields["x [m]"], run_of.fields[PRESSURE]))
+    exact = {"ahead": .6 ** -1.4, "behind": 1.4 ** -1.4}
+    found = {"ahead": [p for x, p in cut if x > 1.65], "behind": [p for x, p in cut if x < 1.35]}
+    errors = {side: max(abs(p / exact[side] - 1) for p in found[side]) for side in exact}
+    return {**errors, "steps": len(run_of.totals["GasMass"]) - 1}
+
+
 def oblique_shock(mach, angle, gamma=1.4):
     """Angle and pressure ratio of the weak shock that turns a flow, angles in rad. Source: theta-beta-M relation."""
     def turned(beta):

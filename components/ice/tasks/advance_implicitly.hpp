@@ -11,16 +11,17 @@ class ImplicitStep {
  public:
   /// Room for blocks no larger than `largest`.
   ImplicitStep(const Level& level, const euler::Settings& method, const IceSettings& settings,
-               const euler::GhostRules<D>& rules, const Box& largest, double dt)
+               const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {})
       : level_(level),
         dt_(dt),
-        flow_(level, method, settings, rules, largest, dt),
+        flow_(level, method, settings, rules, largest, dt, std::move(isFlat)),
         after_(flow_.old()),
         middle_(flow_.old()),
         flux_(flow_.old()) {}
 
   /// From now on the cells of `block`.
-  void hold(const Box& block, const euler::OldState<D>& before, const CellView<const double>& pressure) {
+  void hold(const Box& block, const euler::StateViews<D, const double>& before,
+            const CellView<const double>& pressure) {
     flow_.hold(block, before);
     flow_.fillWithPressure(pressure, after_);
     middle_ = flow_.old();
@@ -34,8 +35,15 @@ class ImplicitStep {
   /// Richtmyer's viscosity of a strong shock, (gamma + 1) / 2 rho (dv)². Returns the greatest part of a cell that flows
   /// through a face.
   double computeFluxes(const Box& faces, int axis) {
+    return computeFluxes(faces, axis, [](const Index<D>&) { return 1.0; });
+  }
+  /// The same through the share `open(face)` of each face.
+  template <class Open>
+  double computeFluxes(const Box& faces, int axis, Open&& open) {
     double most = 0;
     forEach<D>(faces, [&](const Index<D>& face) {
+      const double share = open(face);
+      if (!(share > 0)) return euler::store<D>(flux_.at(face), 0, {});
       const double u = velocity(face, axis);
       const bool isFromBelow = u >= 0;
       const Index<D> from = isFromBelow ? face - Index<D>::unit(axis) : face;
@@ -46,6 +54,8 @@ class ImplicitStep {
       for (int k = 0; k < D; ++k) flux[euler::kVelocity(k)] = mass * w[euler::kVelocity(k)];
       flux[euler::kVelocity(axis)] += push;
       flux[euler::kPressure<D>] = u * (euler::conserved<D>(flow_.gas(), w)[euler::kPressure<D>] + push);
+      if (share != 1)
+        for (double& number : flux) number *= share;
       euler::store<D>(flux_.at(face), 0, flux);
       most = std::max(most, std::abs(u) * dt_ * level_.inverseSpacing(axis));
     });
@@ -56,9 +66,15 @@ class ImplicitStep {
   /// Adds the weight of what is at both faces of each cell of a block across an axis, and its work on what flows
   /// through them, so that gas at rest in layers stays at rest.
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh) {
+    addGravity(block, axis, fresh, [](const Index<D>&) { return true; });
+  }
+  /// The same in the cells that `takes(cell)` says.
+  template <class Takes>
+  void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh, Takes&& takes) {
     const double g = flow_.gravity()[axis];
     if (g == 0) return;
     forEach<D>(block, [&](const Index<D>& cell) {
+      if (!takes(cell)) return;
       const Index<D> above = cell + Index<D>::unit(axis);
       fresh.momentum[cell][axis] += 0.5 * dt_ * g * (flow_.density(cell, axis) + flow_.density(above, axis));
       const std::size_t mass = euler::kDensity;
@@ -94,6 +110,7 @@ class ImplicitStep {
   }
   /// What flow, pressure and gravity change in a cell in half a step.
   void goHalfway(const Index<D>& cell) {
+    if (flow_.isFlat(cell)) return;
     const euler::State<D> w = flow_.old().state(cell);
     const auto middle = middle_.at(cell);
     for (int d = 0; d < D; ++d) {

@@ -60,6 +60,12 @@ class WallExchange {
   /// Rules for ghost states beyond the sides of the grid.
   const euler::GhostRules<D>& rules() const { return rules_; }
   const FreeSpace<D>& space() const { return space_; }
+  /// Open share of the lower face of a cell, which may lie beyond an upper side of the grid.
+  double openShareOf(const NearBodies<D>& near, const Index<D>& cell, int axis) const {
+    if (!near(cell)) return 1;
+    const bool isUpperSide = !level_.isPeriodic(axis) && cell[axis] == level_.cells().upper[axis];
+    return isUpperSide ? space_.aperture(cell - Index<D>::unit(axis), axis, 1) : space_.aperture(cell, axis, 0);
+  }
 
   /// Adds to the content of a cell what walls at its faces push, and what gas flows in behind walls that move. Returns
   /// what the gas gives to the walls.
@@ -270,6 +276,29 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
   if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, work.flux, *flow);
 }
 
+/// Adds what walls near a block do, and its power.
+template <int D>
+void addWalls(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, double perStep,
+              const euler::StateViews<D, double>& fresh, const OfferedExchange<D>& offered, Sum& power) {
+  near.forEachIn(block, [&](const Index<D>& cell) {
+    const Given<D> given = exchange.addTo(cell, fresh);
+    if (given.work != 0) power.add(given.work * perStep);
+    if (offered.impulse) (*offered.impulse)[cell] = given.impulse;
+    if (offered.work) (*offered.work)[cell] = given.work;
+  });
+}
+
+/// Throws NumericalError for an impossible state of the gas away from bodies.
+template <int D>
+void refuseFarGas(const Patch& patch, const euler::Gas& gas, const NearBodies<D>& near, const GasInCells<D>& cells,
+                  const euler::StateViews<D, double>& fresh) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (!near(cell) &&
+        !euler::canBe<D>(gas, &fresh.density[cell], fresh.momentum[cell].data(), &fresh.totalEnergy[cell], 1))
+      euler::refuseState<D>(patch.level(), gas, cell, fresh, &cells.held);
+  });
+}
+
 /// A step of a block with bodies in it or around: `euler`'s, through open faces alone, and what walls do. Returns
 /// whether the gas away from bodies can be; beside them small cells have still to share.
 template <int D, class Flux, class Shape, class G>
@@ -290,12 +319,7 @@ bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells
   sweep.template operator()<0>();
   if constexpr (D > 1) sweep.template operator()<1>();
   if constexpr (D > 2) sweep.template operator()<2>();
-  near.forEachIn(block, [&](const Index<D>& cell) {
-    const Given<D> given = exchange.addTo(cell, fresh);
-    if (given.work != 0) power.add(given.work * perStep);
-    if (offered.impulse) (*offered.impulse)[cell] = given.impulse;
-    if (offered.work) (*offered.work)[cell] = given.work;
-  });
+  addWalls<D>(exchange, near, block, perStep, fresh, offered, power);
   bool fine = true;
   forEach<D>(block, [&](const Index<D>& cell) {
     fine &= near(cell) ||
@@ -335,13 +359,7 @@ void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, co
     advance(gas);
   else
     advance(euler::lawOf<euler::StiffenedGas>(gas));
-  if (fine) return;
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    if (near(cell) || euler::canBe<D>(gas, &fresh.held.density[cell], fresh.held.momentum[cell].data(),
-                                      &fresh.held.totalEnergy[cell], 1))
-      return;
-    euler::refuseState<D>(level, gas, cell, fresh.held, &cells.held);
-  });
+  if (!fine) refuseFarGas<D>(patch, gas, near, cells, fresh.held);
 }
 
 }  // namespace tushar::mpmice

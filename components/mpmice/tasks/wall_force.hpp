@@ -26,12 +26,15 @@ class CellWalls {
     slip_ = facingOneWay<D>(level, faces_);
   }
   bool hasWall(int axis, int side) const { return faces_[axis].wall(side) > 0; }
-  double pressure(const euler::Gas& gas, const Vec<D>& wallVelocity, int axis, int side) const {
+  /// Speed with which the gas meets a wall, m/s.
+  double closing(const Vec<D>& wallVelocity, int axis, int side) const {
     Vec<D> relative;
     for (int d = 0; d < D; ++d) relative[d] = w_[euler::kVelocity(d)] - wallVelocity[d];
     const double outward = side == 0 ? -relative[axis] : relative[axis];
-    const double closing = slip_ * relative.dot(normal_) + (1 - slip_) * outward;
-    return wallPressure(gas, w_[euler::kDensity], w_[euler::kPressure<D>], closing);
+    return slip_ * relative.dot(normal_) + (1 - slip_) * outward;
+  }
+  double pressure(const euler::Gas& gas, const Vec<D>& wallVelocity, int axis, int side) const {
+    return wallPressure(gas, w_[euler::kDensity], w_[euler::kPressure<D>], closing(wallVelocity, axis, side));
   }
 
  private:
@@ -41,11 +44,11 @@ class CellWalls {
   double slip_ = 0;
 };
 
-/// Pressure of the gas on walls, by the velocities of gas and bodies at the start of the step.
-template <int D>
-void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
-                         const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
-                         const WallPressures<D>& walls) {
+/// Fills in the pressure on all walls: `pressureOn(cell, walls of the cell, velocity of the wall, axis, side)`.
+template <int D, class PressureOn>
+void fillWallPressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
+                      const typename BodiesAtNodes<D>::Records& records, const WallPressures<D>& walls,
+                      PressureOn&& pressureOn) {
   const Level& level = patch.level();
   walls.below.fill(Vec<D>::Zero());
   walls.above.fill(Vec<D>::Zero());
@@ -58,13 +61,23 @@ void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Mater
     for (int d = 0; d < D; ++d) {
       const auto on = [&](const Index<D>& face, int side) {
         if (!ofCell.hasWall(d, side)) return 0.0;
-        const Vec<D> velocity = bodies.velocityAt(face, d, mpm::solid::lane::velocity);
-        return ofCell.pressure(settings.gas.gas, velocity, d, side);
+        return pressureOn(cell, ofCell, bodies.velocityAt(face, d, mpm::solid::lane::velocity), d, side);
       };
       walls.below[cell][d] = on(cell, 0);
       walls.above[cell][d] = on(cell + Index<D>::unit(d), 1);
     }
   });
+}
+
+/// Pressure of the gas on walls, by the velocities of gas and bodies at the start of the step.
+template <int D>
+void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
+                         const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
+                         const WallPressures<D>& walls) {
+  fillWallPressure<D>(patch, settings, cells, records, walls,
+                      [&](const Index<D>&, const CellWalls<D>& ofCell, const Vec<D>& velocity, int d, int side) {
+                        return ofCell.pressure(settings.gas.gas, velocity, d, side);
+                      });
 }
 
 /// The pressures that computeWallPressure found, and where the gas is viscous the friction.

@@ -1,0 +1,117 @@
+#pragma once
+
+#include "components/euler/tasks/add_gravity.hpp"
+#include "components/ice/tasks/advance_implicitly.hpp"
+#include "components/mpmice/tasks/advance_gas.hpp"
+#include "components/mpmice/tasks/solve_pressure.hpp"
+
+namespace tushar::mpmice {
+
+/// The gas before a step, and the pressure at its end.
+template <int D>
+struct GasInStep {
+  GasInCells<D> cells;
+  GasAlone<D> alone;
+  CellView<const double> pressure;
+
+  static GasInStep from(auto& take) {
+    return {.cells = GasInCells<D>::from(take, readsOld, {.state = 2, .mass = 3, .room = 3}),
+            .alone = GasAlone<D>::from(take, 2),
+            .pressure = take(requiresNew(c::pressureAtEnd, 2))};
+  }
+};
+
+/// The fluxes of an implicit step through the open shares of a block's faces, and its gravity. Returns the greatest
+/// part of a cell that flows through a face.
+template <int D, int Axis>
+double sweepImplicitly(const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level, const Box& block,
+                       double dt, const GasInCells<D>& cells, ice::ImplicitStep<D>& step,
+                       const euler::StateViews<D, double>& fresh, const std::optional<CellView<Vec<D>>>& flow) {
+  Box faces = block;
+  ++faces.upper[Axis];
+  const double most =
+      step.computeFluxes(faces, Axis, [&](const Index<D>& face) { return exchange.openShareOf(near, face, Axis); });
+  const double ratio = dt / level.spacing(Axis);
+  euler::addFluxes<D, Axis>(ratio, block, cells.held, step.flux(), fresh);
+  if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, step.flux(), *flow);
+  step.addGravity(block, Axis, fresh, [&](const Index<D>& cell) { return !near(cell); });
+  return most;
+}
+
+/// One step of the gas with the pressure at its end: that of `ice` where no body is near; at bodies, fluxes go through
+/// the open share of faces, and walls push and move as in an explicit step. Mass, momentum and energy are kept whatever
+/// the pressure is.
+template <int D>
+void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
+                       double dt, const GasInStep<D>& before, const BodiesInStep<D>& bodies,
+                       const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh,
+                       const OfferedExchange<D>& offered, Sum& power) {
+  const Level& level = patch.level();
+  const GasInCells<D>& cells = before.cells;
+  const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
+  const WallExchange<D> exchange(level, settings, cells, bodies, records, dt);
+  const Vec<D> gravity = level.reduce<D>(settings.gravity);
+  offered.clear();
+  double most = 0;
+  ice::ImplicitStep<D> step(level, settings.gas, *settings.implicit, exchange.rules(),
+                            euler::largestBlock<D>(patch.cells()), dt, flatAtBodies<D>(level, cells));
+  euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
+    step.hold(block, before.alone.state, before.pressure);
+    const auto sweep = [&]<int Axis>() {
+      most = std::max(
+          most, sweepImplicitly<D, Axis>(exchange, near, level, block, dt, cells, step, fresh.held, offered.massFlow));
+    };
+    sweep.template operator()<0>();
+    if constexpr (D > 1) sweep.template operator()<1>();
+    if constexpr (D > 2) sweep.template operator()<2>();
+    near.forEachIn(block, [&](const Index<D>& cell) {
+      if (!gravity.isZero(0) && !cells.isEmpty(cell))
+        euler::fall<D>(gravity, cells.held.density[cell], dt, fresh.held.momentum[cell], fresh.held.totalEnergy[cell]);
+    });
+    addWalls<D>(exchange, near, block, level.cellVolume() / dt, fresh.held, offered, power);
+  });
+  refuseFarGas<D>(patch, settings.gas.gas, near, cells, fresh.held);
+  if (!(most <= 1))
+    throw NumericalError(fmt::format("gas would cross {:.3g} cells in a step of {:.3g} s", most, dt),
+                         "a smaller CFD/cfl", "c.velocity");
+}
+
+/// dt = cfl / s as `ice` has it, s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2, by the pressure of the gas.
+template <int D>
+void limitImplicitStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
+  const Level& level = patch.level();
+  const ice::IceSettings& implicit = *settings.implicit;
+  const euler::Gas& gas = settings.gas.gas;
+  const FreeSpace<D> space(level, settings, cells);
+  const Vec<D> gravity = level.reduce<D>(settings.gravity);
+  const std::size_t p = euler::kPressure<D>;
+  double greatest = 0;
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (cells.isEmpty(cell)) return;
+    const euler::State<D> w = cells.primitive(gas, cell);
+    const double rho = w[euler::kDensity], stiff = w[p] + gas.pInfinity;
+    if (!(stiff > 0)) refuseGas<D>(level, gas, cell, cells.free[cell], rho, stiff);
+    const double sound = implicit.soundSpeedKnob * std::sqrt(gas.soundSpeedSquared(rho, w[p]));
+    const double layer = std::min(1.0, layerOf(cells.free[cell]));
+    double rate = 0, rates = 0;
+    for (int d = 0; d < D; ++d) {
+      const double perWidth = level.inverseSpacing(d);
+      rate += (std::abs(w[euler::kVelocity(d)]) + sound) * perWidth;
+      if (implicit.diffusion.acts())
+        rate += 2 * implicit.diffusion.greatest(gas, rho) * (perWidth * perWidth) / (layer * layer);
+      double most = 0;
+      for (const int side : {0, 1}) {
+        if (space.isAtSide(cell, d, side) || !(space.aperture(cell, d, side) > 0)) continue;
+        const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
+        const euler::State<D> other = cells.primitive(gas, next);
+        const double rise = (side == 0 ? w[p] - other[p] : other[p] - w[p]) * perWidth;
+        most = std::max(most, std::abs(gravity[d] - 2 * rise / (rho + other[euler::kDensity])));
+      }
+      rates += perWidth * most;
+    }
+    greatest = std::max(greatest, 0.5 * (rate + std::sqrt(rate * rate + 4 * rates)));
+  });
+  if (greatest > 0) dt.add(settings.gas.cfl / greatest, "CFL");
+}
+
+}  // namespace tushar::mpmice

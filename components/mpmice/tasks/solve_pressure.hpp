@@ -1,0 +1,234 @@
+#pragma once
+
+#include "components/ice/tasks/solve_pressure.hpp"
+#include "components/mpmice/tasks/wall_force.hpp"
+
+namespace tushar::mpmice {
+
+/// The gas itself, per volume of the gas, in all cells; where there is none, some gas that nothing looks at.
+template <int D>
+struct GasAlone {
+  euler::StateViews<D, const double> state;
+
+  static GasAlone from(auto& take, int ghost) {
+    return {.state = {take(requiresNew(c::aloneDensity, ghost)), take(requiresNew(c::aloneMomentum<D>, ghost)),
+                      take(requiresNew(c::aloneEnergy, ghost))}};
+  }
+};
+template <int D>
+struct NewGasAlone {
+  euler::StateViews<D, double> state;
+
+  static NewGasAlone from(auto& take) {
+    return {.state = {take(computes(c::aloneDensity)), take(computes(c::aloneMomentum<D>)),
+                      take(computes(c::aloneEnergy))}};
+  }
+};
+
+/// Velocities of the walls at the lower and upper faces of cells, across them, m/s, and how much a wall is accelerated
+/// by the pressure of the cell's gas, m/(s² Pa).
+template <int D>
+struct WallSpeeds {
+  CellView<const Vec<D>> below, above, yieldBelow, yieldAbove;
+
+  static WallSpeeds from(auto& take) {
+    return {.below = take(requiresNew(c::wallSpeedBelow<D>)),
+            .above = take(requiresNew(c::wallSpeedAbove<D>)),
+            .yieldBelow = take(requiresNew(c::wallYieldBelow<D>)),
+            .yieldAbove = take(requiresNew(c::wallYieldAbove<D>))};
+  }
+  double at(const Index<D>& cell, int axis, int side) const {
+    return side == 0 ? below[cell][axis] : above[cell][axis];
+  }
+  double yield(const Index<D>& cell, int axis, int side) const {
+    return side == 0 ? yieldBelow[cell][axis] : yieldAbove[cell][axis];
+  }
+};
+template <int D>
+struct NewWallSpeeds {
+  CellView<Vec<D>> below, above, yieldBelow, yieldAbove;
+
+  static NewWallSpeeds from(auto& take) {
+    return {.below = take(computes(c::wallSpeedBelow<D>)),
+            .above = take(computes(c::wallSpeedAbove<D>)),
+            .yieldBelow = take(computes(c::wallYieldBelow<D>)),
+            .yieldAbove = take(computes(c::wallYieldAbove<D>))};
+  }
+};
+
+/// The state of the gas itself.
+template <int D>
+void takeGasAlone(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
+                  const NewGasAlone<D>& alone) {
+  euler::State<D> none{};
+  none[euler::kDensity] = none[euler::kPressure<D>] = 1;
+  none = euler::conserved<D>(settings.gas.gas, none);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const euler::State<D> u = cells.isEmpty(cell) ? none : cells.conserved(cell);
+    alone.state.density[cell] = u[euler::kDensity];
+    for (int d = 0; d < D; ++d) alone.state.momentum[cell][d] = u[euler::kVelocity(d)];
+    alone.state.totalEnergy[cell] = u[euler::kPressure<D>];
+  });
+}
+
+/// The pressure of the gas, a first guess of that at the end of the first step, Pa.
+template <int D>
+void guessPressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
+                   CellView<double> pressure) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    pressure[cell] = cells.isEmpty(cell) ? 1 : cells.primitive(settings.gas.gas, cell)[euler::kPressure<D>];
+  });
+}
+
+/// How fast walls go at the start of the step, and how much they yield: of the mass that belongs to the face.
+template <int D>
+void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
+                    const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
+                    const NewWallSpeeds<D>& speeds) {
+  const Level& level = patch.level();
+  for (const CellView<Vec<D>>& of : {speeds.below, speeds.above, speeds.yieldBelow, speeds.yieldAbove})
+    of.fill(Vec<D>::Zero());
+  const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
+  const FreeSpace<D> space(level, settings, cells);
+  const BodiesAtNodes<D> bodies(level, records);
+  near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
+    for (int d = 0; d < D; ++d) {
+      const OpenFaces faces = space.faces(cell, d);
+      const auto speed = [&](const Index<D>& face) {
+        return bodies.velocityAt(face, d, mpm::solid::lane::velocity)[d];
+      };
+      const auto yield = [&](const Index<D>& face, double wall) {
+        const double mass = settings.areRigid ? 0 : bodies.massAt(face, d);
+        return mass > 0 ? wall * level.cellVolume() * level.inverseSpacing(d) / mass : 0;
+      };
+      const Index<D> above = cell + Index<D>::unit(d);
+      if (faces.wall(0) > 0) {
+        speeds.below[cell][d] = speed(cell);
+        speeds.yieldBelow[cell][d] = yield(cell, faces.wall(0));
+      }
+      if (faces.wall(1) > 0) {
+        speeds.above[cell][d] = speed(above);
+        speeds.yieldAbove[cell][d] = yield(above, faces.wall(1));
+      }
+    }
+  });
+}
+
+/// Velocities at the faces of cells, flat beside bodies.
+template <int D>
+ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
+  return [&level, cells](const Index<D>& cell) {
+    const auto hasBody = [&](Index<D> at) {
+      for (int d = 0; d < D; ++d)
+        if (!level.isPeriodic(d)) at[d] = std::clamp(at[d], level.cells().lower[d], level.cells().upper[d] - 1);
+      return cells.free[at] < 1 || cells.isEmpty(at);
+    };
+    bool is = hasBody(cell);
+    for (int d = 0; d < D && !is; ++d) is = hasBody(cell - Index<D>::unit(d)) || hasBody(cell + Index<D>::unit(d));
+    return is;
+  };
+}
+
+/// The equation of what the pressure of a cell's gas changes by: that of `ice`, through open shares g of faces, with
+/// walls of shares w that sweep with v_w:
+///
+///   (phi + dt² sum w gamma P y / h) (p' - p) - dt sum g gamma P_f mobility_f (p'_n - p') / h
+///       = -dt sum +- (g gamma P_f u*_f + w gamma P v_w) / h + (gamma - 1) dt / 2 sum +- g v (p_n - p) / h.
+///
+/// y is by how much a wall yields to the pressure of this cell alone, so that light bodies do not swing against a stiff
+/// gas. Symmetric; positive where there is gas. A cell without any keeps its number.
+template <int D>
+numerics::CellEquation<D> pressureEquationBeside(const ice::FaceFlow<D>& flow, const FreeSpace<D>& space,
+                                                 const WallSpeeds<D>& walls, double free, const Index<D>& cell,
+                                                 double dt) {
+  const std::size_t p = euler::kPressure<D>;
+  const double gamma = flow.gas().gamma;
+  numerics::CellEquation<D> equation{{}, 0};
+  numerics::Balance<D>& left = equation.left;
+  left.cells[0] = cell;
+  left.weights[0] = space.isEmpty(cell) ? 1 : free;
+  if (space.isEmpty(cell)) return equation;
+  const double own = gamma * (flow.old().number(cell, p) + flow.gas().pInfinity);
+  for (int d = 0; d < D; ++d) {
+    const double ratio = dt * flow.level().inverseSpacing(d);
+    const OpenFaces faces = space.faces(cell, d);
+    for (const int side : {0, 1}) {
+      const double out = (side == 0 ? -1 : 1) * ratio;
+      if (const double wall = faces.wall(side); wall > 0) {
+        equation.right -= out * wall * own * walls.at(cell, d, side);
+        left.weights[0] += ratio * wall * own * dt * walls.yield(cell, d, side);
+      }
+      const double open = faces.open[side];
+      if (!(open > 0)) continue;
+      const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
+      const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : face;
+      const double enthalpy = open * gamma * flow.stiffPressure(face, d);
+      const double rise = flow.old().number(next, p) - flow.old().number(cell, p);
+      const double weight = ratio * enthalpy * flow.mobility(face, d, dt);
+      equation.right -= out * enthalpy * flow.withoutPressure(face, d);
+      equation.right += 0.5 * (gamma - 1) * open * out * flow.old().number(cell, euler::kVelocity(d)) * rise;
+      equation.right += weight * rise;
+      left.weights[0] += weight;
+      if (!flow.isOnGrid(next)) continue;
+      left.cells[left.count] = next;
+      left.weights[left.count++] = -weight;
+    }
+  }
+  return equation;
+}
+
+/// Solves for the pressure of the gas at the end of the step, Pa.
+/// Throws NumericalError if the solver gives up.
+template <int D>
+void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings,
+                         double dt, const std::vector<GasAlone<D>>& alone, const std::vector<GasInCells<D>>& cells,
+                         const std::vector<WallSpeeds<D>>& walls, const std::vector<CellView<const double>>& guess,
+                         const std::vector<CellView<double>>& pressure, const ice::SolveTotals& totals) {
+  const Level& level = patches.front()->level();
+  const std::size_t number = euler::kPressure<D>;
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas.gas);
+  std::vector<ice::FaceFlow<D>> flows;
+  std::vector<FreeSpace<D>> spaces;
+  std::vector<CellView<const double>> rise;
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const CellView<double>& view = pressure[p];
+    flows
+        .emplace_back(level, settings.gas, *settings.implicit, rules, patches[p]->cells(), dt,
+                      flatAtBodies<D>(level, cells[p]))
+        .hold(patches[p]->cells(), alone[p].state);
+    spaces.emplace_back(level, settings, cells[p]);
+    forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
+      view[cell] = spaces[p].isEmpty(cell) ? 0 : guess[p][cell] - flows[p].old().number(cell, number);
+    });
+    rise.emplace_back(view.values(), view.stored(), view.box());
+  }
+  numerics::CellSystem<D> system(patches, ranks);
+  const solvers::Outcome outcome =
+      system.solve(settings.implicit->solver, rise, [&](std::size_t p, const Index<D>& cell) {
+        return pressureEquationBeside<D>(flows[p], spaces[p], walls[p], cells[p].free[cell], cell, dt);
+      });
+  system.requireConvergence(outcome, "the pressure", "CFD/ICE/ImplicitSolver", "c.pressure",
+                            ", or a smaller <delt_max>");
+  system.take(pressure);
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    forEach<D>(patches[p]->cells(),
+               [&](const Index<D>& cell) { pressure[p][cell] += flows[p].old().number(cell, number); });
+  totals.iterations.add(outcome.krylovIterations);
+  solvers::addTimes(outcome, totals.assembly, totals.preconditioner, totals.solution);
+}
+
+/// Pressure of the gas on walls, that at the end of the step, and where they close in, von Neumann's and Richtmyer's
+/// viscosity.
+template <int D>
+void takeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
+                      const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
+                      CellView<const double> pressure, const WallPressures<D>& walls) {
+  fillWallPressure<D>(patch, settings, cells, records, walls,
+                      [&](const Index<D>& cell, const CellWalls<D>& ofCell, const Vec<D>& velocity, int d, int side) {
+                        const double closing = std::max(0.0, ofCell.closing(velocity, d, side));
+                        const double rho = cells.held.density[cell] / cells.free[cell];
+                        return pressure[cell] + 0.5 * (settings.gas.gas.gamma + 1) * rho * closing * closing;
+                      });
+}
+
+}  // namespace tushar::mpmice
