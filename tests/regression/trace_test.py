@@ -43,7 +43,7 @@ class Trace(unittest.TestCase):
                     self.assertGreaterEqual(seen.count(patch), steps, name)
 
     def test_ghosts_and_outputs_are_there(self):
-        self.assertEqual({span["name"] for span in self.of_category("message")}, {"fill ghosts"})
+        self.assertEqual({span["name"] for span in self.of_category("message")}, {"fill ghosts", "link ghosts"})
         self.assertIn("save", {span["name"] for span in self.of_category("output")})
 
     def test_spans_of_a_thread_are_nested(self):
