@@ -113,9 +113,10 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
     diagnostics.error(scene.scalars.front().where, "Models/Model",
                       "is not available beside bodies; take it out, or keep the gas alone");
   if (scene.implicit && scene.gas.gas.law)
-    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "is not available beside bodies in a gas that is neither ideal nor stiffened: take it out, or run "
-                      "with --set CFD/ICE/explicit=true");
+    diagnostics.error(
+        scene.implicit->where, "CFD/ICE/ImplicitSolver",
+        "is not available beside bodies in a gas that is neither ideal nor stiffened: take it out, or run "
+        "with --set CFD/ICE/explicit=true");
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};

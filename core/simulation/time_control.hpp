@@ -38,8 +38,8 @@ class TimeControl {
 
   /// The next time step [s] from what the physics allow: timestep_multiplier times `stable`, within max_delt_increase,
   /// delt_min and delt_max; at the start no longer than delt_init, be that below delt_min; and (where the scene
-  /// requests it) up to maxTime or the next output exactly. A rest up to maxTime that rounding alone would leave is part
-  /// of the step. Throws NumericalError for a step that is not positive or too small to move time on.
+  /// requests it) up to maxTime or the next output exactly. A rest up to maxTime that rounding alone would leave is
+  /// part of the step. Throws NumericalError for a step that is not positive or too small to move time on.
   double next(const data::Minimum& stable, double nextOutput);
   /// A shorter time step [s] from where `next` started: times the factor `asked`, but at least 0.1 and at most 0.9.
   /// Throws NumericalError for the 21st time in a step, for less than delt_min, and for a step too small to move time
