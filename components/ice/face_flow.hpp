@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -51,10 +52,11 @@ class GasBefore {
   const euler::Rows<D>& old() const { return old_; }
   /// Fills `rows` with the old state, but with another pressure in the cells of the grid; beyond sides too.
   void fillWithPressure(const CellView<const double>& pressure, euler::Rows<D>& rows) const {
-    rows = old_;
-    forEach<D>(level_.clipCells(rows.box()),
-               [&](const Index<D>& cell) { *rows.at(cell)[euler::kPressure<D>] = pressure[cell]; });
-    euler::fillBeyondGrid<D>(level_, rules_, rows);
+    fillWith(rows, [&](const Index<D>& cell, double) { return pressure[cell]; });
+  }
+  /// The same with the old pressure and what it changes by.
+  void fillWithChange(const CellView<const double>& change, euler::Rows<D>& rows) const {
+    fillWith(rows, [&](const Index<D>& cell, double old) { return old + change[cell]; });
   }
   /// Whether a cell is on the grid, or an image of one that is.
   bool isOnGrid(const Index<D>& cell) const {
@@ -83,6 +85,8 @@ class GasBefore {
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     return rule && rule->factor[euler::kPressure<D>] != 0;
   }
+  /// Whether a face lies in a side that lets gas out: without a pressure, and without a velocity across it.
+  bool isOpen(const Index<D>& face, int axis) const { return isFree(face, axis) && !givenVelocity(face, axis); }
   /// rho_f, kg/m³.
   double density(const Index<D>& face, int axis) const { return mean(old_, face, axis, euler::kDensity); }
   /// The mean of p + p_inf on both sides, Pa.
@@ -102,6 +106,15 @@ class GasBefore {
   }
 
  private:
+  template <class PressureOf>
+  void fillWith(euler::Rows<D>& rows, PressureOf&& pressureOf) const {
+    rows = old_;
+    forEach<D>(level_.clipCells(rows.box()), [&](const Index<D>& cell) {
+      double& pressure = *rows.at(cell)[euler::kPressure<D>];
+      pressure = pressureOf(cell, pressure);
+    });
+    euler::fillBeyondGrid<D>(level_, rules_, rows);
+  }
   /// The rule at a face that lies in a side of the grid: that of the cell beyond, where formulas count.
   std::optional<euler::GhostRule<D>> ruleOf(const Index<D>& face, int axis) const {
     const bool isUpper = face[axis] == level_.cells().upper[axis];
@@ -121,10 +134,15 @@ class GasBefore {
 ///
 ///   u_f = u*_f - dt / (rho_f h) (p'_R - p'_L),   u*_f = the mean of v - dt (v . grad) v of both cells + dt g,
 ///
-/// rho_f the mean density. Walls, and sides with a Velocity, have that velocity whatever the pressure; at other sides
-/// without a Pressure it is that of the cell next to them, and nothing pushes.
+/// rho_f the mean density. Walls, and sides with a Velocity, have that velocity whatever the pressure. Other sides
+/// without a Pressure are open: no wave comes in through them. With n outwards, p_o = p + rho g_n h / 2 in the middle
+/// of the side, and the cell c beside it,
+///
+///   u_n = v_n,c + (p'_f - p_o) / (rho_f c) = u*_n,c - dt / (rho_f h / 2) (p'_f - p'_c).
+///
+/// All that p' counts by is its change from p, so that where the gas is at rest no rounding of p pushes it.
 /// Source: F. H. Harlow & A. A. Amsden, J. Comput. Phys. 8 (1971) 197; N. Kwatra, J. Su, J. T. Gretarsson & R. Fedkiw,
-/// J. Comput. Phys. 228 (2009) 4146.
+/// J. Comput. Phys. 228 (2009) 4146; K. W. Thompson, J. Comput. Phys. 68 (1987) 1, for open sides.
 template <int D>
 class FaceFlow : public GasBefore<D> {
  public:
@@ -145,14 +163,54 @@ class FaceFlow : public GasBefore<D> {
   /// Whether cells have van Leer's slopes, or are constant.
   bool hasSlopes() const { return hasSlopes_; }
 
-  /// u*_f, m/s.
-  double withoutPressure(const Index<D>& face, int axis) const {
+  /// u_f [m/s] where no pressure changes in the step.
+  double unchanged(const Index<D>& face, int axis) const {
     if (const auto given = this->givenVelocity(face, axis)) return *given;
-    const double carried = this->mean(ahead_, face, axis, euler::kVelocity(axis));
-    return this->isFree(face, axis) ? carried : carried + dt_ * this->gravity()[axis];
+    if (this->isFree(face, axis)) {
+      const OpenSide side = openSide(face, axis);
+      return side.normal * (side.speed + side.lightness * side.carried / (side.push + side.lightness));
+    }
+    const std::size_t p = euler::kPressure<D>;
+    const double rise = this->old().number(face, p) - this->old().number(face - Index<D>::unit(axis), p);
+    return this->mean(ahead_, face, axis, euler::kVelocity(axis)) + dt_ * this->gravity()[axis] -
+           this->mobility(face, axis, dt_) * rise;
+  }
+  /// What u_f loses per Pa that the pressure of the cell above the face changes by, and gains per Pa of that below;
+  /// none of them changes beyond a side, m/(s Pa).
+  double loss(const Index<D>& face, int axis) const {
+    if (!this->isOpen(face, axis)) return this->mobility(face, axis, dt_);
+    const OpenSide side = openSide(face, axis);
+    return side.lightness * side.push / (side.push + side.lightness);
+  }
+  /// p' [Pa] in an open side, where that of the cell beside it has changed by `change` [Pa].
+  double openPressure(const Index<D>& face, int axis, double change) const {
+    const OpenSide side = openSide(face, axis);
+    return side.pressure + (side.carried + side.push * change) / (side.push + side.lightness);
   }
 
  private:
+  /// An open side and the cell beside it.
+  struct OpenSide {
+    double normal;     ///< 1 or -1: which way is outwards
+    double speed;      ///< outwards, before the step, m/s
+    double carried;    ///< what (v . grad) v adds to it in the step, m/s
+    double pressure;   ///< p_o, Pa
+    double lightness;  ///< 1 / (rho c), m/(s Pa)
+    double push;       ///< dt / (rho h / 2), m/(s Pa)
+  };
+  OpenSide openSide(const Index<D>& face, int axis) const {
+    const bool isLower = face[axis] == 0;
+    const Index<D> cell = isLower ? face : face - Index<D>::unit(axis);
+    const std::size_t v = euler::kVelocity(axis);
+    const double rho = this->density(face, axis), h = this->level().spacing(axis), normal = isLower ? -1 : 1;
+    const double pressure = this->old().number(cell, euler::kPressure<D>), speed = this->old().number(cell, v);
+    return {.normal = normal,
+            .speed = normal * speed,
+            .carried = normal * (ahead_.number(cell, v) - speed),
+            .pressure = pressure + 0.5 * rho * h * normal * this->gravity()[axis],
+            .lightness = 1 / (rho * std::sqrt(this->gas().soundSpeedSquared(rho, pressure))),
+            .push = 2 * dt_ / (rho * h)};
+  }
   /// The velocities of cells become v - dt (v . grad) v.
   void carryVelocities(const Box& cells) {
     forEach<D>(cells, [&](const Index<D>& cell) {

@@ -228,6 +228,7 @@ void describeGas(std::ostream& out) {
   cfdSchema().describe(out);
   constantsSchema().describe(out);
   propertiesSchema().describe(out);
+  modelsSchema().describe(out);
 }
 
 }  // namespace tushar::ice

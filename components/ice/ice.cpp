@@ -134,9 +134,9 @@ template <int D>
 void ImplicitIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
   tasks.perRank("ice::solvePressure", solvePressure<D>, togetherOnRanks(), with(this->settings()), with(this->acting()),
                 startTime(), requiresOld(delT), all<euler::OldState<D>>(2), requiresOld(c::pressureAtEnd),
-                computes(c::pressureAtEnd), totals<SolveTotals>());
+                all<PressureViews>(), totals<SolveTotals>());
   tasks.perPatch("ice::advanceImplicitly", advanceImplicitly<D>, with(this->settings()), with(this->acting()),
-                 all<euler::OldState<D>>(2), startTime(), requiresOld(delT), requiresNew(c::pressureAtEnd, 2),
+                 all<euler::OldState<D>>(2), startTime(), requiresOld(delT), requiresNew(c::pressureChange, 2),
                  all<euler::NewState<D>>(), all<euler::FaceMasses<D>>(this->keepsFaceMasses()));
   this->scheduleScalars(tasks);
   scheduleDiffusion<D>(tasks, this->settings().gas, this->acting().diffusion);

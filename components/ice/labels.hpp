@@ -10,6 +10,7 @@ inline constexpr CellLabel<double> temperature{"c.temperature", "K", "temperatur
 inline constexpr CellLabel<double> specificVolume{"c.specificVolume", "m^3/kg", "volume per mass"};
 inline constexpr CellLabel<double> soundSpeed{"c.soundSpeed", "m/s", "speed of sound"};
 inline constexpr CellLabel<double> pressureAtEnd{"c.pressureAtEnd", "Pa", "pressure that an implicit step ends with"};
+inline constexpr CellLabel<double> pressureChange{"c.pressureChange", "Pa", "change of pressure in an implicit step"};
 }  // namespace c
 
 namespace total {

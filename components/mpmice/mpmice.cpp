@@ -74,7 +74,7 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
                         requiresNew(g::record, 1), withoutMaterial(all<NewWallSpeeds<D>>()));
   tasks.perRank("mpmice::solvePressure", solvePressureBeside<D>, togetherOnRanks(), with(settings_), requiresOld(delT),
                 all<GasAlone<D>>(2), gas, all<WallSpeeds<D>>(), requiresOld(c::pressureAtEnd),
-                computes(c::pressureAtEnd), totals<ice::SolveTotals>());
+                all<ice::PressureViews>(), totals<ice::SolveTotals>());
   tasks.acrossMaterials("mpmice::takeWallPressure", takeWallPressure<D>, materials, with(settings_),
                         withoutMaterial(gas), requiresNew(g::record, 1), withoutMaterial(requiresNew(c::pressureAtEnd)),
                         withoutMaterial(all<WallPressures<D>>()));

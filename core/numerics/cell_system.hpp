@@ -40,9 +40,11 @@ class CellSystem {
 
   /// Solves for the unknowns, from the values in `guess` of each patch. `equationOf(p, cell)` gives the CellEquation of
   /// a cell of patch number p of the rank; on several levels it is called twice for cells at the faces of a patch.
+  /// `scale`: see solvers::LinearProblem.
   template <class EquationOf>
   solvers::Outcome solve(const solvers::LinearSettings& settings,
-                         const std::vector<data::CellView<const double>>& guess, EquationOf&& equationOf) {
+                         const std::vector<data::CellView<const double>>& guess, EquationOf&& equationOf,
+                         double scale = 0) {
     const bool isRefined = grid_.levels() > 1;
     if (isRefined) meetOthers(equationOf);
     std::vector<double> right(unknowns_.entries.size());
@@ -56,7 +58,7 @@ class CellSystem {
     };
     forEachCell([&](std::size_t p, const Index<D>& cell) { solution_[rowOf(p, cell)] = guess[p][cell]; });
     const solvers::Outcome outcome = solvers::solver().solve(
-        unknowns_, {assemble, right}, isRefined ? solvers::withoutSymmetry(settings) : settings, solution_);
+        unknowns_, {assemble, right, scale}, isRefined ? solvers::withoutSymmetry(settings) : settings, solution_);
     if (isRefined && unknowns_.constantIsFree) takeOutMean();
     return outcome;
   }

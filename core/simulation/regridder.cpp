@@ -104,12 +104,11 @@ void MarkedBlocks::ask(const grid::Level& level, const Box& blocks, int mark) {
   const int number = level.number();
   forEachNear(level, blocks, mark, [&](const BlockId& block) {
     if (number > 0) kept_.insert(parentOf(block, level.dimension()));
-    if (mark < 2) return;
+    if (mark < 2 || number == grid_.levels() - 1) return;
     // Of a block that is not there yet, the leaf that it lies in is refined: no cell becomes two levels finer at once.
-    // So the finest cells, which become no finer themselves, have finer ones ahead of what moves through them.
     BlockId leaf = block;
     for (const int there = grid_.tree().levelAt(block); leaf.level > there;) leaf = parentOf(leaf, level.dimension());
-    if (leaf.level < grid_.levels() - 1) wanted_.insert(leaf);
+    wanted_.insert(leaf);
   });
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 
 #include "core/solvers/petsc_objects.hpp"
@@ -5,6 +6,8 @@
 namespace tushar::solvers {
 
 namespace {
+
+constexpr double leastTolerance = 1e-15;
 
 /// Seconds that `work` takes.
 template <class Work>
@@ -41,6 +44,14 @@ void balance(Outcome& outcome, MatNullSpace free, Vec b) {
   check(MatNullSpaceRemove(free, b));
 }
 
+/// The tolerance of a residual over |b|. What rounding leaves is not asked for.
+double toleranceOf(const LinearProblem& problem, const LinearSettings& settings, Vec b) {
+  PetscReal size = 0;
+  check(VecNorm(b, NORM_2, &size));
+  if (problem.scale <= 0 || size <= problem.scale) return settings.tolerance;
+  return std::max(settings.tolerance * problem.scale / size, std::min(settings.tolerance, leastTolerance));
+}
+
 }  // namespace
 
 Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
@@ -59,7 +70,9 @@ Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, cons
   check(KSPSetOperators(krylov, matrix, matrix));
   check(KSPSetInitialGuessNonzero(krylov, settings.solver == "preonly" ? PETSC_FALSE : PETSC_TRUE));
   check(KSPSetResidualHistory(krylov, nullptr, settings.maxIterations + 1, PETSC_TRUE));
-  configure(krylov, settings);
+  LinearSettings used = settings;
+  used.tolerance = toleranceOf(problem, settings, b);
+  configure(krylov, used);
   outcome.setup = timed([&] { check(KSPSetUp(krylov)); });
   outcome.solve = timed([&] { check(KSPSolve(krylov, b, solution)); });
   if (free) check(MatNullSpaceRemove(free, solution));

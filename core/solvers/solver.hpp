@@ -56,6 +56,7 @@ struct Outcome {
 struct LinearProblem {
   std::function<void(Matrix&)> assemble;  ///< fills A; may fill b, too
   std::span<const double> rightHandSide;  ///< b of the owned unknowns, read once A is filled
+  double scale = 0;                       ///< above 0: the tolerance is relative to this where |b| is greater
 };
 
 /// r(u) = 0.

@@ -89,7 +89,7 @@ TEST(GasScene, RefusesATemperatureAtASideThatDensityAndPressureContradict) {
   };
   EXPECT_EQ(problemOf("300.1"), "") << "1.2 kg/m³ and 103104 Pa make 300 K";
   EXPECT_EQ(problemOf("500"),
-            "found 500 K, but the Density, at gas.ups:4:5, and the Pressure, at gas.ups:4:74, give 300 K; keep two of "
+            "found 500 K, but the Density, at gas.ups:4:6, and the Pressure, at gas.ups:4:80, give 300 K; keep two of "
             "the three");
   EXPECT_EQ(problemOf("300 + x"), "Density and Pressure already give a temperature; keep two of the three");
 }

@@ -49,11 +49,11 @@ class Line {
     limitImplicitStep<1>(patch(), method_, settings_, before(), 0, seen<const double>(pressure_, 1), dt);
     return dt.value;
   }
-  /// The momentum after a step that ends with the pressure that there is, kg/(m² s).
+  /// The momentum after a step in which no pressure changes, kg/(m² s).
   std::vector<double> momentumAfter(double dt) {
-    std::vector<double> density(4), energy(4), pushed;
+    std::vector<double> density(4), energy(4), change(4), pushed;
     std::vector<Vec<1>> momentum(4);
-    advanceImplicitly<1>(patch(), method_, settings_, before(), 0, dt, seen<const double>(pressure_, 2),
+    advanceImplicitly<1>(patch(), method_, settings_, before(), 0, dt, seen<const double>(change, 2),
                          {{seen<double>(density, 0), seen<Vec<1>>(momentum, 0), seen<double>(energy, 0)}}, {});
     for (const Vec<1>& one : momentum) pushed.push_back(one[0]);
     return pushed;
@@ -107,6 +107,8 @@ TEST(ImplicitSides, KeepLayersAtRestWithAVelocityAndAPressure) {
   for (const double momentum : line.momentumAfter(0.1)) EXPECT_NEAR(momentum, 0, 1e-14);
   Line walled({given(label::velocity, 0)}, {given(label::velocity, 0)}, -1);
   for (const double momentum : walled.momentumAfter(0.1)) EXPECT_NEAR(momentum, 0, 1e-14);
+  Line open({given(label::velocity, 0)}, {}, -1);
+  for (const double momentum : open.momentumAfter(0.1)) EXPECT_NEAR(momentum, 0, 1e-14);
 }
 
 }  // namespace tushar::ice

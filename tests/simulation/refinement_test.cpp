@@ -126,14 +126,6 @@ TEST(MarkedBlocks, NeverMakeACellTwoLevelsFinerAtOnce) {
   EXPECT_EQ(refinedOnce(grid, 8, 1, 30), (std::vector<int>{0, 1, 2, 2, 1, 1, 0}));  // the coarse block behind
 }
 
-TEST(MarkedBlocks, OfTheFinestCellsAskForThemAheadOfWhatMoves) {
-  grid::Grid grid(row());
-  grid.refine(grid.cut(grid.tree().regridded({{0, {{1, 0, 0}}}, {1, {{2, 0, 0}}}}, {})));
-  EXPECT_EQ(levelsOfLeaves(grid.tree()), (std::vector<int>{1, 1, 2, 2, 1, 0, 0}));  // finest cells 32 to 47
-  EXPECT_EQ(refinedOnce(grid, 8, 2, 46), (std::vector<int>{1, 1, 2, 2, 2, 2, 1, 1, 0}));
-  EXPECT_EQ(refinedOnce(grid, 1, 2, 40), (std::vector<int>{1, 1, 2, 2, 1, 0, 0}));
-}
-
 TEST(MarkedBlocks, NeverMakeACellTwoLevelsFinerAtOnceHoweverFarSignalsReach) {
   grid::Domain domain = row();
   domain.refinement.levels = 4;

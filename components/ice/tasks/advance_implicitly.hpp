@@ -19,11 +19,11 @@ class ImplicitStep {
         middle_(flow_.old()),
         flux_(flow_.old()) {}
 
-  /// From now on the cells of `block`.
-  void hold(const Box& block, const euler::StateViews<D, const double>& before,
-            const CellView<const double>& pressure) {
+  /// From now on the cells of `block`, whose pressures change by `change` [Pa].
+  void hold(const Box& block, const euler::StateViews<D, const double>& before, const CellView<const double>& change) {
     flow_.hold(block, before);
-    flow_.fillWithPressure(pressure, after_);
+    change_ = &change;
+    flow_.fillWithChange(change, after_);
     middle_ = flow_.old();
     flux_.hold(flow_.old().box());
     if (flow_.hasSlopes())
@@ -84,21 +84,32 @@ class ImplicitStep {
 
  private:
   double velocity(const Index<D>& face, int axis) const {
-    const std::size_t p = euler::kPressure<D>;
-    return flow_.withoutPressure(face, axis) -
-           flow_.mobility(face, axis, dt_) * (after_.number(face, p) - after_.number(face - Index<D>::unit(axis), p));
+    return flow_.unchanged(face, axis) -
+           flow_.loss(face, axis) * (changeIn(face) - changeIn(face - Index<D>::unit(axis)));
+  }
+  /// p' - p of a cell; 0 beyond sides of the grid, Pa.
+  double changeIn(const Index<D>& cell) const { return flow_.isOnGrid(cell) ? (*change_)[cell] : 0; }
+  /// p' in an open side, Pa.
+  double openPressure(const Index<D>& face, int axis) const {
+    return flow_.openPressure(face, axis, changeIn(face) + changeIn(face - Index<D>::unit(axis)));
   }
   double pressure(const Index<D>& face, int axis) const {
+    if (flow_.isOpen(face, axis)) return openPressure(face, axis);
     const std::size_t p = euler::kPressure<D>, v = euler::kVelocity(axis);
     const Index<D> below = face - Index<D>::unit(axis);
     const double together = flow_.old().number(below, v) - flow_.old().number(face, v);
     const double rho = flow_.density(face, axis);
     const double viscous = together > 0 ? flow_.gas().shockSlope() * rho * together * together : 0;
     // Where a velocity is given without a pressure, as at a wall, p' is that of the cell, half a cell away.
-    double weight = 0;
-    if (flow_.isFree(face, axis) && flow_.givenVelocity(face, axis))
-      weight = 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis];
+    const double weight = flow_.isFree(face, axis) ? 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis] : 0;
     return 0.5 * (after_.number(below, p) + after_.number(face, p)) + viscous + (face[axis] == 0 ? -weight : weight);
+  }
+  /// p' beyond a face of a cell; beyond an open side what makes the mean of both p' in the side, Pa.
+  double pressureBeyond(const Index<D>& cell, int axis, int side) const {
+    const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(axis);
+    const std::size_t p = euler::kPressure<D>;
+    if (flow_.isOpen(face, axis)) return 2 * openPressure(face, axis) - after_.number(cell, p);
+    return after_.number(side == 0 ? cell - Index<D>::unit(axis) : face, p);
   }
   /// rho, v, p of a cell at the face above (1) or below it (-1), half a step later.
   euler::State<D> atFace(const Index<D>& cell, int axis, int side) const {
@@ -116,9 +127,7 @@ class ImplicitStep {
     for (int d = 0; d < D; ++d) {
       const double ratio = 0.5 * dt_ * level_.inverseSpacing(d);
       for (std::size_t k = 0; k < w.size(); ++k) *middle[k] -= ratio * w[euler::kVelocity(d)] * flow_.slope(cell, d, k);
-      const Index<D> step = Index<D>::unit(d);
-      const std::size_t p = euler::kPressure<D>;
-      const double push = 0.5 * (after_.number(cell + step, p) - after_.number(cell - step, p));
+      const double push = 0.5 * (pressureBeyond(cell, d, 1) - pressureBeyond(cell, d, 0));
       *middle[euler::kVelocity(d)] += 0.5 * dt_ * flow_.gravity()[d] - ratio * push / w[euler::kDensity];
     }
   }
@@ -126,17 +135,18 @@ class ImplicitStep {
   const Level& level_;
   double dt_;
   FaceFlow<D> flow_;
+  const CellView<const double>* change_ = nullptr;
   euler::Rows<D> after_, middle_, flux_;
 };
 
-/// One step on a patch with the pressure at its end, p' [Pa]: U' = U - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d with
-/// F = u_f (rho, rho v, E + p_f) + (0, p_f n, 0). Mass, momentum and total energy are kept whatever p' is; a contact
-/// stays at one pressure and velocity. Of second order in space, of first in time.
-/// Throws NumericalError where a density or p + p_inf would not be positive, or gas would cross more than a cell.
-/// Source: as FaceFlow; J. von Neumann & R. D. Richtmyer, J. Appl. Phys. 21 (1950) 232, for the shocks.
+/// One step on a patch, in which pressures change by `change`, p' - p [Pa]: U' = U - dt sum_d (F_{d,i+1/2} -
+/// F_{d,i-1/2}) / h_d with F = u_f (rho, rho v, E + p_f) + (0, p_f n, 0). Mass, momentum and total energy are kept
+/// whatever p' is; a contact stays at one pressure and velocity. Of second order in space, of first in time. Throws
+/// NumericalError where a density or p + p_inf would not be positive, or gas would cross more than a cell. Source: as
+/// FaceFlow; J. von Neumann & R. D. Richtmyer, J. Appl. Phys. 21 (1950) 232, for the shocks.
 template <int D>
 void advanceImplicitly(const Patch& patch, const euler::Settings& method, const IceSettings& settings,
-                       const euler::OldState<D>& before, double time, double dt, CellView<const double> pressure,
+                       const euler::OldState<D>& before, double time, double dt, CellView<const double> change,
                        const euler::NewState<D>& fresh, const euler::FaceMasses<D>& masses) {
   const Level& level = patch.level();
   const euler::GhostRules<D> rules = euler::ghostRules<D>(level, method.gas, time);
@@ -144,7 +154,7 @@ void advanceImplicitly(const Patch& patch, const euler::Settings& method, const 
   double most = 0;
   bool fine = true;
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
-    step.hold(block, before, pressure);
+    step.hold(block, before, change);
     const auto sweep = [&]<int Axis>() {
       Box faces = block;
       ++faces.upper[Axis];

@@ -7,17 +7,17 @@
 
 namespace tushar::mpmice {
 
-/// The gas before a step, and the pressure at its end.
+/// The gas before a step, and what its pressure changes by.
 template <int D>
 struct GasInStep {
   GasInCells<D> cells;
   GasAlone<D> alone;
-  CellView<const double> pressure;
+  CellView<const double> change;
 
   static GasInStep from(auto& take) {
     return {.cells = GasInCells<D>::from(take, readsOld, {.state = 2, .mass = 3, .room = 3}),
             .alone = GasAlone<D>::from(take, 2),
-            .pressure = take(requiresNew(c::pressureAtEnd, 2))};
+            .change = take(requiresNew(c::pressureChange, 2))};
   }
 };
 
@@ -56,7 +56,7 @@ void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Materia
   ice::ImplicitStep<D> step(level, settings.gas, *settings.implicit, exchange.rules(),
                             euler::largestBlock<D>(patch.cells()), dt, flatAtBodies<D>(level, cells));
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
-    step.hold(block, before.alone.state, before.pressure);
+    step.hold(block, before.alone.state, before.change);
     const auto sweep = [&]<int Axis>() {
       most = std::max(
           most, sweepImplicitly<D, Axis>(exchange, near, level, block, dt, cells, step, fresh.held, offered.massFlow));

@@ -132,8 +132,8 @@ ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
 /// The equation of what the pressure of a cell's gas changes by: that of `ice`, through open shares g of faces, with
 /// walls of shares w that sweep with v_w:
 ///
-///   (phi + dt² sum w gamma P y / h) (p' - p) - dt sum g gamma P_f mobility_f (p'_n - p') / h
-///       = -dt sum +- (g gamma P_f u*_f + w gamma P v_w) / h + (gamma - 1) dt / 2 sum +- g v (p_n - p) / h.
+///   (phi + dt² sum w gamma P y / h) d - dt sum g gamma P_f loss_f (d_n - d) / h
+///       = -dt sum +- (g gamma P_f u_f + w gamma P v_w) / h + (gamma - 1) dt / 2 sum +- g v (p_n - p) / h.
 ///
 /// y is by how much a wall yields to the pressure of this cell alone, so that light bodies do not swing against a stiff
 /// gas. Symmetric; positive where there is gas. A cell without any keeps its number.
@@ -164,10 +164,9 @@ numerics::CellEquation<D> pressureEquationBeside(const ice::FaceFlow<D>& flow, c
       const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : face;
       const double enthalpy = open * gamma * flow.stiffPressure(face, d);
       const double rise = flow.old().number(next, p) - flow.old().number(cell, p);
-      const double weight = ratio * enthalpy * flow.mobility(face, d, dt);
-      equation.right -= out * enthalpy * flow.withoutPressure(face, d);
+      const double weight = ratio * enthalpy * flow.loss(face, d);
+      equation.right -= out * enthalpy * flow.unchanged(face, d);
       equation.right += 0.5 * (gamma - 1) * open * out * flow.old().number(cell, euler::kVelocity(d)) * rise;
-      equation.right += weight * rise;
       left.weights[0] += weight;
       if (!flow.isOnGrid(next)) continue;
       left.cells[left.count] = next;
@@ -177,42 +176,50 @@ numerics::CellEquation<D> pressureEquationBeside(const ice::FaceFlow<D>& flow, c
   return equation;
 }
 
-/// Solves for the pressure of the gas at the end of the step, Pa.
+/// Solves for what the pressure of the gas changes by in the step [Pa], and gives that at the end.
 /// Throws NumericalError if the solver gives up.
 template <int D>
 void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings,
                          double dt, const std::vector<GasAlone<D>>& alone, const std::vector<GasInCells<D>>& cells,
                          const std::vector<WallSpeeds<D>>& walls, const std::vector<CellView<const double>>& guess,
-                         const std::vector<CellView<double>>& pressure, const ice::SolveTotals& totals) {
+                         const std::vector<ice::PressureViews>& fresh, const ice::SolveTotals& totals) {
   const Level& level = patches.front()->level();
   const std::size_t number = euler::kPressure<D>;
   const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas.gas);
   std::vector<ice::FaceFlow<D>> flows;
   std::vector<FreeSpace<D>> spaces;
-  std::vector<CellView<const double>> rise;
+  std::vector<CellView<double>> changes;
+  std::vector<CellView<const double>> first;
+  double greatest = 0;
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    const CellView<double>& view = pressure[p];
+    const CellView<double>& change = changes.emplace_back(fresh[p].change);
     flows
         .emplace_back(level, settings.gas, *settings.implicit, rules, patches[p]->cells(), dt,
                       flatAtBodies<D>(level, cells[p]))
         .hold(patches[p]->cells(), alone[p].state);
     spaces.emplace_back(level, settings, cells[p]);
     forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
-      view[cell] = spaces[p].isEmpty(cell) ? 0 : guess[p][cell] - flows[p].old().number(cell, number);
+      const double old = flows[p].old().number(cell, number);
+      change[cell] = spaces[p].isEmpty(cell) ? 0 : guess[p][cell] - old;
+      if (!spaces[p].isEmpty(cell)) greatest = std::max(greatest, std::abs(old + settings.gas.gas.pInfinity));
     });
-    rise.emplace_back(view.values(), view.stored(), view.box());
+    first.emplace_back(change.values(), change.stored(), change.box());
   }
+  const double scale = ranks.max(greatest) * std::sqrt(static_cast<double>(level.cells().size()));
   numerics::CellSystem<D> system(patches, ranks);
-  const solvers::Outcome outcome =
-      system.solve(settings.implicit->solver, rise, [&](std::size_t p, const Index<D>& cell) {
+  const solvers::Outcome outcome = system.solve(
+      settings.implicit->solver, first,
+      [&](std::size_t p, const Index<D>& cell) {
         return pressureEquationBeside<D>(flows[p], spaces[p], walls[p], cells[p].free[cell], cell, dt);
-      });
+      },
+      scale);
   system.requireConvergence(outcome, "the pressure", "CFD/ICE/ImplicitSolver", "c.pressure",
                             ", or a smaller <delt_max>");
-  system.take(pressure);
+  system.take(changes);
   for (std::size_t p = 0; p < patches.size(); ++p)
-    forEach<D>(patches[p]->cells(),
-               [&](const Index<D>& cell) { pressure[p][cell] += flows[p].old().number(cell, number); });
+    forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
+      fresh[p].atEnd[cell] = flows[p].old().number(cell, number) + changes[p][cell];
+    });
   totals.iterations.add(outcome.krylovIterations);
   solvers::addTimes(outcome, totals.assembly, totals.preconditioner, totals.solution);
 }
