@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "components/reference/moving_frame.hpp"
@@ -26,8 +27,8 @@ using input::memberOf;
 
 /// The schema of the module `name` with those tags; S is derived from GasTags.
 template <class S>
-input::Schema<S> gasSchema(const std::string& name, std::string sentence, double gamma = 1.4) {
-  return input::Schema<S>("Module", std::move(sentence))
+input::Schema<S> gasSchema(const std::string& name, std::string_view sentence, double gamma = 1.4) {
+  return input::Schema<S>("Module", sentence)
       .requiredAttribute("name", memberOf<S>(&GasTags::name), "1", name)
       .value("gamma", memberOf<S>(&GasTags::gamma), gamma, "1", "ratio of specific heats", input::greaterThan(1))
       .ours()
@@ -44,7 +45,7 @@ struct VortexTags : GasTags {
 /// The schema of the module `name` with those tags; S is derived from VortexTags.
 template <class S>
 input::Schema<S> vortexSchema(const std::string& name, std::string sentence) {
-  return gasSchema<S>(name, std::move(sentence))
+  return gasSchema<S>(name, sentence)
       .required("centre", memberOf<S>(&VortexTags::centre), "m", "where the vortex is at t = 0")
       .ours()
       .value("velocity", memberOf<S>(&VortexTags::velocity), Vec3::Zero(), "m/s", "of the flow that carries it along")
@@ -62,9 +63,9 @@ struct RadialTags : GasTags {
 
 /// The schema of the module `name` with those tags; S is derived from RadialTags, and `centre` says what is there.
 template <class S>
-input::Schema<S> radialSchema(const std::string& name, std::string sentence, const std::string& centre,
+input::Schema<S> radialSchema(const std::string& name, std::string_view sentence, const std::string& centre,
                               double gamma = 1.4) {
-  return gasSchema<S>(name, std::move(sentence), gamma)
+  return gasSchema<S>(name, sentence, gamma)
       .value("density", memberOf<S>(&RadialTags::density), 1, "kg/m^3", "density at t = 0", input::positive())
       .ours()
       .value("pressure", memberOf<S>(&RadialTags::pressure), 0, "Pa", "pressure at t = 0, which should be almost 0",

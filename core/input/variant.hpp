@@ -34,7 +34,7 @@ class TypedTag<std::variant<Ts...>> {
  private:
   template <class T>
   static const input::Schema<T>& schema() {
-    static const input::Schema<T> schema = input::Schema<T>(T::schema()).foreignAttribute("type", std::string(T::name));
+    static const input::Schema<T> schema = input::Schema<T>(T::schema()).foreignAttribute("type", T::name);
     return schema;
   }
   template <class T>

@@ -26,8 +26,8 @@ MakeAnalysis blaming(const input::Element& module, const MakeAnalysis& make) {
 
 }  // namespace
 
-AnalysisKind plainModule(std::string name, std::string sentence, std::string manual, MakeAnalysis make) {
-  const auto schema = std::make_shared<input::Schema<Tags>>("Module", std::move(manual));
+AnalysisKind plainModule(std::string name, std::string sentence, std::string_view manual, MakeAnalysis make) {
+  const auto schema = std::make_shared<input::Schema<Tags>>("Module", manual);
   schema->requiredAttribute("name", &Tags::name, "1", name);
   return {std::move(name), std::move(sentence),
           [schema, make = std::move(make)](const input::Element& module, input::Diagnostics& diagnostics) {

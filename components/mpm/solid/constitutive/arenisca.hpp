@@ -37,7 +37,7 @@ struct Arenisca : arenisca::Constants {
 
   static const input::Schema<Arenisca>& schema() {
     static const input::Schema<Arenisca> schema = [] {
-      input::Schema<Arenisca> tags(std::string(name), "Rock and soil whose pores collapse and may hold a fluid.");
+      input::Schema<Arenisca> tags(name, "Rock and soil whose pores collapse and may hold a fluid.");
       arenisca::addConeTags(tags);
       arenisca::addSoilTags(tags);
       if constexpr (version == 4) arenisca::addLodeTags(tags);

@@ -153,7 +153,7 @@ struct ElasticPlastic {
 
   static input::Schema<ElasticPlastic> makeSchema() {
     using Self = ElasticPlastic;
-    input::Schema<Self> tags{std::string(name), "Metals at large strain and high rate."};
+    input::Schema<Self> tags{name, "Metals at large strain and high rate."};
     tags.required("bulk_modulus", &Self::bulkModulus, "Pa", "K", input::positive())
         .required("shear_modulus", &Self::shearModulus, "Pa", "G", input::positive())
         .value("taylor_quinney_coeff", &Self::heatedShare, 0.9, "1", "share of the plastic work that heats",

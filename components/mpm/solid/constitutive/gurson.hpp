@@ -36,7 +36,7 @@ struct GursonPlastic {
   Base base;  ///< the same without pores
 
   static const input::Schema<GursonPlastic>& schema() {
-    static const input::Schema<GursonPlastic> schema(std::string(name), "Metals with pores: see elastic_plastic_hp.");
+    static const input::Schema<GursonPlastic> schema(name, "Metals with pores: see elastic_plastic_hp.");
     return schema;
   }
   State initialState() const { return {0, 0, 0, 0, base.initialPorosity, 0, 0}; }

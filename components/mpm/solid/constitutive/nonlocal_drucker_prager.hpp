@@ -121,7 +121,7 @@ struct NonlocalDruckerPrager {
 
   static input::Schema<NonlocalDruckerPrager> makeSchema() {
     using Self = NonlocalDruckerPrager;
-    input::Schema<Self> tags{std::string(name), "Drucker & Prager's yield surface, softening over a length."};
+    input::Schema<Self> tags{name, "Drucker & Prager's yield surface, softening over a length."};
     tags.required("bulk_modulus", &Self::bulkModulus, "Pa", "K", input::positive())
         .required("shear_modulus", &Self::shearModulus, "Pa", "G", input::positive())
         .required("alpha", &Self::friction, "1", "how much pressure adds to the strength", input::nonNegative())

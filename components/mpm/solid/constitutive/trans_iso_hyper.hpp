@@ -24,7 +24,7 @@ struct TransIsoHyper : FibreElasticity {
 
   static const input::Schema<TransIsoHyper>& schema() {
     static const input::Schema<TransIsoHyper> schema = [] {
-      input::Schema<TransIsoHyper> tags{std::string(name), "Rubber with fibres in one direction, such as a ligament."};
+      input::Schema<TransIsoHyper> tags{name, "Rubber with fibres in one direction, such as a ligament."};
       addTags(tags);
       return tags;
     }();

@@ -47,8 +47,7 @@ struct NeoHookPlastic {
   static const input::Schema<NeoHookPlastic>& schema() {
     using Self = NeoHookPlastic;
     static const input::Schema<Self> schema = [] {
-      input::Schema<Self> tags{std::string(name),
-                               "Compressible neo-Hookean elasticity, optionally with J2 plasticity."};
+      input::Schema<Self> tags{name, "Compressible neo-Hookean elasticity, optionally with J2 plasticity."};
       tags.required("bulk_modulus", &Self::bulkModulus, "Pa", "K", input::positive())
           .required("shear_modulus", &Self::shearModulus, "Pa", "G", input::positive())
           .value("usePlasticity", &Self::isPlastic, plasticByDefault, "1", "whether it yields")

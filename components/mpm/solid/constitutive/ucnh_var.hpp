@@ -142,7 +142,7 @@ struct UcnhVar {
     read.count = table.entries.size();
   }
   static input::Schema<UcnhVar> makeSchema() {
-    input::Schema<UcnhVar> tags(std::string(name), "UCNH with constants of each particle by its color.");
+    input::Schema<UcnhVar> tags(name, "UCNH with constants of each particle by its color.");
     tags.value("usePlasticity", &UcnhVar::isPlastic, false, "1", "whether it yields")
         .custom("variable_properties", readTable, {"variable_properties"}, "constants by p.color",
                 [](std::ostream& out, int indent) { tableSchema().describeContents(out, indent); })

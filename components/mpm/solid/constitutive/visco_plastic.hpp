@@ -133,7 +133,7 @@ struct ViscoPlastic {
 
   static input::Schema<ViscoPlastic> makeSchema() {
     using Self = ViscoPlastic;
-    input::Schema<Self> tags{std::string(name), "Ice and salt: elasticity with creep that hardens."};
+    input::Schema<Self> tags{name, "Ice and salt: elasticity with creep that hardens."};
     tags.required("bulk_modulus", &Self::bulkModulus, "Pa", "K", input::positive())
         .required("shear_modulus", &Self::shearModulus, "Pa", "G", input::positive())
         .value("initial_material_temperature", &Self::initialTemperature, 269.15, "K", "where heat adds no pressure",

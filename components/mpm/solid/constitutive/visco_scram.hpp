@@ -191,7 +191,7 @@ struct ViscoScram {
 
   static input::Schema<ViscoScram> makeSchema() {
     using Self = ViscoScram;
-    input::Schema<Self> tags{std::string(name), "Plastic-bonded explosive: relaxation, and cracks that grow."};
+    input::Schema<Self> tags{name, "Plastic-bonded explosive: relaxation, and cracks that grow."};
     tags.required("PR", &Self::poissonRatio, "1", "Poisson's ratio", input::between(-0.999, 0.4999))
         .required("CrackParameterA", &Self::crackScale, "m", "a: cracks of this radius halve the stiffness",
                   input::positive())

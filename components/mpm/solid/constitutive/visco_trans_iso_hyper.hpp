@@ -120,7 +120,7 @@ struct ViscoTransIsoHyper : FibreElasticity {
 
   static input::Schema<ViscoTransIsoHyper> makeSchema() {
     using Self = ViscoTransIsoHyper;
-    input::Schema<Self> tags{std::string(name), "Rubber with fibres in one direction, whose stress relaxes."};
+    input::Schema<Self> tags{name, "Rubber with fibres in one direction, whose stress relaxes."};
     addTags(tags);
     tags.choice("StrainEnergy", in<Self>(&FibreElasticity::rubber),
                 {{"MooneyRivlin", Rubber::mooneyRivlin}, {"VerondaWestmann", Rubber::verondaWestmann}},
