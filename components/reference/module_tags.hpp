@@ -44,7 +44,7 @@ struct VortexTags : GasTags {
 
 /// The schema of the module `name` with those tags; S is derived from VortexTags.
 template <class S>
-input::Schema<S> vortexSchema(const std::string& name, std::string sentence) {
+input::Schema<S> vortexSchema(const std::string& name, std::string_view sentence) {
   return gasSchema<S>(name, sentence)
       .required("centre", memberOf<S>(&VortexTags::centre), "m", "where the vortex is at t = 0")
       .ours()
