@@ -56,6 +56,7 @@ class MpmIce : public Component {
   std::vector<std::string> foreignLabels() const override;
   simulation::OtherNames otherNames() const override;
   std::vector<std::string> gasNames() const override { return {gas_->gasName()}; }
+  std::vector<InputProblem> notes() const override { return solids_->notes(); }
 
  private:
   std::shared_ptr<const GasAround<D>> gas_;

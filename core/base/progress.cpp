@@ -27,7 +27,7 @@ void Progress::live(int step, double time, double delT, double maxTime) {
   next_ = now + period_;
   const double elapsed = std::chrono::duration<double>(now - started_).count();
   const double done = maxTime > 0 ? time / maxTime : 0;
-  const double left = done > 0 ? elapsed / done - elapsed : 0.0;
+  const double left = done > 0 && done < 1 ? elapsed / done - elapsed : 0.0;
   if (!terminal_)
     return line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} {:.0f} %, {:.0f} s left", step, time, delT,
                             100 * done, left));

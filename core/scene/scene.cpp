@@ -367,6 +367,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   else
     checkLabels(*problem.component, problem.analyses, problem.archive.saves, diagnostics);
   diagnostics.throwIfAny();
+  for (const InputProblem& note : problem.component->notes()) diagnostics.note(note.where, note.tagPath, note.sentence);
   problem.notes = diagnostics.notes();
   return problem;
 }

@@ -31,6 +31,8 @@ class Component {
   virtual std::vector<std::string> foreignLabels() const { return {}; }
   /// The variables that Uintah's component of this kind calls otherwise.
   virtual OtherNames otherNames() const { return {}; }
+  /// What of the scene has no effect on its grid.
+  virtual std::vector<InputProblem> notes() const { return {}; }
   /// The gases of the scene, in the order of its material numbers behind all others: materials whose variables belong
   /// to no material here.
   virtual std::vector<std::string> gasNames() const { return {}; }

@@ -120,6 +120,25 @@ class SilentMistakes(unittest.TestCase):
         self.assert_edited_is_refused("ups/euler/sod.ups", right, "<min>[.506,0,0]</min><max>[.509,1,1]",
                                       "Euler/geom_object: its shape contains no cell centre of the grid")
 
+    def test_bodies_beside_the_grid_get_a_note(self):
+        scene = (ROOT / "ups/solid/two_discs.ups").read_text()
+        places = {"outside the grid": "[20,20,0]", "between the points where particles start": None}
+        for what, centre in places.items():
+            shape = (f"<box><min>{centre}</min><max>[21,21,1]</max></box>" if centre else
+                     "<box><min>[.5,.5,0]</min><max>[.5001,.5001,.001]</max></box>")
+            body = f"<geom_object>{shape}<res>[2,2,1]</res></geom_object>"
+            edited = scene.replace("<geom_object>", body + "\n<geom_object>", 1)
+            line = 1 + scene[:scene.index("<geom_object>")].count("\n")
+            with self.subTest(what), tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, "beside.ups")
+                path.write_text(edited)
+                result = run(path, "--check")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                said = result.stdout + result.stderr
+                self.assertIn(f"beside.ups:{line}:", said)
+                self.assertIn("has no particles: it lies outside the grid, or is too small for <res>", said)
+                self.assertEqual(said.count("has no particles"), 1)
+
     def test_references_of_another_problem(self):
         riemann = "DataAnalysis/Module/"
         for scene in ("euler/sod", "mpm/sod", "mpm/sod_conserving"):

@@ -18,6 +18,7 @@ struct Problem {
   Start start;
   std::shared_ptr<const PrescribedDeformation> motion = nullptr;  ///< of all bodies; null: by forces
   std::shared_ptr<const Surroundings> surroundings = nullptr;     ///< null: nothing surrounds them
+  std::vector<InputProblem> notes = {};                           ///< on bodies without particles
 };
 
 /// Solids of any shape function, by explicit or implicit steps.
@@ -33,6 +34,7 @@ class Solids : public Component {
   const Problem& problem() const { return problem_; }
   std::vector<std::string> foreignLabels() const override;
   simulation::OtherNames otherNames() const override;
+  std::vector<InputProblem> notes() const override { return problem_.notes; }
   /// Whether p.work is available.
   virtual bool measuresWork() const { return false; }
 
