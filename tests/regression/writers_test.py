@@ -158,6 +158,31 @@ class Writers(FolderTest):
                               cwd=ROOT, capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
+    def test_a_global_that_cannot_be_written_ends_all_when_the_output_on_its_way_is_whole(self):
+        here, alone = self.folder(3), self.folder(1)
+        sets = (*PLANE, *EVERY, "DataArchiver/compression=gzip")
+        expected = alone.finish([SOD, "--output", alone.path], (*sets, "Time/max_Timesteps=8"))[2]
+        lines = (alone.uda / "KineticEnergy.dat").read_text().splitlines(keepends=True)
+        self.run_by(here, SOD, sets, 3, "6x4x1")
+        energy = here.uda.resolve() / "KineticEnergy.dat"
+        content = energy.read_text()
+        self.assertEqual(content, "".join(lines[:6]))
+        disk = self.small_disk(here.path, "4k")  # which has room for step 5 and 6, and for a byte of step 7
+        pad = os.sysconf("SC_PAGE_SIZE") - len(content + lines[6] + lines[7]) - 1
+        (disk / "energy").write_text("#" * (pad - 1) + "\n" + content)
+        energy.unlink()
+        energy.symlink_to(disk / "energy")
+        job = self.start(here, ["-restart", here.uda, "-writers", "3", "-behind", "32"],
+                         ("Time/max_Timesteps=8", "DataArchiver/checkpoint/@timestepInterval=100"))
+        errors = job.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(job.returncode, 1, errors)
+        self.assertEqual(errors.count("No space left on device"), 1, errors)
+        self.assertNotIn("(rank", errors)
+        self.assertTrue((here.uda / "t00006.h5").read_bytes() == (alone.uda / "t00006.h5").read_bytes())
+        self.assertEqual(list(here.uda.resolve().rglob("*.tmp")), [])
+        code, errors, report = here.restart("Time/max_Timesteps=8")
+        self.assertEqual((code, errors, report["fingerprint"]), (0, "", expected["fingerprint"]))
+
     def test_a_folder_that_vanishes_is_told_once(self):
         here = self.folder(3)
         job = self.start(here, [SOD, "--output", here.path, "-writers", "3"],
