@@ -241,6 +241,10 @@ void keepMemory() {
   mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
 }
 
+/// The C library reserves 64 MB of addresses for each thread that takes memory, of which those of MPI and the one that
+/// writes outputs would use next to nothing: where addresses are limited, these were missing for the state.
+void shareMemory(int threads) { mallopt(M_ARENA_MAX, threads); }
+
 /// Says once for all ranks what went wrong, and ends them.
 int endWith(const Failure& failure, const Arguments& arguments, std::optional<mpi::Session>& session) {
   int code = static_cast<int>(failure.code);
@@ -268,6 +272,7 @@ int runProgram(int count, char** words, const OpenCatalogue& open) {
   try {
     if (const std::optional<ExitCode> code = parse({words + 1, words + count}, arguments))
       return static_cast<int>(*code);
+    shareMemory(arguments.workers.threads);
     if (!arguments.petsc.empty()) setenv("PETSC_OPTIONS", arguments.petsc.c_str(), 1);
     const ExitCode code = dispatch(arguments, open, startedAt, session);
     if (std::fflush(stdout) != 0 || !std::cout.flush()) throw FileError("standard output cannot be written");

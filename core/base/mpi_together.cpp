@@ -1,6 +1,7 @@
 #include "core/base/mpi_together.hpp"
 
 #include <exception>
+#include <thread>
 
 #include "core/base/mpi_native.hpp"
 
@@ -16,6 +17,20 @@ void together(const Communicator& ranks, const std::function<void()>& action) {
   const bool failed = ranks.any(thrown != nullptr);
   if (thrown) std::rethrow_exception(thrown);
   if (failed) throw FailedElsewhere();
+}
+
+bool meet(const Communicator& ranks, std::chrono::milliseconds patience) {
+  constexpr std::chrono::milliseconds pause(1);
+  if (ranks.isAlone()) return true;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(ranks.native()->ranks, &request);
+  const auto end = std::chrono::steady_clock::now() + patience;
+  int done = 0;
+  for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); !done && std::chrono::steady_clock::now() < end;) {
+    std::this_thread::sleep_for(pause);
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+  }
+  return done != 0;
 }
 
 int sumForMe(const Communicator& ranks, std::span<const int> of) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -14,6 +15,10 @@ namespace tushar::mpi {
 /// Each rank does something of its own: throws what it throws there, and FailedElsewhere where it goes well but fails
 /// on another rank.
 void together(const Communicator& ranks, const std::function<void()>& action);
+
+/// Whether all ranks come here within that time. Where they do not, the run is about to end, and `ranks` is of no more
+/// use.
+bool meet(const Communicator& ranks, std::chrono::milliseconds patience);
 
 /// Each rank gets the sum over all ranks of what they have for it: `of[r]` is for rank r.
 int sumForMe(const Communicator& ranks, std::span<const int> of);

@@ -188,15 +188,15 @@ Element whereOfLevels(const Element& grid, const AmrSettings& amr) {
   return levels.size() > 1 ? levels[1] : *amr.tag;
 }
 
-/// Refuses several levels for a component that runs on one.
+/// Refuses several levels for a component that runs on one. Which others run on several their modules know, and those
+/// may not be built yet: the sentence does without.
 void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrSettings& amr,
-                      const Catalogue& catalogue, Diagnostics& diagnostics) {
-  if (kind.takesLevels) return;
-  std::vector<std::string> others;
-  for (const ComponentKind* other : catalogue.components())
-    if (other->takesLevels) others.push_back(other->name);
-  diagnostics.error(whereOfLevels(grid, amr),
-                    fmt::format("'{}' needs a grid of one level; these run on several: {}", kind.name, allOf(others)));
+                      Diagnostics& diagnostics) {
+  if (!kind.takesLevels)
+    diagnostics.error(whereOfLevels(grid, amr),
+                      fmt::format("'{}' needs a grid of one level: one <Level> in <Grid>, and no <max_levels> above 1 "
+                                  "in <AMR>",
+                                  kind.name));
 }
 
 /// Refuses several levels for a component that cannot run on them as the scene has it; what makes the levels.
@@ -296,11 +296,11 @@ void readSharedSections(const Element& root, Problem& problem, Diagnostics& diag
 
 /// <Grid> for a component; for one that is not known, all that a grid may have.
 grid::Domain readGridFor(const ComponentKind* kind, const Element& section, const AmrSettings& amr,
-                         const Catalogue& catalogue, const grid::Workers& workers, Diagnostics& diagnostics) {
+                         const grid::Workers& workers, Diagnostics& diagnostics) {
   SideWords words{{}, true, true};
   if (kind) words = {kind->boundaryLabels, kind->takesPartsOfSides, kind->takesFormulasAtSides};
   grid::Domain domain = readGrid(section, words, workers, amr, diagnostics);
-  if (kind && domain.refinement.levels > 1) checkTakesLevels(*kind, section, amr, catalogue, diagnostics);
+  if (kind && domain.refinement.levels > 1) checkTakesLevels(*kind, section, amr, diagnostics);
   return domain;
 }
 
@@ -340,7 +340,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   if (const auto given = section(root, "AMR", false, diagnostics)) amr = readAmr(*given, kind, diagnostics);
   grid::Domain domain;
   if (const auto grid = section(root, "Grid", true, diagnostics))
-    domain = readGridFor(kind, *grid, amr, catalogue, workers, diagnostics);
+    domain = readGridFor(kind, *grid, amr, workers, diagnostics);
   if (kind && kind->nodesBeyond) domain.nodesBeyond = kind->nodesBeyond(root);
   MakeComponent makeComponent;
   if (kind) makeComponent = kind->read(root, diagnostics);

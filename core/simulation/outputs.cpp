@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
 
 #include "core/base/memory.hpp"
+#include "core/base/mpi_together.hpp"
 #include "core/base/trace.hpp"
 #include "core/output/archive_files.hpp"
 #include "core/output/checkpoint_store.hpp"
@@ -23,15 +27,21 @@ output::ArchiveOptions howOf(const ArchiveSettings& settings) {
 
 Outputs::Outputs(RunState& run, std::filesystem::path parent)
     : run_(run),
+      meeting_(run.ranks.split(0)),
       parent_(std::move(parent)),
       times_(run.problem.time.initTime, run.problem.archive.outputInterval),
       saves_(!run.phases.savedFields().empty() || !run.phases.savedGlobals().empty() || samples()) {}
 
 Outputs::~Outputs() {
-  if (!on_its_way_ || !run_.ranks.isFirst()) return;
+  constexpr std::chrono::milliseconds patience(2000);
+  if (!on_its_way_) return;
   try {
-    run_.writers.count() == 1 ? finish(mpi::Communicator::alone()) : on_its_way_->file.abandon();
-  } catch (const FileError&) {
+    const bool isAlone = run_.writers.count() == 1;
+    if (!isAlone && mpi::meet(meeting_, patience))
+      finish(run_.files);
+    else if (run_.ranks.isFirst())
+      isAlone ? finish(mpi::Communicator::alone()) : on_its_way_->file.abandon();
+  } catch (const std::runtime_error&) {
     // Something else has ended the run, and is told.
   }
 }
@@ -83,18 +93,33 @@ void Outputs::saveGlobals() {
   if (due.empty() && run_.phases.savedGlobals().empty()) return;
   run_.scheduler.run(run_.phases.everyStep, {run_.time.step(), run_.time.time()});
   for (Analysis* analysis : due) sample(*analysis);
-  if (archive_) appendGlobals();
+  const auto started = Clock::now();
+  onArchive([this](output::Archive& archive) { appendGlobals(archive); });
+  seconds_ += secondsSince(started);
 }
 
-void Outputs::appendGlobals() {
-  const auto started = Clock::now();
+void Outputs::onArchive(const std::function<void(output::Archive&)>& action) {
+  if (!archive_ || failure_) return;
+  try {
+    action(*archive_);
+  } catch (...) {
+    failure_ = std::current_exception();
+    run_.clock.noteFailure();
+  }
+}
+
+void Outputs::throwIfFailed() {
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  if (run_.clock.hasFailed()) throw mpi::FailedElsewhere();
+}
+
+void Outputs::appendGlobals(output::Archive& archive) const {
   for (const std::string& name : run_.phases.savedGlobals()) {
     const data::Label& label = *run_.table[run_.table.find(name, -1)].label;
     const std::vector<double> values = run_.reduction(name);
     if (values.empty()) continue;  // of a step: there has been none yet
-    archive_->appendGlobal({name, std::string(label.unit), std::string(label.description), run_.time.time(), values});
+    archive.appendGlobal({name, std::string(label.unit), std::string(label.description), run_.time.time(), values});
   }
-  seconds_ += secondsSince(started);
 }
 
 bool Outputs::samples() const {
@@ -120,7 +145,7 @@ void Outputs::saveIfDue() {
   passMilestones();
   if (due) save();
   finishIfWritten();
-  if (archive_ && !on_its_way_) archive_->keepUp();
+  if (!on_its_way_) onArchive([](output::Archive& archive) { archive.keepUp(); });
 }
 
 void Outputs::save() {
@@ -154,7 +179,7 @@ std::size_t Outputs::mostBehind(std::uint64_t bytes) const {
 void Outputs::finish(const mpi::Communicator& ranks) {
   OnItsWay output = std::move(*std::exchange(on_its_way_, std::nullopt));
   output.file.finish(ranks);
-  if (archive_) archive_->list(output.listed);
+  onArchive([&](output::Archive& archive) { archive.list(output.listed); });
   run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} saved in {}", output.listed.step,
                                  output.listed.time, output.listed.delT, folder_));
 }
@@ -172,9 +197,12 @@ void Outputs::finishOutput() {
 
 void Outputs::flush() {
   finishOutput();
-  if (!archive_) return;
-  flushAnalyses();
-  archive_->flush();
+  run_.ranks.onFirst([this] {
+    if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+    if (!archive_) return;
+    flushAnalyses();
+    archive_->flush();
+  });
 }
 
 void Outputs::flushAnalyses() {

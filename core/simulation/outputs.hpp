@@ -1,6 +1,8 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,7 +20,8 @@ class Outputs {
  public:
   /// A new archive will be made in this folder; empty: the current one.
   Outputs(RunState& run, std::filesystem::path parent);
-  /// Of a run that ends by an exception: finishes the output on its way if rank 0 can do so alone.
+  /// Of a run that ends by an exception: finishes the output on its way if rank 0 can do so alone, or if all ranks come
+  /// here.
   ~Outputs();
   Outputs(const Outputs&) = delete;
   Outputs& operator=(const Outputs&) = delete;
@@ -36,6 +39,9 @@ class Outputs {
   void saveIfDue();
   /// Begins to write an output, if the scene has any and this step has none yet: steps may go on.
   void save();
+  /// Throws what has failed on rank 0 alone since the ranks last agreed by the clock of the run; FailedElsewhere on the
+  /// others.
+  void throwIfFailed();
   /// Waits for the output on its way.
   void finishOutput();
   /// The same; brings the lists of the archive up to date, and the files of analysis modules.
@@ -67,6 +73,8 @@ class Outputs {
   /// Gives the output on its way its name when it is written, and lists it; `ranks` as for SnapshotInFlight::finish().
   void finish(const mpi::Communicator& ranks);
   void finishIfWritten();
+  /// Does something with the archive on rank 0. If it fails, throwIfFailed() tells: so all ranks end together.
+  void onArchive(const std::function<void(output::Archive&)>& action);
   std::size_t mostBehind(std::uint64_t bytes) const;
   void makeArchive(const output::ArchiveOptions& how);
   void reopenArchive(const output::ArchiveOptions& how);
@@ -75,9 +83,10 @@ class Outputs {
   bool samples() const;
   void sample(Analysis& analysis);
   void flushAnalyses();
-  void appendGlobals();
+  void appendGlobals(output::Archive& archive) const;
 
   RunState& run_;
+  mpi::Communicator meeting_;  ///< the ranks of the run, for its end
   std::filesystem::path parent_;
   std::optional<output::FolderLock> lock_;    ///< on the archive's folder
   std::unique_ptr<output::Archive> archive_;  ///< on rank 0
@@ -85,8 +94,9 @@ class Outputs {
   Milestones times_;
   output::Behind behind_;
   std::optional<OnItsWay> on_its_way_;
-  int last_ = -1;       ///< step of the last output
-  bool saves_ = false;  ///< whether the scene has outputs, globals or samples
+  std::exception_ptr failure_;  ///< of rank 0
+  int last_ = -1;               ///< step of the last output
+  bool saves_ = false;          ///< whether the scene has outputs, globals or samples
   double seconds_ = 0, memory_ = 0;
 };
 

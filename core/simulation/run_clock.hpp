@@ -36,13 +36,17 @@ class RunClock {
   bool isInterrupted() const { return interrupted_; }
   /// Whether a file is to end the run.
   bool isStopped() const { return stopped_; }
+  /// Something has failed on this rank, and the others are to know.
+  void noteFailure() { failed_ = true; }
+  /// Whether something had failed on a rank when they last agreed.
+  bool hasFailed() const { return failed_; }
   /// Whether the state is to be saved now; true once for each request.
   bool takeSaveRequest() { return std::exchange(save_asked_, false); }
 
  private:
   Clock::time_point started_at_;
   double elapsed_ = 0;
-  bool interrupted_ = false, stopped_ = false, save_asked_ = false;
+  bool interrupted_ = false, stopped_ = false, save_asked_ = false, failed_ = false;
   std::optional<TriggerFiles> files_;
 };
 

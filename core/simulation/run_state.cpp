@@ -14,7 +14,8 @@ RunState::RunState(Problem givenProblem, const RunOptions& options, Clock::time_
                    const mpi::Communicator& givenRanks)
     : problem(std::move(givenProblem)),
       ranks(givenRanks),
-      writers(output::Writers::spread(givenRanks, options.writers)),
+      files(ranks.split(0)),
+      writers(output::Writers::spread(files, options.writers)),
       mostBehind(ranks.broadcast(bytesOf(options.behind))),
       phases(*problem.component, problem.analyses),
       warehouse(*problem.grid, table, ranks),

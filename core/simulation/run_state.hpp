@@ -42,7 +42,8 @@ struct RunState {
 
   Problem problem;
   const mpi::Communicator& ranks;
-  output::Writers writers;
+  mpi::Communicator files;                ///< the same ranks: what they say of files is apart from what tasks say
+  output::Writers writers;                ///< among these
   std::optional<std::size_t> mostBehind;  ///< bytes of an output that a writer may keep; else what suits it
   data::VariableTable table;
   Phases phases;

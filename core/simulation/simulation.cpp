@@ -59,6 +59,7 @@ report::Report Simulation::run() {
   }
   report_.noteStartUp(outputSeconds());
   run_.clock.agree(run_.ranks);
+  outputs_.throwIfFailed();
   loop();
   saveEnd();
   report::Report report = makeReport();
@@ -182,6 +183,7 @@ void Simulation::step() {
   outputs_.saveGlobals();
   outputs_.saveIfDue();
   run_.clock.agree(run_.ranks);
+  outputs_.throwIfFailed();
   if (run_.clock.takeSaveRequest()) saveNow();
   if (!hasEnded() && checkpoints_.isDue()) checkpoints_.write();
 }

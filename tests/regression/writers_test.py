@@ -30,7 +30,7 @@ CASES = {
 }
 RANKS_AND_WRITERS = ((2, 1), (2, 2), (3, 2), (3, 3), (5, 1), (5, 4), (5, 5))
 LITTLE = 64e6  # bytes that a rank may need beyond its state to write
-HEAPS = {"MALLOC_ARENA_MAX": "1"}  # the C library reserves 64 MB of addresses for each thread, and uses few of them
+OF_ALL = 100e6  # bytes that a rank may have in memory beyond its part of the state, the program included
 PATIENCE = 200  # seconds after which a job hangs, even on a machine with much else to do
 
 
@@ -84,36 +84,39 @@ class Writers(FolderTest):
         return subprocess.Popen([*command[:at], *ranks_run, *command[at:]], cwd=ROOT, stderr=subprocess.PIPE, text=True,
                                 env={**os.environ, **environment})
 
-    def most_space(self, here, words, sets):
-        """The most address space of a rank of a job, bytes, as the system counts it."""
-        job, most = self.start(here, words, sets, **HEAPS), 0
+    def most_memory(self, here, words, sets, ranks_run=()):
+        """The most address space of a rank of a job that ends well, and the most that it had in memory, bytes, as the
+        system counts them."""
+        job, most = self.start(here, words, sets, ranks_run), {"VmPeak": 0, "VmHWM": 0}
         while job.poll() is None:
             for pid in subprocess.run(["pgrep", "-P", str(job.pid)], capture_output=True, text=True).stdout.split():
                 try:
                     status = pathlib.Path(f"/proc/{pid}/status").read_text()
                 except OSError:
                     continue
-                most = max([most, *(1024 * int(line.split()[1]) for line in status.splitlines()
-                                    if line.startswith("VmPeak:"))])
+                for line in status.splitlines():
+                    what, _, size = line.partition(":")
+                    if what in most:
+                        most[what] = max(most[what], 1024 * int(size.split()[0]))
             time.sleep(0.05)
         self.assertEqual((job.returncode, job.communicate()[1]), (0, ""))
-        return most
+        return most["VmPeak"], most["VmHWM"]
 
     def test_outputs_checkpoints_and_a_restart_need_little_memory_on_any_rank(self):
         large = (f"{BOX}/resolution=[4000,4000,1]", "Time/max_Timesteps=2")
         silent = (*large, "DataArchiver/outputInterval=0", "DataArchiver/outputInitTimestep=false")
         here = self.folder(8)
         words = [SINE, "--output", here.path, "-layout", "2x4x1"]
-        limit = (self.most_space(here, words, silent) + LITTLE) // 1024
+        limit = (self.most_memory(here, words, silent)[0] + LITTLE) // 1024
+        part = 4000 * 4000 * 8 / here.ranks  # bytes of the temperature on a rank
         bounded = ("sh", "-c", f'ulimit -v {limit:.0f}; exec "$@"', "sh")
         saves = (*silent, "DataArchiver/outputInitTimestep=true", "DataArchiver/outputTimestepInterval=1",
                  "DataArchiver/checkpoint/@timestepInterval=1")
         for writers in (1, 3):
-            job = self.start(here, [*words, "-writers", writers], saves, bounded, **HEAPS)
-            self.assertEqual((job.communicate()[1], job.returncode), ("", 0))
+            self.assertLess(self.most_memory(here, [*words, "-writers", writers], saves, bounded)[1], part + OF_ALL)
             self.assertEqual(len(list(here.uda.glob("t*.h5"))), 3)
-        job = self.start(here, ["-restart", here.uda, "-layout", "2x4x1"], ("Time/max_Timesteps=3",), bounded, **HEAPS)
-        self.assertEqual((job.communicate()[1], job.returncode), ("", 0))
+        again = ["-restart", here.uda, "-layout", "2x4x1"]
+        self.assertLess(self.most_memory(here, again, ("Time/max_Timesteps=3",), bounded)[1], part + OF_ALL)
 
     def end_of(self, here, sets, rank, limit, *words):
         """A job in which one rank may write no further than so many bytes into a file: what it says."""
@@ -157,6 +160,31 @@ class Writers(FolderTest):
         done = subprocess.run([SUS, "-restart", next(small.glob("*.uda")), "--quiet", "--set", "Time/max_Timesteps=1"],
                               cwd=ROOT, capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_global_that_cannot_be_written_ends_all_when_the_output_on_its_way_is_whole(self):
+        here, alone = self.folder(3), self.folder(1)
+        sets = (*PLANE, *EVERY, "DataArchiver/compression=gzip")
+        expected = alone.finish([SOD, "--output", alone.path], (*sets, "Time/max_Timesteps=8"))[2]
+        lines = (alone.uda / "KineticEnergy.dat").read_text().splitlines(keepends=True)
+        self.run_by(here, SOD, sets, 3, "6x4x1")
+        energy = here.uda.resolve() / "KineticEnergy.dat"
+        content = energy.read_text()
+        self.assertEqual(content, "".join(lines[:6]))
+        disk = self.small_disk(here.path, "4k")  # which has room for step 5 and 6, and for a byte of step 7
+        pad = os.sysconf("SC_PAGE_SIZE") - len(content + lines[6] + lines[7]) - 1
+        (disk / "energy").write_text("#" * (pad - 1) + "\n" + content)
+        energy.unlink()
+        energy.symlink_to(disk / "energy")
+        job = self.start(here, ["-restart", here.uda, "-writers", "3", "-behind", "32"],
+                         ("Time/max_Timesteps=8", "DataArchiver/checkpoint/@timestepInterval=100"))
+        errors = job.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(job.returncode, 1, errors)
+        self.assertEqual(errors.count("No space left on device"), 1, errors)
+        self.assertNotIn("(rank", errors)
+        self.assertTrue((here.uda / "t00006.h5").read_bytes() == (alone.uda / "t00006.h5").read_bytes())
+        self.assertEqual(list(here.uda.resolve().rglob("*.tmp")), [])
+        code, errors, report = here.restart("Time/max_Timesteps=8")
+        self.assertEqual((code, errors, report["fingerprint"]), (0, "", expected["fingerprint"]))
 
     def test_a_folder_that_vanishes_is_told_once(self):
         here = self.folder(3)

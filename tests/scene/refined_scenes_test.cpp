@@ -111,8 +111,7 @@ TEST(RefinedScenes, NameASectionOfTheirComponent) {
 
 TEST(RefinedScenes, AreRefusedToComponentsOfOneLevel) {
   EXPECT_EQ(problemsOf(withLevel("ups/fsi/closed_box.ups"), {"Grid/Level[1]/Box/resolution=[64,1,1]"}),
-            "'mpmice' needs a grid of one level; these run on several: 'burgers', 'euler', 'heat', 'ice', "
-            "'implicit_heat', 'mpm' and 'poisson'\n");
+            "'mpmice' needs a grid of one level: one <Level> in <Grid>, and no <max_levels> above 1 in <AMR>\n");
 }
 
 TEST(RefinedScenes, SaveNoFluxesThroughRims) {
