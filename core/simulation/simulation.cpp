@@ -124,8 +124,7 @@ void Simulation::initialize() {
   refuseCoarseParticles();
   run_.warehouse.releaseFreeMemory();  // what particles are made with is not what steps need
   bool hasParticles = false;
-  for (int m = 0; m < run_.materials(); ++m)
-    hasParticles = hasParticles || run_.table.find(data::positionName, m) >= 0;
+  for (int m = 0; m < run_.materials(); ++m) hasParticles = hasParticles || run_.table.find(data::positionName, m) >= 0;
   if (hasParticles && collect::particleCount(run_.warehouse, run_.materials()) == 0)
     throw InputError({{{run_.problem.scenePath, 0, 0},
                        "MaterialProperties",
