@@ -83,7 +83,7 @@ std::map<std::string, Measurable> measurables(const Component& component, bool v
         const bool onGrid = label.centring == Centring::cell || label.centring == Centring::node;
         const bool isReal = label.number == data::Number::real;
         const bool fits = isReal && (vectors ? label.isVector : label.components == 1 && !label.isVector);
-        if (access.writes() && onGrid && fits && !task.perMaterial())
+        if (access.writes() && onGrid && fits && !task.perMaterial(access))
           found.try_emplace(std::string(label.name), Measurable{label, list == &derived});
       }
   return found;

@@ -168,9 +168,9 @@ Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, i
 }
 
 /// The state beyond a side, by a rule and the state of the cell that it is made from.
-template <int D>
-State<D> beyondSide(const GhostRule<D>& rule, State<D> w) {
-  for (std::size_t k = 0; k < w.size(); ++k) w[k] = rule.factor[k] * w[k] + rule.value[k];
+template <int D, std::size_t N>
+std::array<double, N> beyondSide(const GhostRule<D>& rule, std::array<double, N> w) {
+  for (std::size_t k = 0; k < rule.factor.size(); ++k) w[k] = rule.factor[k] * w[k] + rule.value[k];
   if (rule.densityOfPressure > 0) w[kDensity] = rule.densityOfPressure * (w[kPressure<D>] + rule.pInfinity);
   if (rule.temperature > 0 && rule.gas->isBarotropic())
     w[kPressure<D>] = rule.gas->lastAt(w[kDensity], rule.temperature);
@@ -180,8 +180,9 @@ State<D> beyondSide(const GhostRule<D>& rule, State<D> w) {
 }
 
 /// Fills the cells of a box beyond a side by rules that differ from cell to cell.
-template <int D>
-void fillByPlace(const Level& level, const GhostRules<D>& rules, const Box& beyond, int axis, int side, Rows<D>& rows) {
+template <int D, int K>
+void fillByPlace(const Level& level, const GhostRules<D>& rules, const Box& beyond, int axis, int side,
+                 Rows<D, K>& rows) {
   const int cells = level.cells().upper[axis];
   forEach<D>(beyond, [&](const Index<D>& cell) {
     const GhostRule<D> rule = ruleAt<D>(level, rules, axis, side, inGrid<D>(level, rules, cell, axis));
@@ -232,8 +233,8 @@ GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, in
   return part == grid::restOfSide ? of : of.parts[part];
 }
 
-template <int D>
-void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D>& rows) {
+template <int D, int K>
+void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& rows) {
   const Box grid = level.cells();
   Box known = level.clipCells(rows.box());
   for (int d = 0; d < D; ++d) {
@@ -270,8 +271,14 @@ template GhostRule<3> ruleAt<3>(const Level&, const GhostRules<3>&, int, int, co
 template bool isWall<1>(const Place&, const Gas&);
 template bool isWall<2>(const Place&, const Gas&);
 template bool isWall<3>(const Place&, const Gas&);
-template void fillBeyondGrid<1>(const Level&, const GhostRules<1>&, Rows<1>&);
-template void fillBeyondGrid<2>(const Level&, const GhostRules<2>&, Rows<2>&);
-template void fillBeyondGrid<3>(const Level&, const GhostRules<3>&, Rows<3>&);
+template void fillBeyondGrid<1>(const Level&, const GhostRules<1>&, Rows<1, 1>&);
+template void fillBeyondGrid<1>(const Level&, const GhostRules<1>&, Rows<1, 2>&);
+template void fillBeyondGrid<1>(const Level&, const GhostRules<1>&, Rows<1, 3>&);
+template void fillBeyondGrid<2>(const Level&, const GhostRules<2>&, Rows<2, 1>&);
+template void fillBeyondGrid<2>(const Level&, const GhostRules<2>&, Rows<2, 2>&);
+template void fillBeyondGrid<2>(const Level&, const GhostRules<2>&, Rows<2, 3>&);
+template void fillBeyondGrid<3>(const Level&, const GhostRules<3>&, Rows<3, 1>&);
+template void fillBeyondGrid<3>(const Level&, const GhostRules<3>&, Rows<3, 2>&);
+template void fillBeyondGrid<3>(const Level&, const GhostRules<3>&, Rows<3, 3>&);
 
 }  // namespace tushar::euler

@@ -77,7 +77,7 @@ template <int D>
 GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, int side, const Index<D>& cell);
 
 /// Fills the cells of `rows` that lie beyond the grid; those on the grid must be known.
-template <int D>
-void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D>& rows);
+template <int D, int K>
+void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& rows);
 
 }  // namespace tushar::euler

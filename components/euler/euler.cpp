@@ -31,7 +31,7 @@ void Euler<D>::scheduleTimeAdvance(TaskList& tasks) const {
 }
 
 template <int D>
-void Euler<D>::scheduleDiagnostics(TaskList& tasks) const {
+void scheduleTotals(TaskList& tasks) {
   tasks.perPatch("euler::sumMass", sumMass<D>, requiresOld(c::density), computes(total::mass));
   tasks.perPatch("euler::sumMomentum", sumMomentum<D>, requiresOld(c::momentum<D>), computes(total::momentum));
   tasks.perPatch("euler::sumEnergy", sumEnergy<D>, requiresOld(c::totalEnergy), computes(total::energy));
@@ -39,6 +39,11 @@ void Euler<D>::scheduleDiagnostics(TaskList& tasks) const {
                  computes(total::kineticEnergy));
   tasks.perPatch("euler::findLeast", findLeast<D>, requiresOld(c::density), requiresOld(c::momentum<D>),
                  requiresOld(c::totalEnergy), computes(total::leastDensity), computes(total::leastEnergy));
+}
+
+template <int D>
+void Euler<D>::scheduleDiagnostics(TaskList& tasks) const {
+  scheduleTotals<D>(tasks);
   tasks.perPatch("euler::sumEntropy", sumEntropy<D>, with(settings_.gas), requiresOld(c::density),
                  requiresOld(c::momentum<D>), requiresOld(c::totalEnergy), computes(total::entropy));
   tasks.perPatch("euler::computePressure", computePressure<D>, with(settings_.gas), requiresOld(c::density),
@@ -87,6 +92,9 @@ void Euler<D>::scheduleMeasureError(TaskList& tasks, const reference::GasReferen
                  all<reference::ErrorNorms>(&reference::cellError));
 }
 
+template void scheduleTotals<1>(TaskList&);
+template void scheduleTotals<2>(TaskList&);
+template void scheduleTotals<3>(TaskList&);
 template class Euler<1>;
 template class Euler<2>;
 template class Euler<3>;

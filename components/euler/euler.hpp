@@ -40,6 +40,11 @@ class Euler : public Component, public reference::GasSolution {
   Settings settings_;
 };
 
+/// Diagnostics that do not depend on the gas: mass, momentum, energy, kinetic energy, and the least of a density and an
+/// energy.
+template <int D>
+void scheduleTotals(TaskList& tasks);
+
 extern template class Euler<1>;
 extern template class Euler<2>;
 extern template class Euler<3>;

@@ -23,7 +23,8 @@ struct FaceMasses {
     return {.below = take(computes(c::massFluxBelow<D>)), .above = take(computes(c::massFluxAbove<D>))};
   }
   /// Takes those of the cells of a block across an axis from the fluxes.
-  void keep(const Box& block, int axis, const Rows<D>& flux) const {
+  template <int K>
+  void keep(const Box& block, int axis, const Rows<D, K>& flux) const {
     if (!below) return;
     forEach<D>(block, [&](const Index<D>& cell) {
       (*below)[cell][axis] = flux.number(cell, kDensity);

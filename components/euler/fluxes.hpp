@@ -6,22 +6,24 @@
 namespace tushar::euler {
 
 /// The gas at a face while two states meet there: rho, v and the pressure, and total energy per volume.
-template <int D>
+template <int D, int K = 1>
 struct FaceState {
-  State<D> w;
+  State<D, K> w;
   double energy;
 };
 
-/// F = (m, m v + p n, (E + p) v_n) through a face across `Axis`, m = rho v_n.
-template <int D, int Axis>
-State<D> fluxOf(const FaceState<D>& face) {
+/// F = (m, m v + p n, (E + p) v_n) through a face across `Axis`, m = rho v_n; of several gases, of each mass and share
+/// times v_n, too.
+template <int D, int Axis, int K>
+State<D, K> fluxOf(const FaceState<D, K>& face) {
   const double normal = face.w[kVelocity(Axis)];
   const double mass = face.w[kDensity] * normal;
-  State<D> flux;
+  State<D, K> flux;
   flux[kDensity] = mass;
   for (int k = 0; k < D; ++k) flux[kVelocity(k)] = mass * face.w[kVelocity(k)];
   flux[kVelocity(Axis)] += face.w[kPressure<D>];
   flux[kPressure<D>] = (face.energy + face.w[kPressure<D>]) * normal;
+  for (std::size_t k = D + 2; k < flux.size(); ++k) flux[k] = face.w[k] * normal;
   return flux;
 }
 
@@ -33,11 +35,14 @@ State<D> fluxOf(const FaceState<D>& face) {
 /// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 10.
 struct Hllc {
   template <int D, int Axis, class G>
-  static FaceState<D> solve(const G& gas, const State<D>& left, const State<D>& right) {
-    const double rhoL = left[kDensity], uL = left[kVelocity(Axis)], pL = gas.pressureOf(rhoL, left[kPressure<D>]);
-    const double rhoR = right[kDensity], uR = right[kVelocity(Axis)], pR = gas.pressureOf(rhoR, right[kPressure<D>]);
-    const double cL2 = gas.soundSpeedSquared(rhoL, left[kPressure<D>]);
-    const double cR2 = gas.soundSpeedSquared(rhoR, right[kPressure<D>]);
+  static FaceState<D, kGases<G>> solve(const G& gas, const State<D, kGases<G>>& left,
+                                       const State<D, kGases<G>>& right) {
+    constexpr int gases = kGases<G>;
+    const auto &lawL = lawIn<D>(gas, left), &lawR = lawIn<D>(gas, right);
+    const double rhoL = left[kDensity], uL = left[kVelocity(Axis)], pL = lawL.pressureOf(rhoL, left[kPressure<D>]);
+    const double rhoR = right[kDensity], uR = right[kVelocity(Axis)], pR = lawR.pressureOf(rhoR, right[kPressure<D>]);
+    const double cL2 = lawL.soundSpeedSquared(rhoL, left[kPressure<D>]);
+    const double cR2 = lawR.soundSpeedSquared(rhoR, right[kPressure<D>]);
     const double rootL = std::sqrt(rhoL), rootR = std::sqrt(rhoR), weight = 1 / (rootL + rootR);
     const double spread = (uR - uL) * weight;
     const double u = (rootL * uL + rootR * uR) * weight;
@@ -51,16 +56,20 @@ struct Hllc {
 
     const bool fromLeft = contact >= 0;
     const bool between = sL < 0 && sR > 0;
-    FaceState<D> face;
+    FaceState<D, gases> face;
     for (std::size_t k = 0; k < face.w.size(); ++k) face.w[k] = fromLeft ? left[k] : right[k];
     const double s = fromLeft ? sL : sR;
     const double m = fromLeft ? mL : mR;
     const double side = face.w[kVelocity(Axis)], p = fromLeft ? pL : pR;
-    const double internal = gas.energyOf(face.w[kDensity], face.w[kPressure<D>]);
+    const double internal = lawIn<D>(gas, face.w).energyOf(face.w[kDensity], face.w[kPressure<D>]);
     const double energy = internal + 0.5 * face.w[kDensity] * speedSquared<D>(face.w);
     const double inverse = 1 / (s - contact);
     const double energyStar = ((s - side) * energy - p * side + pStar * contact) * inverse;
     const double rhoStar = m * inverse;
+    if constexpr (gases > 1) {
+      const double thicker = between ? (s - side) * inverse : 1;
+      for (int k = 0; k < gases; ++k) face.w[kMass<D>(k)] *= thicker;
+    }
     face.w[kDensity] = between ? rhoStar : face.w[kDensity];
     face.w[kVelocity(Axis)] = between ? contact : side;
     face.w[kPressure<D>] = between ? pStar : p;

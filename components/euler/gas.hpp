@@ -13,15 +13,26 @@
 namespace tushar::euler {
 
 /// The state of a cell in D dimensions, as numbers that loops over rows keep in registers. Primitive: density [kg/m³],
-/// velocity along each axis [m/s], pressure [Pa]. Conserved, and fluxes: density, momentum, total energy per volume.
-template <int D>
-using State = std::array<double, D + 2>;
+/// velocity along each axis [m/s], pressure [Pa]. Conserved, and fluxes: density, momentum, total energy per volume. Of
+/// K > 1 gases (mixture.hpp) the mass of each per volume of the cell [kg/m³] follows, and its share of the volume; the
+/// density is the sum of the masses.
+template <int D, int K = 1>
+using State = std::array<double, D + 2 + (K > 1 ? 2 * K : 0)>;
 
 /// Places in a State: density, component `axis` of velocity or momentum, pressure or total energy.
 inline constexpr std::size_t kDensity = 0;
 constexpr std::size_t kVelocity(int axis) { return axis + 1; }
 template <int D>
 inline constexpr std::size_t kPressure = D + 1;
+/// Of gas k out of K: its mass, its share.
+template <int D>
+constexpr std::size_t kMass(int k) {
+  return D + 2 + k;
+}
+template <int D, int K>
+constexpr std::size_t kShare(int k) {
+  return D + 2 + K + k;
+}
 
 /// A stiffened gas: p = (gamma - 1) rho e - gamma p_inf; with p_inf = 0 an ideal gas.
 ///
@@ -138,32 +149,39 @@ Law lawOf(const Gas& gas) {
     return std::get<Law>(*gas.law);
 }
 
+/// How many gases a law is of.
+template <class G>
+inline constexpr int kGases = 1;
+/// The law that holds in a state: where there is one gas, its own.
+template <int D, class G>
+const G& lawIn(const G& gas, const State<D>&) {
+  return gas;
+}
+
 /// |v|² of a primitive state.
-template <int D>
-double speedSquared(const State<D>& w) {
+template <int D, std::size_t N>
+double speedSquared(const std::array<double, N>& w) {
   double sum = 0;
   for (int k = 0; k < D; ++k) sum += w[kVelocity(k)] * w[kVelocity(k)];
   return sum;
 }
 
-/// rho, rho v, E of rho, v and the last number; G is Gas or one of its laws.
+/// rho, rho v, E of rho, v and the last number; G is Gas, one of its laws or that of a mixture.
 template <int D, class G>
-State<D> conserved(const G& gas, const State<D>& w) {
-  State<D> u;
-  u[kDensity] = w[kDensity];
+State<D, kGases<G>> conserved(const G& gas, const State<D, kGases<G>>& w) {
+  State<D, kGases<G>> u = w;
   for (int k = 0; k < D; ++k) u[kVelocity(k)] = w[kDensity] * w[kVelocity(k)];
-  u[kPressure<D>] = gas.energyOf(w[kDensity], w[kPressure<D>]) + 0.5 * w[kDensity] * speedSquared<D>(w);
+  u[kPressure<D>] = lawIn<D>(gas, w).energyOf(w[kDensity], w[kPressure<D>]) + 0.5 * w[kDensity] * speedSquared<D>(w);
   return u;
 }
 
 /// rho, v and the last number of rho, rho v, E.
 template <int D, class G>
-State<D> primitive(const G& gas, const State<D>& u) {
-  State<D> w;
+State<D, kGases<G>> primitive(const G& gas, const State<D, kGases<G>>& u) {
+  State<D, kGases<G>> w = u;
   const double inverse = 1 / u[kDensity];
-  w[kDensity] = u[kDensity];
   for (int k = 0; k < D; ++k) w[kVelocity(k)] = u[kVelocity(k)] * inverse;
-  w[kPressure<D>] = gas.last(u[kDensity], u[kPressure<D>] - 0.5 * u[kDensity] * speedSquared<D>(w));
+  w[kPressure<D>] = lawIn<D>(gas, u).last(u[kDensity], u[kPressure<D>] - 0.5 * u[kDensity] * speedSquared<D>(w));
   return w;
 }
 

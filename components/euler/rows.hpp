@@ -44,11 +44,11 @@ void forEachBlock(const Box& box, Visit&& visit) {
   });
 }
 
-/// One State per cell of a box, each number in an array of its own, the first axis fastest.
-template <int D>
+/// One State of K gases per cell of a box, each number in an array of its own, the first axis fastest.
+template <int D, int K = 1>
 class Rows {
  public:
-  static constexpr std::size_t numbers = D + 2;
+  static constexpr std::size_t numbers = std::tuple_size_v<State<D, K>>;
   using Pointers = std::array<double*, numbers>;
 
   /// Room for boxes of up to `cells` cells.
@@ -72,8 +72,8 @@ class Rows {
   }
   /// One number of a cell, and all of them.
   double number(const Index<D>& cell, std::size_t k) const { return values_[k * cells_ + offsetOf(cell)]; }
-  State<D> state(const Index<D>& cell) const {
-    State<D> state;
+  State<D, K> state(const Index<D>& cell) const {
+    State<D, K> state;
     for (std::size_t k = 0; k < numbers; ++k) state[k] = number(cell, k);
     return state;
   }
@@ -92,14 +92,14 @@ class Rows {
 };
 
 /// The State at place `i` of rows.
-template <int D>
-State<D> load(const typename Rows<D>::Pointers& rows, std::ptrdiff_t i) {
-  State<D> state;
+template <int D, std::size_t N>
+std::array<double, N> load(const std::array<double*, N>& rows, std::ptrdiff_t i) {
+  std::array<double, N> state;
   for (std::size_t k = 0; k < state.size(); ++k) state[k] = rows[k][i];
   return state;
 }
-template <int D>
-void store(const typename Rows<D>::Pointers& rows, std::ptrdiff_t i, const State<D>& state) {
+template <int D, std::size_t N>
+void store(const std::array<double*, N>& rows, std::ptrdiff_t i, const std::array<double, N>& state) {
   for (std::size_t k = 0; k < state.size(); ++k) rows[k][i] = state[k];
 }
 

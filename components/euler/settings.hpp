@@ -21,6 +21,7 @@ struct GasObject {
   input::Expression pressure;                         ///< Pa; of no account where there is a temperature
   input::VectorExpression velocity;                   ///< m/s
   std::optional<input::Expression> temperature = {};  ///< K
+  std::optional<input::Expression> share = {};        ///< in the volume, where several gases are; 1 without
 };
 
 enum class FluxKind { exact, hllc };

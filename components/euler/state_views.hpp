@@ -1,8 +1,10 @@
 #pragma once
 
 #include <type_traits>
+#include <vector>
 
 #include "components/euler/labels.hpp"
+#include "components/euler/mixture.hpp"
 
 namespace tushar::euler {
 
@@ -13,6 +15,15 @@ struct StateViews {
   CellView<std::conditional_t<std::is_const_v<T>, const Vec<D>, Vec<D>>> momentum;
   CellView<T> totalEnergy;
 };
+
+/// The state of several gases: that of all together, and what each has.
+template <int D, class T>
+struct MixtureViews : StateViews<D, T> {
+  std::vector<CellView<T>> masses, shares;
+};
+/// The views of K gases.
+template <int D, int K, class T>
+using ViewsOf = std::conditional_t<K == 1, StateViews<D, T>, MixtureViews<D, T>>;
 
 /// The state at the start of a step, with `ghost` cells around the patch.
 template <int D>

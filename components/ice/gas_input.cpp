@@ -7,6 +7,7 @@
 
 #include "components/euler/labels.hpp"
 #include "components/ice/gas_schemas.hpp"
+#include "components/ice/mixture/input.hpp"
 #include "core/simulation/by_dimension.hpp"
 
 namespace tushar::ice {
@@ -47,18 +48,20 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   limit(euler::boundary::temperature, "K");
 }
 
-/// The conditions of the gas, material `gas` of the scene.
-void checkConditions(const Element& root, int gas, Diagnostics& diagnostics) {
+/// The conditions of the gas, material `gas` of the scene, and of further ones behind it.
+void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const int material = materialOf(condition);
-    if (material > gas)
+    if (material >= gas + gases)
       diagnostics.error(condition.whereOf("id"), condition.path(),
-                        fmt::format("there is no material {}: the gas is number {}", material, gas));
+                        gases == 1 ? fmt::format("there is no material {}: the gas is number {}", material, gas)
+                                   : fmt::format("there is no material {}: the gases are numbers {} to {}", material,
+                                                 gas, gas + gases - 1));
     if (material >= 0 && material < gas && condition.attribute("label") == euler::boundary::density.name)
       diagnostics.note(condition,
                        fmt::format("does nothing: material {} is a body; the gas is number {}", material, gas));
     const bool isShared = condition.attribute("label") == euler::boundary::pressure.name;
-    if (material < 0 || material == gas || isShared) checkCondition(condition, diagnostics);
+    if (material < 0 || material >= gas || isShared) checkCondition(condition, diagnostics);
   }
 }
 
@@ -113,31 +116,61 @@ void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagn
   }
 }
 
-void readMaterial(const GasMaterial& material, const Element& element, GasScene& scene, Diagnostics& diagnostics) {
-  scene.gas.name = material.name;
-  scene.specificHeat = material.specificHeat;
-  scene.viscosity = material.viscosity;
-  scene.conductivity = material.conductivity;
-  euler::Gas& gas = scene.gas.gas;
+/// Reads a gas and its state at the start into the settings that it shares with others.
+void readMaterial(const GasMaterial& material, const Element& element, euler::Settings& settings,
+                  Diagnostics& diagnostics) {
+  settings.name = material.name;
+  euler::Gas& gas = settings.gas;
   gas.gamma = material.gamma;
   gas.specificHeat = material.specificHeat;
   gas.pInfinity = material.state.pInfinity;
   gas.law = material.state.law(material.specificHeat);
-  if (scene.implicit && gas.isBarotropic())
-    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "not with JWLC or Murnaghan, whose pressure does not depend on the energy: take it out, or run "
-                      "with --set CFD/ICE/explicit=true");
   const auto tags = element.children("geom_object");
   for (std::size_t k = 0; k < material.bodies.size(); ++k) {
     const GasBody& body = material.bodies[k];
-    scene.gas.objects.push_back({.where = body.where,
-                                 .shape = body.shape,
-                                 .density = body.density,
-                                 .pressure = {},
-                                 .velocity = body.velocity,
-                                 .temperature = body.temperature});
+    settings.objects.push_back({.where = body.where,
+                                .shape = body.shape,
+                                .density = body.density,
+                                .pressure = {},
+                                .velocity = body.velocity,
+                                .temperature = body.temperature,
+                                .share = body.share});
     if (k < tags.size()) noteOtherPressure(body, gas, tags[k], diagnostics);
   }
+}
+
+/// A gas alone fills its regions.
+void checkShares(const GasMaterial& material, Diagnostics& diagnostics) {
+  for (const GasBody& body : material.bodies)
+    if (body.share && !(body.share->isConstant() && (*body.share)(Vec3::Zero()) == 1))
+      diagnostics.error(body.share->where(), "MaterialProperties/ICE/material/geom_object/volumeFraction",
+                        fmt::format("found '{}', expected 1: the gas fills the region", body.share->text()));
+}
+
+void readOneGas(const GasMaterial& material, const Element& element, GasScene& scene, Diagnostics& diagnostics) {
+  scene.specificHeat = material.specificHeat;
+  scene.viscosity = material.viscosity;
+  scene.conductivity = material.conductivity;
+  readMaterial(material, element, scene.gas, diagnostics);
+  checkShares(material, diagnostics);
+  if (scene.implicit && scene.gas.gas.isBarotropic())
+    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
+                      "not with JWLC or Murnaghan, whose pressure does not depend on the energy: take it out, or run "
+                      "with --set CFD/ICE/explicit=true");
+}
+
+void readGases(const std::vector<GasMaterial>& materials, const Element& root, GasScene& scene,
+               Diagnostics& diagnostics) {
+  const auto elements = root.child("MaterialProperties")->child("ICE")->children("material");
+  for (std::size_t k = 0; k < materials.size(); ++k) {
+    euler::Settings settings = scene.gas;
+    settings.where = elements[k].where();
+    settings.gas.material += static_cast<int>(k);
+    readMaterial(materials[k], elements[k], settings, diagnostics);
+    if (settings.name.empty()) settings.name = fmt::format("gas{}", k);
+    scene.mixture.push_back(settings);
+  }
+  checkMixture(materials, root, scene, diagnostics);
 }
 
 bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }
@@ -178,7 +211,8 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   const PropertiesSection properties = simulation::readSection(root, propertiesSchema(), diagnostics);
   ModelsSection models = simulation::readOptionalSection(root, modelsSchema(), diagnostics);
   noteIdle(root, cfd.ice, diagnostics);
-  checkConditions(root, solids, diagnostics);
+  const auto& materials = properties.ice.materials;
+  checkConditions(root, solids, static_cast<int>(std::max<std::size_t>(materials.size(), 1)), diagnostics);
   GasScene scene;
   if (diagnostics.size() > before) return scene;
   scene.where = root.child("CFD")->where();
@@ -197,8 +231,11 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
       start.apply(point, rho, velocity, temperature);
     };
   if (properties.exchange) scene.exchange = properties.exchange->coefficients;
-  readMaterial(properties.ice.materials.front(), *root.child("MaterialProperties")->child("ICE")->child("material"),
-               scene, diagnostics);
+  if (materials.size() > 1) {
+    readGases(materials, root, scene, diagnostics);
+    return scene;
+  }
+  readOneGas(materials.front(), *root.child("MaterialProperties")->child("ICE")->child("material"), scene, diagnostics);
   checkInflows(root, scene.gas.gas, diagnostics);
   return scene;
 }

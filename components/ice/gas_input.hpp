@@ -38,6 +38,8 @@ struct GasScene {
   std::optional<Exchange> exchange = {};  ///< with other materials
   std::optional<ImplicitPressure> implicit = {};
   std::vector<ScalarSettings> scalars = {};  ///< that the gas carries along
+  /// Where there are several gases: each of them, with its state at the start; the gas above is the first.
+  std::vector<euler::Settings> mixture = {};
 };
 
 /// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> except its MPM, and the conditions at the sides of the grid.

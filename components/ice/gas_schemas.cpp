@@ -1,5 +1,8 @@
 #include "components/ice/gas_schemas.hpp"
 
+#include <fmt/format.h>
+
+#include "components/euler/tasks/advance_mixture.hpp"
 #include "core/input/geometry.hpp"
 #include "core/input/refuse.hpp"
 #include "core/solvers/input.hpp"
@@ -130,10 +133,12 @@ const Schema<GasBody>& bodySchema() {
                   input::WithoutTime())
         .value("velocity", &GasBody::velocity, input::VectorExpression(), "m/s", "velocity at the start",
                input::WithoutTime())
+        .optional("volumeFraction", &GasBody::share, "1",
+                  "share of the gas in the volume, where several gases share the region; one gas fills it",
+                  input::between(0, 1), input::WithoutTime())
         .optional("pressure", &GasBody::pressure, "Pa", "has no effect: it follows from density and temperature")
         .ignored("res", "a cell has the gas at its middle")
         .ignoredAttribute("name", "for readers");
-    input::refuseOtherValues(tags, "volumeFraction", {"1"}, "the gas fills the region");
     return tags;
   }();
   return schema;
@@ -143,7 +148,7 @@ const Schema<GasMaterial>& materialSchema() {
   static const Schema<GasMaterial> schema = [] {
     Schema<GasMaterial> tags("material", "A gas, and where it is at the start.");
     tags.attributeValue("name", &GasMaterial::name, "", "1", "its name")
-        .ignoredAttribute("index", "there is one gas")
+        .ignoredAttribute("index", "gases are counted in their order")
         .custom("EOS", readState, {"EOS"},
                 "the equation of state, by its type: ideal_gas p = (gamma - 1) c_v rho T; stiffened_gas; of explosives "
                 "and liquids JWL, JWLC, Murnaghan and Thomsen_Hartka_water, to which <gamma> means nothing")
@@ -205,10 +210,11 @@ const Schema<CfdSection>& cfdSchema() {
 const Schema<PropertiesSection>& propertiesSchema() {
   static const Schema<GasMaterials> list =
       Schema<GasMaterials>("ICE", "The gas.")
-          .list("material", &GasMaterials::materials, materialSchema(), "the gas; there is one", 1)
+          .list("material", &GasMaterials::materials, materialSchema(), "a gas; several share the grid", 1)
           .check([](const GasMaterials& read, const Element& element, Diagnostics& diagnostics) {
-            if (read.materials.size() > 1)
-              diagnostics.error(element.children("material")[1], "a second gas is not available; keep one <material>");
+            if (read.materials.size() > euler::kMostGases)
+              diagnostics.error(element.children("material")[euler::kMostGases],
+                                fmt::format("more than {} gases are not available", euler::kMostGases));
           });
   static const Schema<PropertiesSection> schema =
       Schema<PropertiesSection>("MaterialProperties", "What there is.")

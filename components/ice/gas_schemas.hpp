@@ -60,6 +60,7 @@ struct GasBody {
   input::Expression temperature;              ///< K
   input::VectorExpression velocity;           ///< m/s
   std::optional<input::Expression> pressure;  ///< Pa; follows from the others
+  std::optional<input::Expression> share;     ///< of the volume
 };
 
 /// `MaterialProperties/ICE/material`.

@@ -3,6 +3,7 @@
 #include "components/euler/tasks/add_diffusion.hpp"
 #include "components/euler/tasks/add_gravity.hpp"
 #include "components/ice/diagnose.hpp"
+#include "components/ice/mixture/mixture_ice.hpp"
 #include "components/ice/tasks/advance_implicitly.hpp"
 #include "components/ice/tasks/carry_scalar.hpp"
 #include "components/ice/tasks/limit_implicit_step.hpp"
@@ -168,8 +169,11 @@ simulation::ComponentKind kind() {
     if (const auto solids = properties ? properties->child("MPM") : std::nullopt)
       diagnostics.error(*solids, "'ice' has no solids: keep the gas alone");
     if (scene.thinWalls) diagnostics.note(scene.where, thinWallsPath, "does nothing: there are no bodies");
-    if (scene.exchange) diagnostics.note(scene.exchange->where, exchangePath, "does nothing: there is one material");
+    if (scene.exchange && scene.mixture.empty())
+      diagnostics.note(scene.exchange->where, exchangePath, "does nothing: there is one material");
     if (diagnostics.size() > before) return {};
+    if (!scene.mixture.empty())
+      return [scene](const Level& level) { return simulation::makeByDimension<MixtureIce>(level, scene); };
     return [scene](const Level& level) {
       return scene.implicit ? simulation::makeByDimension<ImplicitIce>(level, scene)
                             : simulation::makeByDimension<Ice>(level, scene);

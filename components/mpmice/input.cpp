@@ -109,6 +109,9 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const std::size_t before = diagnostics.size();
   const int solids = countSolids(root);
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
+  if (!scene.mixture.empty())
+    diagnostics.error(scene.mixture[1].where, "MaterialProperties/ICE/material",
+                      "a second gas is not available beside bodies; keep one <material>");
   if (!scene.scalars.empty())
     diagnostics.error(scene.scalars.front().where, "Models/Model",
                       "is not available beside bodies; take it out, or keep the gas alone");

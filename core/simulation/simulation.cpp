@@ -124,7 +124,9 @@ void Simulation::initialize() {
   } while (regridder_.refinedStart());
   refuseCoarseParticles();
   run_.warehouse.releaseFreeMemory();  // what particles are made with is not what steps need
-  if (run_.materials() > 0 && collect::particleCount(run_.warehouse, run_.materials()) == 0)
+  bool hasParticles = false;
+  for (int m = 0; m < run_.materials(); ++m) hasParticles = hasParticles || run_.table.find(data::positionName, m) >= 0;
+  if (hasParticles && collect::particleCount(run_.warehouse, run_.materials()) == 0)
     throw InputError({{{run_.problem.scenePath, 0, 0},
                        "MaterialProperties",
                        "there are no particles: no geom_object has a point on the grid"}});

@@ -128,13 +128,10 @@ TEST(IceScene, TakesConditionsOnAPartOfASide) {
             "");
 }
 
-TEST(IceScene, RefusesASecondGas) {
-  EXPECT_EQ(problemOf(changedScene(sod, "      </material>\n",
-                                   "      </material>\n<material><EOS type=\"ideal_gas\"/><gamma>1.4</gamma>"
-                                   "<specific_heat>1</specific_heat><geom_object><sphere><origin>[0,0,0]</origin>"
-                                   "<radius>1</radius></sphere><density>1</density><temperature>1</temperature>"
-                                   "</geom_object></material>\n")),
-            "a second gas is not available; keep one <material>");
+TEST(IceScene, RefusesAShareOfAGasAlone) {
+  EXPECT_EQ(
+      problemOf(changedScene(sod, "<density>1</density>", "<volumeFraction>0.5</volumeFraction><density>1</density>")),
+      "found '0.5', expected 1: the gas fills the region");
 }
 
 TEST(IceScene, RefusesSolids) {

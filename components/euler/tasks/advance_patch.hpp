@@ -19,7 +19,7 @@ struct Sloped {
 };
 
 /// Work arrays for a block of cells and the cells around it.
-template <int D>
+template <int D, int K = 1>
 struct Work {
   /// Room for blocks of a patch.
   Work(const Box& cells, int reach) : w(largestBlock<D>(cells).grown(reach, D).size()), flux(w) {
@@ -31,20 +31,25 @@ struct Work {
   void hold(const Box& box) {
     w.hold(box);
     flux.hold(box);
-    for (Rows<D>& values : lower) values.hold(box);
-    for (Rows<D>& values : upper) values.hold(box);
+    for (Rows<D, K>& values : lower) values.hold(box);
+    for (Rows<D, K>& values : upper) values.hold(box);
   }
 
-  Rows<D> w;                          ///< primitive values of cells
-  std::vector<Rows<D>> lower, upper;  ///< primitive values at faces, per axis; none where cells are constant
-  Rows<D> flux;                       ///< through lower faces, of one axis at a time
-  std::vector<double> least;          ///< of a row: least density and p + p_inf at faces
+  Rows<D, K> w;                          ///< primitive values of cells
+  std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, per axis; none where cells are constant
+  Rows<D, K> flux;                       ///< through lower faces, of one axis at a time
+  std::vector<double> least;             ///< of a row: least density and p + p_inf at faces
 };
 
 /// rho, v, p of the cells of the work's box that are on the grid or its images.
 template <int D, class G>
-void recover(const G& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& w) {
+void recover(const G& gas, const Level& level, const ViewsOf<D, kGases<G>, const double>& old, Rows<D, kGases<G>>& w) {
   forEachRow<D>(level.clipCells(w.box()), [&](const Index<D>& first, int count) {
+    if constexpr (constexpr int gases = kGases<G>; gases > 1)
+      for (int k = 0; k < gases; ++k) {
+        std::copy_n(rowOf(old.masses[k], first, count), count, w.at(first)[kMass<D>(k)]);
+        std::copy_n(rowOf(old.shares[k], first, count), count, w.at(first)[kShare<D, gases>(k)]);
+      }
     recoverRow<D>(gas, rowOf(old.density, first, count), rowOf(old.momentum, first, count)->data(),
                   rowOf(old.totalEnergy, first, count), count, w.at(first));
   });
@@ -52,50 +57,71 @@ void recover(const G& gas, const Level& level, const StateViews<D, const double>
 
 /// Adds the half step's change of a row across an axis, and sets its limited values at the faces.
 template <int D, class Limited, int Axis, class G>
-void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, Work<D>& work) {
-  const Pointers<D> w = work.w.at(first), lower = work.lower[Axis].at(first), upper = work.upper[Axis].at(first);
+void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, Work<D, kGases<G>>& work) {
+  const auto w = work.w.at(first), lower = work.lower[Axis].at(first), upper = work.upper[Axis].at(first);
   for (std::size_t k = 0; k < w.size(); ++k)
     reconstructRow<Limited>(w[k], work.w.stride(Axis), count, lower[k], upper[k]);
+  if constexpr (kGases < G >> 1) {
+    closeRow<D, kGases<G>>(count, lower);
+    closeRow<D, kGases<G>>(count, upper);
+  }
   halfStepRow<D, Axis>(gas, lower, upper, ratio, count, work.flux.at(first));
 }
 
 /// Values at the faces of the cells of `box`, half a step later. The rows of fluxes hold the change on the way.
 template <int D, class G>
-void predict(const G&, const Level&, const Box&, double, Work<D>&, Constant) {}
+void predict(const G&, const Level&, const Box&, double, Work<D, kGases<G>>&, Constant) {}
 template <int D, class Limited, class G>
-void predict(const G& gas, const Level& level, const Box& box, double dt, Work<D>& work, Sloped<Limited>) {
+void predict(const G& gas, const Level& level, const Box& box, double dt, Work<D, kGases<G>>& work, Sloped<Limited>) {
+  constexpr int gases = kGases<G>;
   forEachRow<D>(box, [&](const Index<D>& first, int count) {
     const auto ratio = [&](int d) { return 0.5 * dt / level.spacing(d); };
     reconstruct<D, Limited, 0>(gas, first, count, ratio(0), work);
     if constexpr (D > 1) reconstruct<D, Limited, 1>(gas, first, count, ratio(1), work);
     if constexpr (D > 2) reconstruct<D, Limited, 2>(gas, first, count, ratio(2), work);
-    const Pointers<D> change = work.flux.at(first);
+    const auto change = work.flux.at(first);
     work.least.assign(count, 1.0);
     for (std::size_t d = 0; d < D; ++d)
-      for (Rows<D>* values : {&work.lower[d], &work.upper[d]})
+      for (Rows<D, gases>* values : {&work.lower[d], &work.upper[d]})
         changeRow<D>(gas, change, count, values->at(first), work.least.data());
     for (std::size_t d = 0; d < D; ++d)
-      flattenRow<D>(work.least.data(), work.w.at(first), count, work.lower[d].at(first), work.upper[d].at(first));
+      flattenRow<D, gases>(work.least.data(), work.w.at(first), count, work.lower[d].at(first),
+                           work.upper[d].at(first));
   });
 }
 
 /// Fluxes through the lower faces of the cells of `faces` across an axis.
 template <int D, class Flux, class Shape, int Axis, class G>
-void computeFluxes(const G& gas, const Box& faces, Work<D>& work) {
+void computeFluxes(const G& gas, const Box& faces, Work<D, kGases<G>>& work) {
   constexpr bool constant = Shape::reach == 1;
-  Rows<D>& below = constant ? work.w : work.upper[Axis];
-  Rows<D>& above = constant ? work.w : work.lower[Axis];
+  auto& below = constant ? work.w : work.upper[Axis];
+  auto& above = constant ? work.w : work.lower[Axis];
   forEachRow<D>(faces, [&](const Index<D>& first, int count) {
     fluxRow<D, Flux, Axis>(gas, below.at(first - Index<D>::unit(Axis)), above.at(first), count, work.flux.at(first));
   });
 }
 
+/// Adds what flows in across an axis of each of several gases.
+template <int D, int Axis, int K>
+void addFluxesOfEach(double ratio, const Index<D>& first, int count, const MixtureViews<D, const double>& old,
+                     Rows<D, K>& flux, const MixtureViews<D, double>& fresh) {
+  const auto f = flux.at(first);
+  std::array<const double*, K> shares;
+  for (int k = 0; k < K; ++k) shares[k] = f[kShare<D, K>(k)];
+  for (int k = 0; k < K; ++k) {
+    const double *mass = rowOf(old.masses[k], first, count), *share = rowOf(old.shares[k], first, count);
+    double *newMass = rowOf(fresh.masses[k], first, count), *newShare = rowOf(fresh.shares[k], first, count);
+    updateRow(Axis == 0 ? mass : newMass, f[kMass<D>(k)], flux.stride(Axis), ratio, 1, count, newMass);
+    updateShareRow<K>(share, Axis == 0 ? share : newShare, shares, k, flux.stride(Axis), ratio, count, newShare);
+  }
+}
+
 /// Adds what flows in across an axis; the first axis starts from the old state.
-template <int D, int Axis>
-void addFluxes(double ratio, const Box& block, const StateViews<D, const double>& old, Rows<D>& flux,
-               const StateViews<D, double>& fresh) {
+template <int D, int Axis, int K>
+void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>& old, Rows<D, K>& flux,
+               const ViewsOf<D, K, double>& fresh) {
   forEachRow<D>(block, [&](const Index<D>& first, int count) {
-    const Pointers<D> f = flux.at(first);
+    const auto f = flux.at(first);
     const auto update = [&](const double* from, double* to, std::size_t number, int step) {
       updateRow(Axis == 0 ? from : to, f[number], flux.stride(Axis), ratio, step, count, to);
     };
@@ -104,12 +130,13 @@ void addFluxes(double ratio, const Box& block, const StateViews<D, const double>
     double* newMomentum = rowOf(fresh.momentum, first, count)->data();
     for (int k = 0; k < D; ++k) update(momentum + k, newMomentum + k, kVelocity(k), D);
     update(rowOf(old.totalEnergy, first, count), rowOf(fresh.totalEnergy, first, count), kPressure<D>, 1);
+    if constexpr (K > 1) addFluxesOfEach<D, Axis, K>(ratio, first, count, old, flux, fresh);
   });
 }
 
 /// Keeps the fluxes across an axis at the rim of the level.
-template <int D>
-void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D>& flux) {
+template <int D, int K>
+void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D, K>& flux) {
   if (rims.mass.empty()) return;
   const auto at = [&](const Index<D>& face, std::size_t number) { return *flux.at(face)[number]; };
   rims.mass.template forEachFaceIn<D>(faces, axis,
@@ -122,8 +149,9 @@ void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D>& fl
 }
 
 template <int D, class Flux, class Shape, int Axis, class G>
-void sweep(const G& gas, const Level& level, const Box& block, double dt, const StateViews<D, const double>& old,
-           Work<D>& work, const StateViews<D, double>& fresh, const RimFluxes<D>& rims) {
+void sweep(const G& gas, const Level& level, const Box& block, double dt,
+           const ViewsOf<D, kGases<G>, const double>& old, Work<D, kGases<G>>& work,
+           const ViewsOf<D, kGases<G>, double>& fresh, const RimFluxes<D>& rims) {
   Box faces = block;
   ++faces.upper[Axis];
   computeFluxes<D, Flux, Shape, Axis>(gas, faces, work);
@@ -146,8 +174,8 @@ bool canBe(const G& gas, const Box& block, const StateViews<D, double>& fresh) {
 /// A step of a block of cells.
 template <int D, class Flux, class Shape, class G>
 void advanceBlock(const G& gas, const Level& level, const GhostRules<D>& rules, const Box& block, double dt,
-                  const StateViews<D, const double>& old, Work<D>& work, const StateViews<D, double>& fresh,
-                  const RimFluxes<D>& rims) {
+                  const ViewsOf<D, kGases<G>, const double>& old, Work<D, kGases<G>>& work,
+                  const ViewsOf<D, kGases<G>, double>& fresh, const RimFluxes<D>& rims) {
   work.hold(block.grown(Shape::reach, D));
   recover<D>(gas, level, old, work.w);
   fillBeyondGrid<D>(level, rules, work.w);

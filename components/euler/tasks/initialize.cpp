@@ -23,6 +23,14 @@ void checkState(const Settings& settings, const GasObject& object, const Vec3& p
                     density, pressure, velocity[0], velocity[1], velocity[2], point[0], point[1], point[2])}});
 }
 
+/// The last object that owns a point, or null.
+const GasObject* objectAt(const Settings& settings, const Vec3& point) {
+  const auto& objects = settings.objects;
+  const auto object =
+      std::find_if(objects.rbegin(), objects.rend(), [&](const GasObject& one) { return one.shape->owns(point); });
+  return object == objects.rend() ? nullptr : &*object;
+}
+
 }  // namespace
 
 template <int D>
@@ -43,10 +51,8 @@ void checkObjects(const Level& level, const Settings& settings) {
 
 template <int D>
 std::optional<State<D>> stateAt(const Level& level, const Settings& settings, const Vec3& point) {
-  const auto& objects = settings.objects;
-  const auto object =
-      std::find_if(objects.rbegin(), objects.rend(), [&](const GasObject& one) { return one.shape->owns(point); });
-  if (object == objects.rend()) return std::nullopt;
+  const GasObject* object = objectAt(settings, point);
+  if (!object) return std::nullopt;
   const double rho = object->density(point);
   double temperature = object->temperature ? (*object->temperature)(point) : 0;
   Vec3 wide = object->velocity(point);
@@ -59,6 +65,12 @@ std::optional<State<D>> stateAt(const Level& level, const Settings& settings, co
   for (int d = 0; d < D; ++d) state[kVelocity(d)] = rho * v[d];
   state[kPressure<D>] = settings.gas.energyOf(rho, last) + 0.5 * rho * v.squaredNorm();
   return state;
+}
+
+double shareAt(const Settings& settings, const Vec3& point) {
+  const GasObject* object = objectAt(settings, point);
+  if (!object) return 0;
+  return object->share ? (*object->share)(point) : 1.0;
 }
 
 void refuseUncovered(const Settings& settings, const Vec3& point) {

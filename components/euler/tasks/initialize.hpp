@@ -16,6 +16,9 @@ void checkObjects(const Level& level, const Settings& settings);
 template <int D>
 std::optional<State<D>> stateAt(const Level& level, const Settings& settings, const Vec3& point);
 
+/// The share that a gas has of the volume at a point: of the last object that owns it; 0 where none does.
+double shareAt(const Settings& settings, const Vec3& point);
+
 /// Throws InputError: a cell at `point` has no gas at the start.
 [[noreturn]] void refuseUncovered(const Settings& settings, const Vec3& point);
 

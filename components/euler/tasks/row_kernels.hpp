@@ -8,16 +8,18 @@
 
 namespace tushar::euler {
 
-template <int D>
-using Pointers = typename Rows<D>::Pointers;
+template <int D, int K = 1>
+using Pointers = typename Rows<D, K>::Pointers;
 
-/// rho, v, p of `count` cells whose rho, rho v (D numbers per cell) and E are given.
+/// rho, v, p of `count` cells whose rho, rho v (D numbers per cell) and E are given; of several gases `w` has the
+/// masses and shares.
 template <int D, class G>
 void recoverRow(const G& gas, const double* density, const double* momentum, const double* energy, int count,
-                const Pointers<D>& w) {
+                const Pointers<D, kGases<G>>& w) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    State<D> u;
+    State<D, kGases<G>> u;
+    for (std::size_t k = D + 2; k < u.size(); ++k) u[k] = w[k][i];
     u[kDensity] = density[i];
     for (int k = 0; k < D; ++k) u[kVelocity(k)] = momentum[i * D + k];
     u[kPressure<D>] = energy[i];
@@ -38,53 +40,76 @@ void reconstructRow(const double* w, std::ptrdiff_t stride, int count, double* l
 
 /// F of primitive values, across an axis.
 template <int D, int Axis, class G>
-State<D> fluxOf(const G& gas, const State<D>& w) {
-  FaceState<D> face{w, conserved<D>(gas, w)[kPressure<D>]};
-  face.w[kPressure<D>] = gas.pressureOf(w[kDensity], w[kPressure<D>]);
+State<D, kGases<G>> fluxOf(const G& gas, const State<D, kGases<G>>& w) {
+  FaceState<D, kGases<G>> face{w, conserved<D>(gas, w)[kPressure<D>]};
+  face.w[kPressure<D>] = lawIn<D>(gas, w).pressureOf(w[kDensity], w[kPressure<D>]);
   return fluxOf<D, Axis>(face);
 }
 
 /// Adds the half-step change of a cell by the fluxes of its own face values across an axis (Toro, section 14.4) to the
 /// change by the previous axes; `ratio` is dt / 2 h.
 template <int D, int Axis, class G>
-void halfStepRow(const G& gas, const Pointers<D>& lower, const Pointers<D>& upper, double ratio, int count,
-                 const Pointers<D>& change) {
+void halfStepRow(const G& gas, const Pointers<D, kGases<G>>& lower, const Pointers<D, kGases<G>>& upper, double ratio,
+                 int count, const Pointers<D, kGases<G>>& change) {
+  constexpr int gases = kGases<G>;
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const State<D> in = fluxOf<D, Axis>(gas, load<D>(lower, i)), out = fluxOf<D, Axis>(gas, load<D>(upper, i));
-    State<D> sum = Axis == 0 ? State<D>{} : load<D>(change, i);
+    const auto below = load<D>(lower, i), above = load<D>(upper, i);
+    const auto in = fluxOf<D, Axis>(gas, below), out = fluxOf<D, Axis>(gas, above);
+    State<D, gases> sum = Axis == 0 ? State<D, gases>{} : load<D>(change, i);
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += ratio * (in[k] - out[k]);
+    if constexpr (gases > 1) {
+      const double narrows = ratio * (below[kVelocity(Axis)] - above[kVelocity(Axis)]);
+      for (std::size_t k = kShare<D, gases>(0); k < sum.size(); ++k) sum[k] -= 0.5 * (below[k] + above[k]) * narrows;
+    }
     store<D>(change, i, sum);
   }
 }
 
 /// Changes primitive values by a change of the conserved ones; lowers `least` to the density and p + p_inf, or
-/// what a law has in its place, found.
+/// what a law has in its place, found, and below 0 where a gas of several has less than nothing.
 template <int D, class G>
-void changeRow(const G& gas, const Pointers<D>& change, int count, const Pointers<D>& values, double* least) {
+void changeRow(const G& gas, const Pointers<D, kGases<G>>& change, int count, const Pointers<D, kGases<G>>& values,
+               double* least) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    State<D> u = conserved<D>(gas, load<D>(values, i));
+    State<D, kGases<G>> u = conserved<D>(gas, load<D>(values, i));
     for (std::size_t k = 0; k < u.size(); ++k) u[k] += change[k][i];
-    const State<D> w = primitive<D>(gas, u);
-    const double stiff = gas.heat(w[kDensity], w[kPressure<D>]);
-    const double lower = w[kDensity] < stiff ? w[kDensity] : stiff;
+    const State<D, kGases<G>> w = primitive<D>(gas, u);
+    const double stiff = lawIn<D>(gas, w).heat(w[kDensity], w[kPressure<D>]);
+    double lower = w[kDensity] < stiff ? w[kDensity] : stiff;
+    for (std::size_t k = D + 2; k < w.size(); ++k) lower = w[k] < 0 ? -1.0 : lower;
     least[i] = lower < least[i] ? lower : least[i];
     store<D>(values, i, w);
   }
 }
 
+/// Of several gases, where limited slopes need not add up: scales masses and shares so that the shares make 1, and the
+/// density the sum of the masses.
+template <int D, int K>
+void closeRow(int count, const Pointers<D, K>& values) {
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    double shares = 0, density = 0;
+    for (int k = 0; k < K; ++k) shares += values[kShare<D, K>(k)][i];
+    for (std::size_t k = D + 2; k < values.size(); ++k) values[k][i] /= shares;
+    for (int k = 0; k < K; ++k) density += values[kMass<D>(k)][i];
+    values[kDensity][i] = density;
+  }
+}
+
 /// Treats cells whose `least` is not positive as constant: their values at both faces become those of the cell.
-template <int D>
-void flattenRow(const double* least, const Pointers<D>& w, int count, const Pointers<D>& lower,
-                const Pointers<D>& upper) {
+template <int D, int K = 1>
+void flattenRow(const double* least, const Pointers<D, K>& w, int count, const Pointers<D, K>& lower,
+                const Pointers<D, K>& upper) {
   for (std::ptrdiff_t i = 0; i < count; ++i)
     for (std::size_t k = 0; k < w.size() && !(least[i] > 0); ++k) lower[k][i] = upper[k][i] = w[k][i];
 }
 
 /// Fluxes through the lower faces of `count` cells across `Axis`, from the states on both sides.
 template <int D, class Flux, int Axis, class G>
-void fluxRow(const G& gas, const Pointers<D>& below, const Pointers<D>& above, int count, const Pointers<D>& flux) {
+void fluxRow(const G& gas, const Pointers<D, kGases<G>>& below, const Pointers<D, kGases<G>>& above, int count,
+             const Pointers<D, kGases<G>>& flux) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i)
     store<D>(flux, i, fluxOf<D, Axis>(Flux::template solve<D, Axis>(gas, load<D>(below, i), load<D>(above, i))));
@@ -96,6 +121,19 @@ inline void updateRow(const double* old, const double* flux, std::ptrdiff_t stri
                       double* result) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) result[i * step] = old[i * step] - ratio * (flux[i + stride] - flux[i]);
+}
+
+/// The same of a share, which flows as no matter does: z' = z - ratio (F_upper - F_lower - z (v_upper - v_lower)), with
+/// the velocity of a face from the fluxes of all shares, which are 1 together. So equal shares stay equal.
+template <int K>
+void updateShareRow(const double* start, const double* old, const std::array<const double*, K>& shares, int gas,
+                    std::ptrdiff_t stride, double ratio, int count, double* result) {
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    double widens = 0;
+    for (int k = 0; k < K; ++k) widens += shares[k][i + stride] - shares[k][i];
+    result[i] = old[i] - ratio * (shares[gas][i + stride] - shares[gas][i] - start[i] * widens);
+  }
 }
 
 }  // namespace tushar::euler

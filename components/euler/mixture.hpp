@@ -1,0 +1,60 @@
+#pragma once
+
+#include "components/euler/gas.hpp"
+
+// Several gases in a cell at one pressure and one velocity, each in its share of the volume: the model of five
+// equations, of G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577. The mass of each gas is kept, as are
+// momentum and total energy, and the shares z_k go with the flow, dz_k/dt + v . grad z_k = 0.
+
+namespace tushar::euler {
+
+/// Stiffened gases that share a cell. With G = sum of z_k / (gamma_k - 1) and S = sum of z_k gamma_k p_inf,k / (gamma_k
+/// - 1), which are linear in the shares, their energy per volume is p G + S. So a contact keeps its pressure.
+struct MixedGas {
+  double softness = 0;   ///< G
+  double stiffness = 0;  ///< S, J/m³
+
+  /// Adds a gas in its share of the volume.
+  void add(double share, double gamma, double pInfinity) {
+    softness += share / (gamma - 1);
+    stiffness += share * gamma * pInfinity / (gamma - 1);
+  }
+  /// c² [m²/s²], of rho c² = (p (1 + G) + S) / G.
+  double soundSpeedSquared(double density, double pressure) const {
+    return (pressure * (1 + softness) + stiffness) / (softness * density);
+  }
+  /// Internal energy per volume [J/m³].
+  double energyOf(double, double pressure) const { return pressure * softness + stiffness; }
+  /// Pressure [Pa] of an internal energy per volume [J/m³].
+  double pressure(double, double internalEnergyPerVolume) const {
+    return (internalEnergyPerVolume - stiffness) / softness;
+  }
+  double last(double density, double internalEnergyPerVolume) const {
+    return pressure(density, internalEnergyPerVolume);
+  }
+  static double pressureOf(double, double pressure) { return pressure; }
+  /// p + p_inf of a stiffened gas that has the same G and S [Pa], which must be above 0.
+  double heat(double, double pressure) const { return pressure + leastPressure(); }
+  double leastPressure() const { return stiffness / (1 + softness); }
+};
+
+/// K gases: what a MixedGas has of each.
+template <int K>
+struct Mixture {
+  std::array<double, K> softness{}, stiffness{};
+};
+template <int K>
+inline constexpr int kGases<Mixture<K>> = K;
+
+/// The law that holds where the shares of the gases are those of a state.
+template <int D, int K>
+MixedGas lawIn(const Mixture<K>& gases, const State<D, K>& w) {
+  MixedGas mixed;
+  for (int k = 0; k < K; ++k) {
+    mixed.softness += w[kShare<D, K>(k)] * gases.softness[k];
+    mixed.stiffness += w[kShare<D, K>(k)] * gases.stiffness[k];
+  }
+  return mixed;
+}
+
+}  // namespace tushar::euler

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "components/euler/tasks/advance.hpp"
+
+namespace tushar::euler {
+
+/// What a step reads of each of several gases.
+struct OldGas {
+  CellView<const double> mass, share;
+
+  static OldGas from(auto& take, int ghost) {
+    return {.mass = take(requiresOld(c::gasMass, ghost)), .share = take(requiresOld(c::gasShare, ghost))};
+  }
+};
+/// What it makes of it.
+struct NewGas {
+  CellView<double> mass, share;
+
+  static NewGas from(auto& take) { return {.mass = take(computes(c::gasMass)), .share = take(computes(c::gasShare))}; }
+};
+
+/// The law of gases at a cell: `gases` have the laws, `held` the shares.
+template <class Held, int D>
+MixedGas mixedAt(const std::vector<Settings>& gases, const std::vector<Held>& held, const Index<D>& cell) {
+  MixedGas mixed;
+  for (std::size_t k = 0; k < gases.size(); ++k)
+    mixed.add(held[k].share[cell], gases[k].gas.gamma, gases[k].gas.pInfinity);
+  return mixed;
+}
+
+/// One step of several gases: that of Advance, of all together, with limited slopes of the mass and the share of each
+/// in place of the density's. Shares go with the velocity of the contact at faces, so that where velocity and pressure
+/// are uniform they stay so. Slopes of three gases need not add up; they are scaled until the shares at a face are 1
+/// together, with the densities of the gases as they are.
+/// Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; E. Johnsen & T. Colonius, J. Comput. Phys.
+/// 219 (2006) 715, of shares with HLLC.
+template <int D>
+using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>& gases, const OldState<D>& old,
+                                const std::vector<OldGas>& oldGases, double time, double dt, const NewState<D>& fresh,
+                                const std::vector<NewGas>& newGases);
+
+/// The greatest number of gases.
+inline constexpr int kMostGases = 3;
+
+/// The body for a method and a number of gases: HLLC's flux, van Leer's slopes or none.
+template <int D>
+AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
+
+/// dt = cfl / max(sum_d (|v_d| + c) / h_d), with rho c² = (p (1 + G) + S) / G.
+/// Throws NumericalError where a state is impossible.
+template <int D>
+void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, double cfl, const OldState<D>& old,
+                      const std::vector<OldGas>& held, Minimum& dt);
+
+}  // namespace tushar::euler

@@ -1,0 +1,86 @@
+#include "components/ice/mixture/input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "components/euler/labels.hpp"
+
+namespace tushar::ice {
+
+using input::Diagnostics;
+using input::Element;
+
+namespace {
+
+/// From here on Uintah's coefficients mean one velocity, or one temperature.
+constexpr double oneForAll = 1e9;
+
+void checkSubstance(const GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
+  const auto kind = material.state.kind;
+  if (kind != EquationOfState::Kind::ideal && kind != EquationOfState::Kind::stiffened)
+    diagnostics.error(*element.child("EOS"),
+                      "is not available beside a second gas: several gases are of type ideal_gas or stiffened_gas");
+  for (const auto& [tag, value] :
+       {std::pair("dynamic_viscosity", material.viscosity), std::pair("thermal_conductivity", material.conductivity)})
+    if (value > 0)
+      diagnostics.error(*element.child(tag), "is not available beside a second gas: set it to 0, or keep one gas");
+}
+
+/// Each pair of gases has one velocity; heat flows between them at once, or not at all.
+void checkExchange(const GasScene& scene, const Element& root, Diagnostics& diagnostics) {
+  if (!scene.exchange) return;
+  const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
+  const std::size_t gases = scene.mixture.size(), pairs = gases * (gases - 1) / 2;
+  const auto check = [&](const std::vector<double>& given, const char* name, bool mayBeNone, const char* sentence) {
+    const Element at = tag.child(name).value_or(tag);
+    if (!given.empty() && given.size() != pairs)
+      diagnostics.error(
+          at, fmt::format("found {} numbers, expected {}: one for each pair of {} gases", given.size(), pairs, gases));
+    for (const double k : given)
+      if (k < oneForAll && !(mayBeNone && k == 0))
+        return diagnostics.error(at, fmt::format("{:g} between gases is not available: {}", k, sentence));
+  };
+  check(scene.exchange->momentum, "momentum", false, "they have one velocity, which means 1e9 or more");
+  check(scene.exchange->heat, "heat", true, "it is 1e9 or more, or 0");
+}
+
+/// Sides have the conditions of all gases: a velocity and a pressure, but no composition.
+void checkSides(const Element& root, Diagnostics& diagnostics) {
+  for (const Element& condition : simulation::boundaryConditions(root)) {
+    const std::string label = condition.attribute("label").value_or(""), id = condition.attribute("id").value_or("all");
+    const bool isGiven = condition.attribute("var") == nameOf(BoundaryKind::dirichlet);
+    if (isGiven && (label == euler::boundary::density.name || label == euler::boundary::temperature.name))
+      diagnostics.error(condition,
+                        "Dirichlet is not available where there are several gases: what flows in is the gas beside "
+                        "the side; give a Velocity or a Pressure, or Neumann");
+    else if ((isGiven || condition.attribute("var") == "symmetry") && id != "all" &&
+             label != euler::boundary::pressure.name)
+      diagnostics.error(condition.whereOf("id"), condition.path(),
+                        fmt::format("found '{}', expected all: several gases have one velocity", id));
+  }
+}
+
+}  // namespace
+
+void checkMixture(const std::vector<GasMaterial>& materials, const Element& root, const GasScene& scene,
+                  Diagnostics& diagnostics) {
+  const auto elements = root.child("MaterialProperties")->child("ICE")->children("material");
+  std::set<std::string> names;
+  for (std::size_t k = 0; k < materials.size(); ++k) {
+    checkSubstance(materials[k], elements[k], diagnostics);
+    if (!names.insert(scene.mixture[k].name).second)
+      diagnostics.error(elements[k], fmt::format("the name '{}' is given twice", scene.mixture[k].name));
+  }
+  if (scene.implicit)
+    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
+                      "is not available with several gases: take it out, or run with --set CFD/ICE/explicit=true");
+  if (!scene.scalars.empty())
+    diagnostics.error(scene.scalars.front().where, "Models/Model",
+                      "is not available with several gases; take it out, or keep one gas");
+  checkExchange(scene, root, diagnostics);
+  checkSides(root, diagnostics);
+}
+
+}  // namespace tushar::ice

@@ -1,0 +1,100 @@
+#include "components/ice/mixture/mixture_ice.hpp"
+
+#include "components/euler/euler.hpp"
+#include "components/euler/tasks/add_gravity.hpp"
+#include "components/ice/diagnose.hpp"
+#include "components/ice/uintah_words.hpp"
+
+namespace tushar::ice {
+
+template <int D>
+MixtureIce<D>::MixtureIce(const GasScene& scene)
+    : method_(scene.gas.method), cfl_(scene.gas.cfl), gravity_(scene.gravity), gases_(scene.mixture) {
+  for (const euler::Settings& gas : gases_) totals_.push_back(std::make_shared<const GasTotal>(gas.name));
+}
+
+template <int D>
+void MixtureIce<D>::scheduleInitialize(TaskList& tasks) const {
+  tasks.acrossMaterials("ice::initializeMixture", initializeMixture<D>, gases_,
+                        withoutMaterial(all<euler::NewState<D>>()), all<euler::NewGas>());
+}
+
+template <int D>
+void MixtureIce<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
+  tasks.acrossMaterials("ice::limitMixtureStep", euler::limitMixtureStep<D>, gases_, with(cfl_),
+                        withoutMaterial(all<euler::OldState<D>>(0)), all<euler::OldGas>(0), computes(delT));
+}
+
+template <int D>
+void MixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
+  const int ghost = euler::reach(method_);
+  tasks.acrossMaterials("ice::advanceMixture", euler::chooseAdvanceMixture<D>(method_, gases_.size()), gases_,
+                        withoutMaterial(all<euler::OldState<D>>(ghost)), all<euler::OldGas>(ghost), startTime(),
+                        requiresOld(delT), withoutMaterial(all<euler::NewState<D>>()), all<euler::NewGas>());
+  if (!gravity_.isZero(0))
+    tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(gravity_), requiresNew(euler::c::density),
+                   requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
+}
+
+template <int D>
+void MixtureIce<D>::scheduleDiagnostics(TaskList& tasks) const {
+  euler::scheduleTotals<D>(tasks);
+  const auto state = withoutMaterial(all<euler::OldState<D>>(0));
+  const auto each = all<euler::OldGas>(0);
+  for (std::size_t k = 0; k < gases_.size(); ++k)
+    tasks.acrossMaterials("ice::sumGas", sumGas<D>, gases_, with(k), each, computes(totals_[k]->label()));
+  tasks.acrossMaterials("ice::computePressure", computeMixedPressure<D>, gases_, state, each,
+                        withoutMaterial(computes(euler::c::pressure)));
+  tasks.perPatch("euler::computeVelocity", euler::computeVelocity<D>, requiresOld(euler::c::density),
+                 requiresOld(euler::c::momentum<D>), computes(euler::c::velocity<D>));
+  tasks.acrossMaterials("ice::computeMach", computeMixedMach<D>, gases_, state, each,
+                        withoutMaterial(computes(euler::c::mach<D>)));
+  tasks.perPatch("euler::computeInternalEnergy", euler::computeInternalEnergy<D>, requiresOld(euler::c::density),
+                 requiresOld(euler::c::momentum<D>), requiresOld(euler::c::totalEnergy),
+                 computes(euler::c::internalEnergy));
+  tasks.perPatch("ice::sumInternalEnergy", sumInternalEnergy<D>, requiresOld(euler::c::density),
+                 requiresOld(euler::c::momentum<D>), requiresOld(euler::c::totalEnergy),
+                 computes(total::internalEnergy));
+  tasks.acrossMaterials("ice::computeTemperature", computeMixedTemperature<D>, gases_, state, each,
+                        withoutMaterial(computes(c::temperature)));
+  tasks.acrossMaterials("ice::computeSoundSpeed", computeMixedSoundSpeed<D>, gases_, state, each,
+                        withoutMaterial(computes(c::soundSpeed)));
+  tasks.acrossMaterials("ice::computeOwnDensity", computeOwnDensity<D>, gases_, each, computes(c::ownDensity));
+  tasks.perPatch("ice::computeSpecificVolume", computeSpecificVolume<D>, requiresOld(euler::c::density),
+                 computes(c::specificVolume));
+}
+
+template <int D>
+std::vector<std::string> MixtureIce<D>::foreignLabels() const {
+  return uintahsLabels;
+}
+
+template <int D>
+simulation::OtherNames MixtureIce<D>::otherNames() const {
+  simulation::OtherNames names{{"rho_CC", std::string(euler::c::gasMass.name)},
+                               {"rho_micro_CC", std::string(c::ownDensity.name)},
+                               {"vol_frac_CC", std::string(euler::c::gasShare.name)}};
+  names.insert(names.end(), uintahsNames.begin(), uintahsNames.end());
+  return names;
+}
+
+template <int D>
+std::vector<reference::GasLaw> MixtureIce<D>::gases() const {
+  std::vector<reference::GasLaw> laws;
+  for (const euler::Settings& gas : gases_) laws.push_back({gas.gas.gamma, gas.gas.pInfinity});
+  return laws;
+}
+
+template <int D>
+void MixtureIce<D>::scheduleMeasureError(TaskList& tasks, const reference::GasReference& exact,
+                                         const reference::Clock& clock) const {
+  tasks.acrossMaterials("ice::measureError", measureMixedError<D>, gases_, with(&exact), with(&clock),
+                        withoutMaterial(all<euler::OldState<D>>(0)), all<euler::OldGas>(0),
+                        totals<reference::ErrorNorms>(&reference::cellError));
+}
+
+template class MixtureIce<1>;
+template class MixtureIce<2>;
+template class MixtureIce<3>;
+
+}  // namespace tushar::ice

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "components/ice/gas_input.hpp"
+#include "components/ice/mixture/tasks.hpp"
+
+namespace tushar::ice {
+
+/// The name of the total of a gas, which keeps its place while tasks have it.
+class GasTotal {
+ public:
+  explicit GasTotal(const std::string& gas) : name_("TotalMass-" + gas) {}
+  GasTotal(const GasTotal&) = delete;
+  GasTotal& operator=(const GasTotal&) = delete;
+
+  const ReductionLabel<Sum>& label() const { return label_; }
+
+ private:
+  std::string name_;
+  ReductionLabel<Sum> label_{name_, "kg", "mass of a gas in all cells"};
+};
+
+/// Several gases with the input of Uintah's ICE, at one velocity and one pressure in each cell: the state of `euler`
+/// for all together, and of each gas its mass and its share of the volume. See components/euler/mixture.hpp.
+template <int D>
+class MixtureIce : public Component, public reference::GasSolution {
+ public:
+  explicit MixtureIce(const GasScene& scene);
+
+  void scheduleInitialize(TaskList& tasks) const override;
+  void scheduleComputeStableTimeStep(TaskList& tasks) const override;
+  void scheduleTimeAdvance(TaskList& tasks) const override;
+  void scheduleDiagnostics(TaskList& tasks) const override;
+  std::string advice() const override { return "a smaller CFD/cfl, or CFD/ICE/advection of type FirstOrder"; }
+  std::vector<std::string> foreignLabels() const override;
+  simulation::OtherNames otherNames() const override;
+  std::string whyOneLevel() const override { return "shares of several gases are not exchanged between levels"; }
+  std::vector<reference::GasLaw> gases() const override;
+  void scheduleMeasureError(TaskList& tasks, const reference::GasReference& exact,
+                            const reference::Clock& clock) const override;
+  std::vector<reference::MeasuredPlace> measuredPlaces() const override { return {reference::MeasuredPlace::cell}; }
+
+ private:
+  euler::Method method_;
+  double cfl_;
+  Vec3 gravity_;
+  Gases gases_;
+  std::vector<std::shared_ptr<const GasTotal>> totals_;
+};
+
+extern template class MixtureIce<1>;
+extern template class MixtureIce<2>;
+extern template class MixtureIce<3>;
+
+}  // namespace tushar::ice

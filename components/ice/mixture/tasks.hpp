@@ -1,0 +1,134 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include "components/euler/tasks/advance_mixture.hpp"
+#include "components/euler/tasks/check_state.hpp"
+#include "components/euler/tasks/diagnose.hpp"
+#include "components/euler/tasks/initialize.hpp"
+#include "components/ice/mixture/labels.hpp"
+#include "components/reference/gas_solution.hpp"
+
+namespace tushar::ice {
+
+using Gases = std::vector<euler::Settings>;
+
+/// The state at the start: of each gas that of its last object that owns the centre of a cell, in its share.
+/// Throws InputError where the shares at a centre are not 1 together, and as euler::initialize does.
+template <int D>
+void initializeMixture(const Patch& patch, const Gases& gases, const euler::NewState<D>& fresh,
+                       const std::vector<euler::NewGas>& held) {
+  const Level& level = patch.level();
+  if (patch.id() == 0)
+    for (const euler::Settings& gas : gases) euler::checkObjects<D>(level, gas);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const Vec3 point = level.expandPoint<D>(level.cellCentre<D>(cell));
+    euler::State<D> sum{};
+    double shares = 0;
+    for (std::size_t k = 0; k < gases.size(); ++k) {
+      const double share = euler::shareAt(gases[k], point);
+      const bool isThere = share > 0;
+      const euler::State<D> state = isThere ? *euler::stateAt<D>(level, gases[k], point) : euler::State<D>{};
+      for (std::size_t i = 0; i < state.size(); ++i) sum[i] += share * state[i];
+      held[k].share[cell] = share;
+      held[k].mass[cell] = share * state[euler::kDensity];
+      shares += std::abs(share);
+    }
+    if (!(std::abs(shares - 1) < 1e-9))
+      throw InputError({{gases.front().where, "MaterialProperties/ICE/material",
+                         fmt::format("the gases fill {:.6g} of the cell around ({:g}, {:g}, {:g}): several gases fill "
+                                     "the grid, and share a cell by a <volumeFraction> of each",
+                                     shares, point[0], point[1], point[2])}});
+    fresh.density[cell] = sum[euler::kDensity];
+    for (int d = 0; d < D; ++d) fresh.momentum[cell][d] = sum[euler::kVelocity(d)];
+    fresh.totalEnergy[cell] = sum[euler::kPressure<D>];
+  });
+}
+
+/// A cell of several gases: rho, internal energy per volume, and the law that holds there.
+struct MixedCell {
+  double density = 0, energy = 0;
+  euler::MixedGas law;
+
+  template <int D>
+  static MixedCell of(const Gases& gases, const euler::OldState<D>& state, const std::vector<euler::OldGas>& held,
+                      const Index<D>& cell) {
+    return {state.density[cell], euler::internalEnergyIn<D, const double>(state, cell),
+            euler::mixedAt(gases, held, cell)};
+  }
+  double pressure() const { return law.pressure(density, energy); }
+  double soundSpeed() const { return std::sqrt(law.soundSpeedSquared(density, pressure())); }
+};
+
+template <int D>
+void computeMixedPressure(const Patch& patch, const Gases& gases, const euler::OldState<D>& state,
+                          const std::vector<euler::OldGas>& held, CellView<double> pressure) {
+  forEach<D>(patch.cells(),
+             [&](const Index<D>& cell) { pressure[cell] = MixedCell::of<D>(gases, state, held, cell).pressure(); });
+}
+
+template <int D>
+void computeMixedSoundSpeed(const Patch& patch, const Gases& gases, const euler::OldState<D>& state,
+                            const std::vector<euler::OldGas>& held, CellView<double> soundSpeed) {
+  forEach<D>(patch.cells(),
+             [&](const Index<D>& cell) { soundSpeed[cell] = MixedCell::of<D>(gases, state, held, cell).soundSpeed(); });
+}
+
+template <int D>
+void computeMixedMach(const Patch& patch, const Gases& gases, const euler::OldState<D>& state,
+                      const std::vector<euler::OldGas>& held, CellView<Vec<D>> mach) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const MixedCell mixed = MixedCell::of<D>(gases, state, held, cell);
+    mach[cell] = state.momentum[cell] / (mixed.density * mixed.soundSpeed());
+  });
+}
+
+/// T [K], the same of all gases of a cell: rho e = sum of m_k c_v,k T + z_k p_inf,k.
+template <int D>
+void computeMixedTemperature(const Patch& patch, const Gases& gases, const euler::OldState<D>& state,
+                             const std::vector<euler::OldGas>& held, CellView<double> temperature) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    double heat = euler::internalEnergyIn<D, const double>(state, cell), capacity = 0;
+    for (std::size_t k = 0; k < gases.size(); ++k) {
+      heat -= held[k].share[cell] * gases[k].gas.pInfinity;
+      capacity += held[k].mass[cell] * gases[k].gas.specificHeat;
+    }
+    temperature[cell] = heat / capacity;
+  });
+}
+
+/// Mass of each gas over its own volume. Less than a millionth of a cell is round-off, or all but.
+template <int D>
+void computeOwnDensity(const Patch& patch, const Gases&, const std::vector<euler::OldGas>& held,
+                       const std::vector<CellView<double>>& density) {
+  for (std::size_t k = 0; k < held.size(); ++k)
+    forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+      density[k][cell] = held[k].share[cell] > 1e-6 ? held[k].mass[cell] / held[k].share[cell] : 0.0;
+    });
+}
+
+/// Mass of one gas in the patch [kg].
+template <int D>
+void sumGas(const Patch& patch, const Gases&, std::size_t gas, const std::vector<euler::OldGas>& held, Sum& mass) {
+  euler::sumMass<D>(patch, held[gas].mass, mass);
+}
+
+/// Errors of the cells against the exact means over them.
+template <int D>
+void measureMixedError(const Patch& patch, const Gases& gases, const reference::GasReference* exact,
+                       const reference::Clock* clock, const euler::OldState<D>& state,
+                       const std::vector<euler::OldGas>& held, const reference::ErrorNorms& errors) {
+  const Level& level = patch.level();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)), clock->time)) return;
+    const MixedCell mixed = MixedCell::of<D>(gases, state, held, cell);
+    const Vec<D> velocity = state.momentum[cell] / mixed.density;
+    errors.add({.density = mixed.density,
+                .velocity = level.expandDirection<D>(velocity),
+                .pressure = mixed.pressure(),
+                .energy = mixed.energy / mixed.density},
+               reference::cellMean<D>(*exact, level, cell, clock->time), level.weight());
+  });
+}
+
+}  // namespace tushar::ice

@@ -1,0 +1,164 @@
+#include <gtest/gtest.h>
+
+#include "components/euler/mixture.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace tushar::ice {
+
+namespace {
+
+using Overrides = std::vector<std::string>;
+using test::changedScene;
+using test::driftOf;
+
+const std::string tube = "ups/ice/two_gases.ups", waterTube = "ups/ice/water_air.ups",
+                  drift = "ups/ice/water_drifts.ups", three = "ups/ice/three_gases.ups";
+
+/// The greatest difference of a variable from a value after a scene without modules.
+double greatestError(const std::string& scene, const std::string& variable, const std::string& value,
+                     const Overrides& overrides) {
+  const std::string module = "<DataAnalysis><Module name=\"exactSolution\">" + variable + "<value>" + value +
+                             "</value></Module></DataAnalysis></Uintah_specification>";
+  return test::runScene(changedScene(scene, "</Uintah_specification>", module), overrides).errors.at(0).norms.at("max");
+}
+
+double meanError(const std::string& scene, const Overrides& overrides) {
+  return test::runScene(scene, overrides).errors.at(0).norms.at("L1");
+}
+
+std::string problemOf(const std::string& scene, const Overrides& overrides = {}) {
+  try {
+    scene::readScene(scene, overrides, catalogue());
+    return "";
+  } catch (const InputError& error) {
+    return error.problems().size() == 1 ? error.problems()[0].sentence : std::string(error.what());
+  }
+}
+
+const Overrides short3{"Time/maxTime=0.1", "Grid/Level/Box/resolution=[16,16,1]"};
+
+}  // namespace
+
+TEST(IceMixture, HasTheLawOfAGasThatIsAlone) {
+  euler::MixedGas alone;
+  alone.add(1, 4.4, 6e8);
+  alone.add(0, 1.4, 0);
+  const euler::StiffenedGas water{4.4, 6e8};
+  const double p = 2e8, rho = 1040, energy = water.energyOf(rho, p);
+  EXPECT_NEAR(alone.energyOf(rho, p) / energy, 1, 1e-15);
+  EXPECT_NEAR(alone.pressure(rho, energy) / p, 1, 1e-14);
+  EXPECT_NEAR(alone.soundSpeedSquared(rho, p) / water.soundSpeedSquared(rho, p), 1, 1e-15);
+  EXPECT_NEAR(alone.heat(rho, p) / water.heat(rho, p), 1, 1e-15);
+}
+
+TEST(IceMixture, KeepsContactsOfWaterAndAirQuiet) {
+  // The energy of water has 6e8 Pa in it, so that round-off of the pressure is 1e-7 Pa.
+  const Overrides shortened{"Time/maxTime=0.001"};
+  EXPECT_LT(greatestError(drift, "<label>c.pressure</label>", "1e5", shortened), 1e-5);
+  EXPECT_LT(greatestError(drift, "<label>c.velocity</label><component>x</component>", "100", shortened), 1e-10);
+  EXPECT_LT(greatestError(drift, "<label>c.temperature</label>", "250", shortened), 1e-9);
+}
+
+TEST(IceMixture, KeepsContactsOfThreeGasesQuiet) {
+  const std::string module = "<label>c.density</label>";
+  const auto with = [&](const std::string& variable, const std::string& value) {
+    const std::string scene = changedScene(three, module, variable);
+    Overrides overrides = short3;
+    overrides.push_back("DataAnalysis/Module/value=" + value);
+    return test::runScene(scene, overrides).errors.at(0).norms.at("max");
+  };
+  EXPECT_LT(with("<label>c.pressure</label>", "1"), 1e-12);
+  EXPECT_LT(with("<label>c.velocity</label><component>y</component>", "1"), 1e-12);
+}
+
+TEST(IceMixture, CarriesSharesWithSecondOrder) {
+  const double coarse = meanError(three, {"Time/maxTime=0.25", "Grid/Level/Box/resolution=[16,16,1]"});
+  const double fine = meanError(three, {"Time/maxTime=0.25", "Grid/Level/Box/resolution=[32,32,1]"});
+  EXPECT_LT(fine, 2.6e-3);
+  EXPECT_GT(coarse / fine, 3);
+}
+
+TEST(IceMixture, ConvergesToTheTubeOfTwoGases) {
+  const double coarse = meanError(tube, {"Grid/Level/Box/resolution=[100,1,1]"}), fine = meanError(tube, {});
+  EXPECT_LT(fine, 2.7e-3);
+  EXPECT_GT(coarse / fine, 1.7);
+}
+
+TEST(IceMixture, ConvergesToTheTubeOfWaterAndAir) {
+  const report::ErrorNorms pressure = test::runScene(waterTube, {}).errors.at(2);
+  EXPECT_LT(pressure.norms.at("L1"), 2.2e6);
+}
+
+TEST(IceMixture, KeepsMassAndEnergy) {
+  for (const std::string& scene : {tube, waterTube})
+    for (const char* name : {"mass", "energy"}) EXPECT_NEAR(driftOf(test::runScene(scene, {}), name), 0, 1e-14);
+  for (const char* name : {"mass", "momentum", "energy"})
+    EXPECT_NEAR(driftOf(test::runScene(three, short3), name), 0, 1e-14) << name;
+}
+
+TEST(IceMixture, OfOneGasTwiceIsThatGas) {
+  // Both sides of the tube have gamma 1.4: the solution is that of Sod's tube.
+  const Overrides sod{"Grid/Level/Box/resolution=[100,1,1]", "DataAnalysis/Module/right/gamma=1.4"};
+  const std::string twice = changedScene(
+      changedScene(tube, "<gamma>1.6666666666666667</gamma>\n        <spec", "<gamma>1.4</gamma>\n        <spec"),
+      "<specific_heat>1.5", "<specific_heat>2.5");
+  EXPECT_NEAR(meanError(twice, sod) / meanError("ups/ice/sod.ups", {}), 1, 0.05);
+}
+
+TEST(IceMixture, HasOneFingerprintOnAnyPatches) {
+  const std::string whole = test::runScene(three, short3).fingerprint;
+  for (const char* patches : {"[2,1,1]", "[4,4,1]"}) {
+    Overrides overrides = short3;
+    overrides.push_back("Grid/Level/Box/patches=" + std::string(patches));
+    EXPECT_EQ(test::runScene(three, overrides).fingerprint, whole) << patches;
+  }
+}
+
+TEST(IceMixture, RunsInThreeDimensions) {
+  const Overrides box{"Grid/Level/Box/resolution=[8,8,8]", "Time/max_Timesteps=5"};
+  EXPECT_NEAR(driftOf(test::runScene(three, box), "energy"), 0, 1e-14);
+}
+
+TEST(IceMixture, RefusesGasesThatDoNotFillTheGrid) {
+  try {
+    test::runScene(tube, {"MaterialProperties/ICE/material/geom_object/box/max=[0.4,1,1]"});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("several gases fill the grid"), std::string::npos) << error.what();
+  }
+}
+
+TEST(IceMixture, RefusesASlowExchange) {
+  EXPECT_EQ(problemOf(changedScene(tube, "<momentum>[1e15]", "<momentum>[100]")),
+            "100 between gases is not available: they have one velocity, which means 1e9 or more");
+  EXPECT_EQ(problemOf(changedScene(tube, "<heat>[0]", "<heat>[10]")),
+            "10 between gases is not available: it is 1e9 or more, or 0");
+  EXPECT_EQ(problemOf(changedScene(tube, "<heat>[0]", "<heat>[0,0]")),
+            "found 2 numbers, expected 1: one for each pair of 2 gases");
+}
+
+TEST(IceMixture, RefusesWhatItHasNot) {
+  EXPECT_EQ(problemOf(changedScene(tube, "<ICE><advection type=\"SecondOrder\"/>",
+                                   "<ICE><advection type=\"SecondOrder\"/><ImplicitSolver/>")),
+            "is not available with several gases: take it out, or run with --set CFD/ICE/explicit=true");
+  EXPECT_EQ(problemOf(changedScene(tube, "<specific_heat>1.5</specific_heat>",
+                                   "<specific_heat>1.5</specific_heat><dynamic_viscosity>1</dynamic_viscosity>")),
+            "is not available beside a second gas: set it to 0, or keep one gas");
+  EXPECT_EQ(problemOf(changedScene(tube, "<material name=\"helium\">", "<material name=\"air\">")),
+            "the name 'air' is given twice");
+  const std::string side = "<Face side=\"x-\">";
+  EXPECT_EQ(problemOf(changedScene(
+                tube, side, side + "<BCType id=\"0\" label=\"Density\" var=\"Dirichlet\"><value>1</value></BCType>")),
+            "Dirichlet is not available where there are several gases: what flows in is the gas beside the side; give "
+            "a Velocity or a Pressure, or Neumann");
+}
+
+TEST(IceMixture, RefusesFourGases) {
+  const std::string more = R"(<material><EOS type="ideal_gas"/><gamma>1.4</gamma><specific_heat>1</specific_heat>
+      <geom_object><sphere><origin>[0,0,0]</origin><radius>1</radius></sphere><density>1</density>
+      <temperature>1</temperature></geom_object></material>)";
+  const std::string end = "    </ICE>\n    <exchange";
+  EXPECT_EQ(problemOf(changedScene(three, end, more + end)), "more than 3 gases are not available");
+}
+
+}  // namespace tushar::ice
