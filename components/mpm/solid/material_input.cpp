@@ -43,7 +43,8 @@ std::vector<std::string> modelNames() {
 }
 
 /// Older words of Uintah's for models that are here.
-const std::map<std::string, std::string> otherWords{{"cnh_damage", "UCNH"}, {"cnhp_damage", "comp_neo_hook_plastic"}};
+const std::map<std::string, std::string> otherWords{
+    {"arenisca", "Arenisca"}, {"cnh_damage", "UCNH"}, {"cnhp_damage", "comp_neo_hook_plastic"}};
 
 /// Models of Uintah's that are missing here, and what there is instead.
 const std::vector<std::pair<std::string, std::string>> lackingModels{
@@ -57,7 +58,6 @@ const std::vector<std::pair<std::string, std::string>> lackingModels{
     {"TransIsoHypoFrictional", "hypo_elastic, without fibres"},
     {"hypo_elastic_fortran", "hypo_elastic"},
     {"kayenta", "MohrCoulomb"},
-    {"Arenisca", "Arenisca3, whose cap has another shape"},
     {"ArenaSoil", "Arenisca4"},
     {"camclay", "MohrCoulomb"},
     {"HypoplasticB", "MohrCoulomb"},
@@ -72,6 +72,9 @@ void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagn
   diagnostics.error(tag, "attribute 'type': " + input::choiceProblem(type, modelNames()));
 }
 
+/// Whether a tag that names Arenisca3 has the tags of Arenisca alone, as some scenes of Uintah do.
+bool hasOlderTags(const Element& tag) { return tag.child("p4_fluid_effect") && !tag.child("STREN"); }
+
 /// The model that a tag names, by its name here.
 std::string typeOf(const Element& tag) {
   const std::string type = tag.attribute("type").value_or("");
@@ -80,6 +83,7 @@ std::string typeOf(const Element& tag) {
   const auto surface = tag.child("yield_condition");
   if (type == ElasticPlasticModel::name && surface && surface->attribute("type") == GursonYield::name)
     return std::string(ElasticPlasticHp::name);
+  if (type == Arenisca3::name && hasOlderTags(tag)) return std::string(Arenisca2::name);
   const auto other = otherWords.find(type);
   return other == otherWords.end() ? type : other->second;
 }
@@ -117,6 +121,8 @@ void readModel(Material& material, const Element& parent, Diagnostics& diagnosti
   const auto tag = parent.child("constitutive_model");
   if (!tag) return diagnostics.error(parent, "missing tag <constitutive_model> in <material>");
   const std::string type = typeOf(*tag);
+  if (tag->attribute("type") == Arenisca3::name && type == Arenisca2::name)
+    diagnostics.note(*tag, "has the tags of 'Arenisca', not of 'Arenisca3', and is read as such");
   forEachModel([&]<class M>(const M&) {
     if (type != M::name) return;
     M model = modelSchema<M>().read(*tag, diagnostics);

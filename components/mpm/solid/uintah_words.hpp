@@ -64,6 +64,13 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "frictionalWork",
                                                     "RigidReactionTorque",
                                                     "SumTransmittedForce",
+                                                    "CenterOfMassVelocity",
+                                                    "p.damage",
+                                                    "p.plasticStrain",
+                                                    "p.plasticTemp",
+                                                    "p.evp",
+                                                    "p.eve",
+                                                    "p.Kappa",
                                                     "particleCount",
                                                     "BndyTraction_xminus",
                                                     "BndyTraction_xplus",
@@ -78,9 +85,11 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "BndyContactCellArea_zminus",
                                                     "BndyContactCellArea_zplus"};
 
-/// Variables of particles that Uintah's MohrCoulomb saves by names without p.
+/// Variables of particles that Uintah's MohrCoulomb saves by names without p., and older names of Arenisca's.
 inline const simulation::OtherNames soilNames{
-    {"Suction", "p.Suction"}, {"SpecificVol", "p.SpecificVol"}, {"c", "p.cohesion"}};
+    {"Suction", "p.Suction"},        {"SpecificVol", "p.SpecificVol"}, {"c", "p.cohesion"},
+    {"p.plasticStrainVol", "p.evp"}, {"p.elasticStrainVol", "p.eve"},  {"p.kappa", "p.Kappa"},
+    {"p.arenisca_kappa", "p.Kappa"}};
 
 template <class S>
 void addForeignTags(input::Schema<S>& mpm) {

@@ -27,7 +27,8 @@
 namespace tushar::mpm::solid {
 
 /// Every constitutive model that a scene can choose, one line each.
-using AllModels = std::tuple<Arenisca3,              //
+using AllModels = std::tuple<Arenisca2,              //
+                             Arenisca3,              //
                              Arenisca4,              //
                              CnhMms,                 //
                              CompMooneyRivlin,       //

@@ -12,8 +12,8 @@ namespace tushar::mpm::solid {
 /// Arenisca: rock and soil whose pores collapse under pressure and may hold a fluid. Homel, Guilkey & Brannon, Acta
 /// Mech. 227 (2016) 279; the return to the yield surface is theirs of Comput. Mech. 56 (2015) 565, the relaxation to it
 /// that of Duvaut & Lions as in Brannon, Shock Wave Science and Technology Reference Library 2 (2007) 225,
-/// eqs. 6.92-93. Hypoelastic in axes that turn with the material. Uintah's `Arenisca4`, and `Arenisca3` without
-/// Lode's angle.
+/// eqs. 6.92-93. Hypoelastic in axes that turn with the material. Uintah's `Arenisca4`; `Arenisca3` without
+/// Lode's angle; `Arenisca`, the oldest, a cone that an ellipse touches, with constant moduli (version 2).
 template <int version>
 struct Arenisca : arenisca::Constants {
   struct State {
@@ -32,14 +32,17 @@ struct Arenisca : arenisca::Constants {
        {"p.Kappa", "Pa", "I1 less zeta where the cap begins"},
        {"p.Zeta", "Pa", "trace of the stress that the fluid in the pores bears"},
        {"p.PorePressure", "Pa", "pressure of the fluid in the pores"}}};
-  static constexpr std::string_view name = version == 4 ? "Arenisca4" : "Arenisca3";
+  static constexpr std::string_view name = version == 4 ? "Arenisca4" : version == 3 ? "Arenisca3" : "Arenisca";
   static constexpr bool strainEnergyIsRate = true;
 
   static const input::Schema<Arenisca>& schema() {
     static const input::Schema<Arenisca> schema = [] {
       input::Schema<Arenisca> tags(name, "Rock and soil whose pores collapse and may hold a fluid.");
       arenisca::addConeTags(tags);
-      arenisca::addSoilTags(tags);
+      if constexpr (version == 2)
+        arenisca::addTangentCapTags(tags);
+      else
+        arenisca::addSoilTags(tags);
       if constexpr (version == 4) arenisca::addLodeTags(tags);
       refuseSwitch(tags, "Use_Disaggregation_Algorithm", "all particles have the porosity of <p3_crush_curve>");
       refuseTag(tags, "PEAKI1IDIST", "the strength is the same everywhere: that of <PEAKI1>");
@@ -86,7 +89,7 @@ struct Arenisca : arenisca::Constants {
  private:
   static constexpr double sharpness = version == 4 ? 1e-5 : 1e-4;
 
-  double capStart(double cap) const { return peakI1 - capRatio * (peakI1 - cap); }
+  double capStart(double cap) const { return arenisca::YieldSurface(*this, cap, 0).branch(); }
   /// sigma = sigma_qs + (d sigma_elastic - d sigma_qs) (1 - e^-x) / x + (sigma_old - sigma_qs,old) e^-x, x = |D|^t2
   /// dt/t1
   Matrix3 relaxed(const Deformation& d, const Corotated& step, const arenisca::Point& before,
@@ -100,8 +103,9 @@ struct Arenisca : arenisca::Constants {
            kept * (step.stress - before.stress);
   }
 };
+using Arenisca2 = Arenisca<2>;
 using Arenisca3 = Arenisca<3>;
 using Arenisca4 = Arenisca<4>;
-static_assert(ConstitutiveModel<Arenisca3> && ConstitutiveModel<Arenisca4>);
+static_assert(ConstitutiveModel<Arenisca2> && ConstitutiveModel<Arenisca3> && ConstitutiveModel<Arenisca4>);
 
 }  // namespace tushar::mpm::solid

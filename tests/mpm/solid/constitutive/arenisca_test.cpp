@@ -191,6 +191,79 @@ TEST(Arenisca, HasWavesAsFastAsItsStiffestShearModulus) {
   }
 }
 
+/// A cone with a cap that touches it, of Uintah's oldest Arenisca.
+Arenisca2 roundedSandstone(double capShape) {
+  Arenisca2 model;
+  static_cast<arenisca::Constants&>(model) = sandstone();
+  model.capShape = capShape;
+  model.mostSubsteps = 10;
+  return model;
+}
+
+/// In z and r: half axes a and b = CR a, the cone's slope B; a line touches an ellipse where its distance from the
+/// middle is the root of the sum of the squares of the half axes times the components of its normal.
+TEST(Arenisca, HasACapThatTouchesItsCone) {
+  for (const double capShape : {0.3, 1.0, 6.0, 14.8}) {
+    const Arenisca2 model = roundedSandstone(capShape);
+    const YieldSurface surface(model, -1800, 0);
+    const double stretch = std::sqrt(3 * 10000 / 15000.0), steepness = 0.1 * stretch * std::numbers::sqrt3;
+    const double whole = 2400 / std::numbers::sqrt3;
+    double low = 0, high = whole;  // of the half axis a, by bisection
+    for (int k = 0; k < 100; ++k) {
+      const double a = 0.5 * (low + high);
+      (a + std::hypot(a, capShape * a / steepness) < whole ? low : high) = a;
+    }
+    const double middle = -1800 + low * std::numbers::sqrt3;
+    EXPECT_NEAR(surface.radius(middle), capShape * low / stretch, 1e-9) << "the height of the ellipse";
+    EXPECT_NEAR(surface.slope(middle), 0, 1e-9);
+    EXPECT_NEAR(surface.radius(-1800), 0, 1e-9);
+    const double branch = surface.branch();
+    EXPECT_NEAR(surface.radius(branch * (1 + 1e-9)), 0.1 * (600 - branch), 1e-3);
+    EXPECT_NEAR(surface.slope(branch + 1e-6 * (-1800 - branch)), -0.1, 1e-3) << "without an edge";
+    for (double i = -1799; i < 600; i += 7) {
+      EXPECT_LE(surface.radius(i), 0.1 * (600 - i) * (1 + 1e-12));
+      const double step = 1e-4;
+      EXPECT_NEAR(surface.slope(i), (surface.radius(i + step) - surface.radius(i - step)) / 2 / step,
+                  1e-4 * (1 + std::abs(surface.slope(i))));
+    }
+  }
+}
+
+TEST(Arenisca, ReturnsToTheNearestPointOfATangentCap) {
+  const Arenisca2 model = roundedSandstone(1);
+  const YieldSurface surface(model, -1800, 0);
+  const double stretch = std::sqrt(3 * 10000 / 15000.0);
+  for (const double i1 : {-2500.0, -1700.0, -1500.0, -300.0, 500.0, 900.0}) {
+    const Invariants found = arenisca::ClosestPoint(model, {10000, 15000}, surface)({i1, 400, 0.2});
+    const auto distance = [&](double i, double rootJ2) {
+      return std::hypot((i - i1) / std::numbers::sqrt3, stretch * (rootJ2 - 400));
+    };
+    for (double i = -1800; i <= 600; i += 0.5)
+      ASSERT_LE(distance(found.i1, found.rootJ2), distance(i, surface.radius(i)) + 1e-6) << i1;
+  }
+}
+
+/// The tangent cap ends where the other does, and K is constant.
+TEST(Arenisca, FollowsTheCrushCurveWithATangentCap) {
+  for (const double end : {-0.1, -0.3, -0.45}) {
+    MaterialPoint<Arenisca2> point{roundedSandstone(6)};
+    strain(point, Eigen::Vector3d::Constant(end / 300), 100);
+    const double i1 = point.oldStress.trace();
+    EXPECT_NEAR(0.5 * (std::exp(6.7e-4 * (i1 + 1800)) - 1) + i1 / 30000, end, 1e-6) << i1;
+  }
+}
+
+/// On the cone it does what the others do; see FollowsItsConeInUniaxialStrain.
+TEST(Arenisca, FollowsItsConeAlsoWithATangentCap) {
+  Arenisca2 model = roundedSandstone(14.8);
+  model.p0 = model.p1 = -1e99;
+  MaterialPoint<Arenisca2> point{model};
+  MaterialPoint<Arenisca4> other{cone()};
+  strain(point, {-5e-4, 0, 0}, 100);
+  strain(other, {-5e-4, 0, 0}, 100);
+  EXPECT_LT((point.oldStress - other.oldStress).norm(), 1e-8 * other.oldStress.norm());
+}
+
 TEST(Arenisca, StartsUnderThePressureOfItsFluid) {
   MaterialPoint<Arenisca4> point{sandstone()};
   point.model.b0 = 6000;

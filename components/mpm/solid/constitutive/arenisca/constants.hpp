@@ -28,12 +28,15 @@ struct Constants {
   double fluidBulk = 0;      ///< K_f, Pa; 0: pores are empty
   double fluidPressure = 0;  ///< at the start, Pa
   double t1 = 0, t2 = 0;     ///< relaxation time t1 |D|^-t2, s for |D| in 1/s
+  double capShape = 0;       ///< CR of Arenisca: height over length of the ellipse of a tangent cap; 0: capRatio
   double mostSubsteps = 256;
   int lodeType = 0;      ///< of Lode's angle: 0 none, 1 Gudehus, 3 Mohr and Coulomb
   double lodeRatio = 1;  ///< psi: strength in triaxial compression over that in extension
 
   /// Whether Poisson's ratio is given; else G = g0.
   bool hasPoissonRatio() const { return g1 != 0 && g2 != 0; }
+  /// Whether the cap is an ellipse that touches the cone, and the moduli are constant: Arenisca without a number.
+  bool hasTangentCap() const { return capShape > 0; }
   /// K_m: bulk modulus of the grains, Pa.
   double matrixBulk() const { return b0 + b1; }
   /// phi_0: share of pores at the start.
@@ -108,21 +111,23 @@ void addConeTags(input::Schema<M>& schema) {
   tags.require("p1_crush_curve", &Constants::p1, "1/Pa", "how fast the stress rises while pores collapse");
   tags.require("p3_crush_curve", &Constants::p3, "1", "volumetric strain at which all pores have collapsed",
                input::positive());
-  tags.require("CR", &Constants::capRatio, "1", "where the cap begins, between the vertex (0) and its end (1)",
-               input::between(0, 1));
   tags.value("T1_rate_dependence", &Constants::t1, 0, "s", "relaxation time at a strain rate of 1/s",
              input::nonNegative());
   tags.value("T2_rate_dependence", &Constants::t2, 0, "1", "power of the strain rate by which it falls",
              input::nonNegative());
-  tags.value("subcycling_characteristic_number", &Constants::mostSubsteps, 256, "1",
-             "most parts into which a step is divided", input::positive());
-  schema.check(check<M>);
+  tags.require("fluid_B0", &Constants::fluidBulk, "Pa", "bulk modulus of the fluid in the pores; 0: they are empty",
+               input::nonNegative());
+  schema.ignored("gruneisen_parameter", "as in Uintah, nothing depends on it").check(check<M>);
 }
 
 /// The curved limit of strength, nonlinear elasticity and the fluid.
 template <class M>
 void addSoilTags(input::Schema<M>& schema) {
   const Tags<M> tags{schema};
+  tags.require("CR", &Constants::capRatio, "1", "where the cap begins, between the vertex (0) and its end (1)",
+               input::between(0, 1));
+  tags.value("subcycling_characteristic_number", &Constants::mostSubsteps, 256, "1",
+             "most parts into which a step is divided", input::positive());
   tags.require("STREN", &Constants::strength, "Pa", "strength in shear at high pressure", input::nonNegative());
   tags.require("YSLOPE", &Constants::pressureSlope, "1", "slope of the limit of strength at high pressure",
                input::nonNegative());
@@ -136,10 +141,25 @@ void addSoilTags(input::Schema<M>& schema) {
   tags.require("G2", &Constants::g2, "1", "increase by high pressure; if one of both is 0, <G0> is used");
   for (const char* unused : {"G3", "G4", "p2_crush_curve"})
     schema.ignored(unused, "as in Uintah, nothing depends on it");
-  tags.require("fluid_B0", &Constants::fluidBulk, "Pa", "bulk modulus of the fluid in the pores; 0: they are empty",
-               input::nonNegative());
   tags.require("fluid_pressure_initial", &Constants::fluidPressure, "Pa", "its pressure at the start",
                input::nonNegative());
+}
+
+/// The cap that touches the cone: Arenisca without a number alone has it.
+template <class M>
+void addTangentCapTags(input::Schema<M>& schema) {
+  const Tags<M> tags{schema};
+  tags.require("CR", &Constants::capShape, "1", "height of the ellipse of the cap over its length, in r over z",
+               input::positive());
+  tags.value("p4_fluid_effect", &Constants::b1, 0, "Pa", "bulk modulus of the grains less <B0>", input::nonNegative());
+  tags.value("fluid_pressure_initial", &Constants::fluidPressure, 0, "Pa", "pressure of the fluid at the start",
+             input::nonNegative());
+  tags.value("subcycling_characteristic_number", &Constants::mostSubsteps, 1, "1",
+             "into how many parts a step is divided for every 0.1 % of strain", input::positive());
+  for (const char* unused : {"FSLOPE_p", "hardening_modulus", "kinematic_hardening_constant"})
+    schema.ignored(unused, "as in Uintah, nothing depends on it: the flow is associated and the cone stays");
+  for (const char* unused : {"internal_variable_model", "useTaylorSeriesForDefGrad", "num_taylor_terms"})
+    schema.ignored(unused, "of an older Uintah, whose other tags here say the same");
 }
 
 /// Lode's angle: Arenisca4 alone has it.

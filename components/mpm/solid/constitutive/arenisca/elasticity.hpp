@@ -47,9 +47,10 @@ inline double saturatedBulk(const Constants& c, double plasticStrain) {
 /// Tangent moduli at a trace of the stress (Pa) and a volumetric plastic strain:
 /// K = b0 + b1 exp(b2 / I1) - b3 exp(b4 / e_p) in compression, G = g0 or 3/2 K (1 - 2 nu) / (1 + nu) with
 /// nu = g1 + g2 exp(b2 / I1) where both are given; saturatedBulk() where a fluid fills the pores. Homel, Guilkey &
-/// Brannon, Acta Mech. 227 (2016) 279.
+/// Brannon, Acta Mech. 227 (2016) 279. Arenisca without a number: b0 and g0.
 inline Moduli moduli(const Constants& c, double i1, double plasticStrain) {
   Moduli result{c.b0, c.g0};
+  if (c.hasTangentCap()) return result;
   if (plasticStrain <= 0) {
     if (i1 < 0) {
       const double pressed = std::exp(c.b2 / i1);
@@ -88,7 +89,7 @@ inline double capEnd(const Constants& c, double plasticStrain) {
   if (plasticStrain <= -c.p3) return 1e12 * c.p0;
   const double dry = plasticStrain <= 0 ? c.p0 + std::log((plasticStrain + c.p3) / c.p3) / c.p1
                                         : c.p0 * std::pow(1 + plasticStrain, 1 / (c.p0 * c.p1 * c.p3));
-  if (!c.isSaturated(plasticStrain)) return dry;
+  if (c.hasTangentCap() || !c.isSaturated(plasticStrain)) return dry;
   const double dryBulk = c.b0 + c.b1 * std::exp(2 * c.b2 / dry) - lossOfBulk(c, plasticStrain);
   return dry * moduli(c, dry / 2, plasticStrain).bulk / dryBulk;
 }

@@ -92,9 +92,22 @@ class Substep {
   double stiffness_;     ///< of the fluid, Pa
 };
 
+/// In how many parts a step is taken that leaves the yield surface with a tangent cap: `mostSubsteps` for every 0.1 %
+/// of strain, or for every length of the surface if that is less stress. A step that stays within needs no parts.
+inline int substepsOfTangentCap(const Constants& c, const Point& start, const Matrix3& strain) {
+  const Matrix3 change = Moduli{c.b0, c.g0}.stress(strain);
+  const Invariants trial(start.stress + change);
+  if (YieldSurface(c, start.cap, start.zeta).contains(trial.i1, trial.rootJ2, trial.theta)) return 1;
+  const double length = c.peakI1 - start.cap;
+  const double size = std::hypot(std::min(0.001 * c.b0, length), std::min(0.002 * c.g0, c.vertexSlope * length));
+  constexpr double most = 10000;
+  return int(std::ceil(std::clamp(c.mostSubsteps * (std::floor(change.norm() / size) + 1), 1.0, most)));
+}
+
 /// In how many parts a step is taken: more than one where the bulk modulus changes by more than its value, or the
 /// stress by more than 1/`sharpness` of the size of the yield surface.
 inline int substeps(const Constants& c, const Point& start, const Matrix3& strain, double sharpness) {
+  if (c.hasTangentCap()) return substepsOfTangentCap(c, start, strain);
   const Matrix3 change = Moduli{c.matrixBulk(), c.g0}.stress(strain);
   const double bulk = start.moduli(c).bulk;
   const double there = moduli(c, start.stress.trace() + change.trace(), start.plasticStrain.trace()).bulk;

@@ -12,6 +12,7 @@ using LodeAngle = double;
 
 /// sqrt J2 <= Gamma(theta) F_f(I) f_c(I) with I = I1 - zeta between `end` and the vertex: a limit of strength
 /// F_f = a1 - a3 exp(a2 I) - a4 I, closed by an elliptic cap f_c; Gamma is that of Gudehus, of Mohr and Coulomb, or 1.
+/// Or sqrt J2 <= F_f(I) closed by an ellipse that touches it.
 class YieldSurface {
  public:
   YieldSurface(const Constants& c, double end, double zeta)
@@ -27,19 +28,29 @@ class YieldSurface {
       a3_ = c.vertexSlope > 0 ? high * std::exp(-a2_ * c.peakI1) : 0.0;
       a4_ = c.pressureSlope;
     }
+    if (c.hasTangentCap()) closeByTangent(c);
   }
 
   double zeta() const { return zeta_; }
   double end() const { return end_; }
   double vertex() const { return vertex_; }
+  /// I where the cap begins, Pa.
+  double branch() const { return branch_; }
   bool isRound() const { return lode_type_ == 0; }
 
   /// F_f f_c at I, Pa.
-  double radius(double i) const { return limit(i) * std::sqrt(std::max(0.0, capSquare(i))); }
+  double radius(double i) const {
+    if (length_ > 0 && i < branch_) return height_ * std::sqrt(std::max(0.0, ellipseSquare(i)));
+    return limit(i) * std::sqrt(std::max(0.0, capSquare(i)));
+  }
   /// Its derivative; infinite at the end of the cap.
   double slope(double i) const {
     const double limitSlope = -a3_ * a2_ * std::exp(a2_ * i) - a4_;
     if (i >= branch_) return limitSlope;
+    if (length_ > 0) {
+      const double part = ellipseSquare(i), share = (i - end_ - length_) / length_;
+      return part > 0 ? -height_ * share / length_ / std::sqrt(part) : std::numeric_limits<double>::infinity();
+    }
     const double square = capSquare(i), length = branch_ - end_;
     if (square <= 0) return std::numeric_limits<double>::infinity();
     const double factor = std::sqrt(square);
@@ -64,6 +75,20 @@ class YieldSurface {
   }
 
  private:
+  /// The ellipse from X with half axes in the ratio CR, in the space of z = I1 / sqrt 3 and r = sqrt(3 K/G) sqrt J2,
+  /// that touches the cone, r = B (z_vertex - z). With q = sqrt(1 + (CR/B)^2) its half axis along z is
+  /// (z_vertex - z_X) / (1 + q), and it touches at z_X + (z_vertex - z_X) / q.
+  void closeByTangent(const Constants& c) {
+    const double stretch = std::sqrt(3 * c.b0 / c.g0), steepness = c.vertexSlope * stretch * std::numbers::sqrt3;
+    const double q = std::hypot(1.0, c.capShape / steepness);
+    length_ = (vertex_ - end_) / (1 + q);
+    height_ = c.capShape * length_ / std::numbers::sqrt3 / stretch;
+    branch_ = end_ + (vertex_ - end_) / q;
+  }
+  double ellipseSquare(double i) const {
+    const double share = (i - end_) / length_;
+    return share * (2 - share);
+  }
   double limit(double i) const { return a1_ - a3_ * std::exp(a2_ * i) - a4_ * i; }
   double capSquare(double i) const {
     if (i >= branch_) return 1;
@@ -73,6 +98,7 @@ class YieldSurface {
 
   double zeta_, end_, vertex_, branch_;
   double a1_ = 0, a2_ = 0, a3_ = 0, a4_ = 0;
+  double length_ = 0, height_ = 0;  ///< half axes of a tangent ellipse along I1 and sqrt J2, Pa; 0: there is none
   int lode_type_;
   double lode_ratio_;
 };
