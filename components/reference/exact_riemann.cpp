@@ -41,7 +41,7 @@ ExactRiemann::ExactRiemann(const RiemannProblem& problem) : problem_(problem), s
     throw std::invalid_argument(fmt::format("The axis of a Riemann problem is 0, 1 or 2, not {}.", problem.axis));
   }
   if (!std::isfinite(problem.diaphragm)) {
-    throw std::invalid_argument("The diaphragm of a Riemann problem must stand at a finite position.");
+    throw std::invalid_argument("The diaphragm of a Riemann problem must be at a finite position.");
   }
 }
 

@@ -20,14 +20,14 @@ namespace {
 
 constexpr const char* path = "DataAnalysis/Module";
 
-/// What the variables of a scene can be, and of what.
+/// The variables and materials that a scene can name.
 struct Known {
   Phases phases;
   simulation::OtherNames names;
   tasks::Names labels;
   std::set<std::string> foreign;
   std::vector<std::string> materials;  ///< by their numbers in the scene
-  std::set<std::string> told;          ///< names of materials that a note is about
+  std::set<std::string> noted;         ///< names of materials that a note is about
 
   Known(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses)
       : phases(component, analyses), names(otherNames(component, analyses)), labels(phases.saveable()) {
@@ -66,7 +66,7 @@ void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagno
   std::string problem;
   variable.material = numberOf(request.material, known, problem);
   if (variable.material < 0 && isLoneMaterial(request.material, known)) {  // as Uintah takes it
-    if (known.told.insert(request.material).second)
+    if (known.noted.insert(request.material).second)
       diagnostics.note(request.whereOfMaterial, path,
                        fmt::format("'{}' is taken for the only material, '{}'", request.material, known.materials[0]));
     variable.material = 0;

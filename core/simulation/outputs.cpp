@@ -32,7 +32,7 @@ Outputs::~Outputs() {
   try {
     run_.writers.count() == 1 ? finish(mpi::Communicator::alone()) : on_its_way_->file.abandon();
   } catch (const FileError&) {
-    // Something else has ended the run, and is told.
+    // Something else has ended the run, and is reported.
   }
 }
 

@@ -56,8 +56,8 @@ Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
   return names;
 }
 
-/// What the next step needs of a step, without what is computed anew before each, and with the ids of particles if
-/// there are any.
+/// The variables of a step that the next one needs, without what is computed anew before each, and with the ids of
+/// particles if there are any.
 std::vector<std::string> namesOfState(Names needed, const Names& decided, const Names& computed) {
   std::erase_if(
       needed, [&](const std::string& name) { return decided.contains(name) || name == data::recomputeTimeStep.name; });
@@ -73,7 +73,7 @@ std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>&
   return samples;
 }
 
-/// What lists read of the old state.
+/// The variables of the old state that lists read.
 Names requiredByAll(std::initializer_list<const Pruned*> lists) {
   Names names;
   for (const Pruned* list : lists) names.merge(requiredOfState(list->kept));

@@ -51,10 +51,10 @@ std::string textOf(const double* numbers, int count) {
   return count == 1 ? text : "(" + text + ")";
 }
 
-/// Where a value stands among all: number of cell or node, and id.
+/// The place of a value among all: number of cell or node, and id.
 using Order = std::array<std::uint64_t, 2>;
 
-/// What a look at all values of a variable comes to.
+/// The result of a search through all values of a variable.
 struct Found {
   long seen = 0, broken = 0;
   Order first{};  ///< of the first broken value

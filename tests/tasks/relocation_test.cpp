@@ -84,7 +84,7 @@ void inspect(const Patch& patch, const Material&, ParticleView<const Vec<D>> pos
   });
 }
 
-/// When particles are looked at: still in the step, or when it counts.
+/// When particles are examined: still in the step, or when it counts.
 enum class Look { inStep, afterwards };
 
 /// Positions by id after some steps, and what `inspect` found on the way.
