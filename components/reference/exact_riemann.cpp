@@ -31,7 +31,8 @@ RiemannSolution solveShifted(const RiemannProblem& problem) {
 }
 
 void checkTime(double t) {
-  if (!(t >= 0)) throw std::invalid_argument(fmt::format("A Riemann problem begins at t = 0 and has no t = {}.", t));
+  if (!(t >= 0))
+    throw std::invalid_argument(fmt::format("A Riemann problem begins at t = 0; there is no solution at t = {}.", t));
 }
 
 }  // namespace

@@ -51,8 +51,7 @@ int numberOf(const std::string& word, const Known& known, std::string& problem) 
   problem = number.value ? fmt::format("there is no material {}; they are counted from 0 to {}", word, count - 1)
             : all.empty()
                 ? fmt::format("there is no material '{}': the variables of this component belong to none", word)
-                : fmt::format("there is no material '{}'{}; there {} {}", word, didYouMean(word, all),
-                              all.size() == 1 ? "is" : "are", allOf(all));
+                : fmt::format("there is no material '{}'{}; available: {}", word, didYouMean(word, all), allOf(all));
   return -1;
 }
 
@@ -67,8 +66,9 @@ void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagno
   variable.material = numberOf(request.material, known, problem);
   if (variable.material < 0 && isLoneMaterial(request.material, known)) {  // as Uintah takes it
     if (known.noted.insert(request.material).second)
-      diagnostics.note(request.whereOfMaterial, path,
-                       fmt::format("'{}' is taken for the only material, '{}'", request.material, known.materials[0]));
+      diagnostics.note(
+          request.whereOfMaterial, path,
+          fmt::format("'{}' is understood as the only material, '{}'", request.material, known.materials[0]));
     variable.material = 0;
     problem.clear();
   }
@@ -79,9 +79,10 @@ void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagno
     request.material.clear();
     return;
   } else if (variable.material >= static_cast<int>(bodies.size())) {
-    diagnostics.error(request.where, path,
-                      fmt::format("'{}' is no variable of the gas '{}'; give matl, the number of a body from 0 to {}",
-                                  variable.called, known.materials[variable.material], bodies.size() - 1));
+    diagnostics.error(
+        request.where, path,
+        fmt::format("'{}' is not a variable of the gas '{}'; give matl, the number of a body from 0 to {}",
+                    variable.called, known.materials[variable.material], bodies.size() - 1));
   } else {
     request.material = bodies[variable.material];
     return;

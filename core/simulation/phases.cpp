@@ -197,15 +197,14 @@ std::vector<InputProblem> Phases::problemsOf(const std::vector<SaveRequest>& sav
   std::vector<InputProblem> problems;
   for (const SaveRequest& save : named(saves)) {
     if (!known.contains(save.label))
-      problems.push_back({save.where, path,
-                          fmt::format("no task of this component computes '{}'{}; there {} {}", save.label,
-                                      didYouMean(save.label, {known.begin(), known.end()}),
-                                      known.size() == 1 ? "is" : "are", allOf({known.begin(), known.end()}))});
-    else if (!save.material.empty() && !isMaterial(save.material))
       problems.push_back(
-          {save.whereOfMaterial, path,
-           fmt::format("there is no material '{}'{}; there {} {}", save.material, didYouMean(save.material, materials_),
-                       materials_.size() == 1 ? "is" : "are", allOf(materials_))});
+          {save.where, path,
+           fmt::format("no task of this component computes '{}'{}; available: {}", save.label,
+                       didYouMean(save.label, {known.begin(), known.end()}), allOf({known.begin(), known.end()}))});
+    else if (!save.material.empty() && !isMaterial(save.material))
+      problems.push_back({save.whereOfMaterial, path,
+                          fmt::format("there is no material '{}'{}; available: {}", save.material,
+                                      didYouMean(save.material, materials_), allOf(materials_))});
   }
   return problems;
 }
@@ -261,10 +260,9 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
     if (label && label->centring == data::Centring::cell && label->number == data::Number::real)
       criteria.push_back({one, label, diagnosed.contains(one.variable)});
     else
-      problems.push_back(
-          {one.where, one.path,
-           fmt::format("'{}' is not a cell variable that this component computes{}; there {} {}", one.variable,
-                       didYouMean(one.variable, known), known.size() == 1 ? "is" : "are", allOf(known))});
+      problems.push_back({one.where, one.path,
+                          fmt::format("'{}' is not a cell variable that this component computes{}; available: {}",
+                                      one.variable, didYouMean(one.variable, known), allOf(known))});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   return estimating(lists_.diagnostics, std::move(criteria), lists_.errorEstimate);

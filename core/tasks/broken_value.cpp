@@ -171,8 +171,8 @@ class Search {
     return text + fmt::format(", but must be {}", data::textOf(bound_));
   }
   std::string howMany(const char* what) const {
-    return found_.broken == 1 ? fmt::format("no other of {} {} is broken", found_.seen, what)
-                              : fmt::format("{} of {} {} are broken", found_.broken, found_.seen, what);
+    return fmt::format("{} of {} {} {} out of bounds", found_.broken, found_.seen, what,
+                       found_.broken == 1 ? "is" : "are");
   }
 
   /// The value that the particle had at the start of the step, where it was then; none for one that is new.
