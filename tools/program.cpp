@@ -108,7 +108,7 @@ void writeProblems(const Arguments& arguments, const std::vector<InputProblem>& 
     writeFile(arguments.run.jsonPath, text);
 }
 
-/// What is said of a scene without running it.
+/// Prints what can be said about a scene without running it.
 void inspect(const Arguments& arguments, simulation::Simulation& run, bool isFirst) {
   const long particles = arguments.check ? run.tryStart() : 0;
   if (!isFirst) return;

@@ -151,7 +151,7 @@ void checkBoxes(const std::vector<Extent>& boxes, const Level& level, const Elem
     if (box.name.empty() || box.name.starts_with('.') || box.name.find('/') != std::string::npos)
       problems.push_back(
           {box.whereOfName, path,
-           fmt::format("label: found '{}', expected the name of a file, without '/' and leading dots", box.name)});
+           fmt::format("label: found '{}', expected the name of a file, without '/' or leading dots", box.name)});
     else if (std::find(names.begin(), names.end(), box.name) != names.end())
       problems.push_back({box.whereOfName, path, fmt::format("the name '{}' is given twice", box.name)});
     names.push_back(box.name);

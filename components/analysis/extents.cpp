@@ -35,9 +35,9 @@ std::string pathOf(int axes) {
 std::string problemOfName(const std::string& name) {
   static const std::set<std::string> taken{"checkpoints", "slice", "particleExtract", "MinMax", "planeAverage"};
   const bool isPath = name.empty() || name.starts_with('.') || name.find('/') != std::string::npos;
-  if (isPath) return fmt::format("found '{}', expected the name of a folder, without '/' and leading dots", name);
+  if (isPath) return fmt::format("found '{}', expected the name of a folder, without '/' or leading dots", name);
   if (taken.contains(name) || output::stepOf(name) || name.find('.') != std::string::npos)
-    return fmt::format("found '{}', which the archive may have for something else; choose another name", name);
+    return fmt::format("found '{}', which the archive may use for something else; choose another name", name);
   return {};
 }
 

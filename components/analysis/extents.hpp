@@ -44,12 +44,12 @@ struct LevelBox {
   grid::Box cells;
 };
 
-/// The tags of a module that looks at variables in extents.
+/// The tags of a module that samples variables in extents.
 struct ExtentSettings : Sampling {
   ExtentList extents;
 };
 
-/// A module that looks at variables in extents: it gets a part for each. Throws what checkExtents throws.
+/// A module that samples variables in extents: it gets a part for each. Throws what checkExtents throws.
 class ExtentModule : public SamplingModule {
  public:
   ExtentModule(const ExtentSettings& settings, int axes, const grid::Level& level);

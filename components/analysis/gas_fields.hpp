@@ -7,7 +7,7 @@
 #include "core/input/document.hpp"
 #include "core/simulation/component.hpp"
 
-// What modules look at of a gas whose variables belong to no material.
+// The fields that modules sample where the variables of a gas belong to no material.
 
 namespace tushar::analysis {
 

@@ -88,7 +88,7 @@ class LineExtract : public ExtentModule {
     const bool isMixed = columns.back().field->centring != columns.front().field->centring;
     const std::string_view centre = isOfNodes ? "NC" : "CC";
     std::string text;
-    if (isMixed) text = "# places are the middles of cells; nodes stand at their lower corners\n";
+    if (isMixed) text = "# positions are the middles of cells; nodes are at their lower corners\n";
     text += fmt::format("{:<16} {:<16} {:<16} {:<16} {:<16}", fmt::format("# X_{}", centre),
                         fmt::format("Y_{}", centre), fmt::format("Z_{}", centre), "Timestep", "Time [s]");
     for (const Found& column : columns) {

@@ -6,7 +6,7 @@ namespace tushar::analysis {
 
 /// `minMax`: the least and the greatest value of variables over time, in a file for each: `MinMax/L-0/press_CC_0` in
 /// the archive, where Uintah writes them. A line has the time [s], the least and the greatest value; those of vectors
-/// and tensors stand in brackets, number by number.
+/// and tensors are in brackets, number by number.
 simulation::AnalysisKind minMaxKind();
 
 }  // namespace tushar::analysis

@@ -60,7 +60,7 @@ const Schema<ExtractSettings>& extractSchema() {
     return tags.requiredAttribute("name", &ExtractSettings::name, "1", "particleExtract")
         .location(&ExtractSettings::where)
         .value("material", &ExtractSettings::material, "", "1",
-               "name of the material whose particles are looked at; the first")
+               "name of the material whose particles are sampled; the first")
         .required("colorThreshold", &ExtractSettings::threshold, "1", "particles whose p.color is greater are written")
         .requiredSection("Variables", &ExtractSettings::variables, variablesSchema(), "what is written");
   }();

@@ -29,7 +29,7 @@ Schema<Analyzed> variableSchema() {
 }
 
 Schema<AnalyzedList> listSchema(const Schema<Analyzed>& variable) {
-  return Schema<AnalyzedList>("Variables", "What is looked at.")
+  return Schema<AnalyzedList>("Variables", "What is sampled.")
       .list("analyze", &AnalyzedList::list, variable, "a variable of cells or nodes", 1);
 }
 

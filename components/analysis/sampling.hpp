@@ -8,11 +8,11 @@
 #include "core/input/schema.hpp"
 #include "core/simulation/analysis.hpp"
 
-// What modules share that look at variables of cells and nodes at chosen times.
+// Shared by the modules that sample variables of cells and nodes at chosen times.
 
 namespace tushar::analysis {
 
-/// What a mean is taken by.
+/// The weight of a mean.
 enum class Weighting { none, cells, weight };
 
 /// An `<analyze label= matl=>`.
@@ -26,12 +26,12 @@ struct AnalyzedList {
   std::vector<Analyzed> list;
 };
 
-/// When a module looks, as its tags say.
+/// When a module samples, from its tags.
 struct Times {
   double frequency = 0, start = 0, stop = 0;  ///< 1/s, s, s
 };
 
-/// The tags of a module that looks at variables.
+/// The tags of a module that samples variables.
 struct Sampling : Times {
   std::string name;
   Location where;
@@ -60,7 +60,7 @@ void addTimes(input::Schema<Settings>& schema) {
       });
 }
 
-/// The schema of a module that looks at variables, to which its own tags are added.
+/// The schema of a module that samples variables, to which its own tags are added.
 template <class Settings>
 input::Schema<Settings> samplingSchema(const std::string& name, const std::string& sentence,
                                        const input::Schema<AnalyzedList>& list = analyzedSchema()) {
@@ -78,7 +78,7 @@ input::Schema<Settings> samplingSchema(const std::string& name, const std::strin
 
 /// When samples are due: after the first step in the time from `start` to `stop`, and then after each that passes a
 /// multiple of 1/frequency from `start` on. The initial state is none. What is due depends on the state and on that
-/// before alone, so that a run that goes on from a checkpoint looks at the same ones.
+/// before alone, so that a run that goes on from a checkpoint samples the same ones.
 class SampleTimes {
  public:
   SampleTimes(double frequency, double start, double stop) : frequency_(frequency), start_(start), stop_(stop) {}
@@ -95,14 +95,14 @@ class SampleTimes {
 };
 
 /// The lines of a file up to a time [s], which excludes it, with comments: what a run has left that is now repeated
-/// from there on. The time stands in a column, counted from 0. A last line that a kill has torn is left out.
+/// from there on. The time is in a column, counted from 0. A last line that is incomplete after a kill is left out.
 std::string linesBefore(const std::string& text, double time, int column = 0);
 
 /// Text files that get a line for each sample. From one that a run before has left, the lines are taken out that are
 /// now repeated.
 class SampleFiles {
  public:
-  /// `column`: where the time [s] stands in a line.
+  /// `column`: of the time [s] in a line.
   explicit SampleFiles(int column = 0) : column_(column) {}
   /// Throws FileError.
   void add(const std::filesystem::path& file, const std::string& header, const std::string& line, double time);
@@ -112,7 +112,7 @@ class SampleFiles {
   std::set<std::string> begun_;
 };
 
-/// A module that looks at variables.
+/// A module that samples variables.
 class SamplingModule : public simulation::Analysis {
  public:
   explicit SamplingModule(const Sampling& sampling);
@@ -132,7 +132,8 @@ class SamplingModule : public simulation::Analysis {
     const output::FieldBlock* field;
   };
   std::vector<Found> findAll(const output::Snapshot& snapshot) const;
-  /// What files call a variable: its name in the scene with the number of the material, as far as a path can have it.
+  /// The name of a variable in files: its name in the scene with the number of the material, as far as a path can have
+  /// it.
   static std::string nameOf(const simulation::SampledVariable& variable);
   /// One for each variable.
   std::vector<simulation::OwnFile> filesIn(const std::string& folder) const;
@@ -143,7 +144,7 @@ class SamplingModule : public simulation::Analysis {
   SampleTimes times_;
 };
 
-/// What the heads of files call a component of a variable: `v`, `v.x` of a vector, `v(0,1)` of a tensor.
+/// The name of a component of a variable in the heads of files: `v`, `v.x` of a vector, `v(0,1)` of a tensor.
 std::string nameOfComponent(const std::string& name, int component, int components);
 
 /// A number of an array, whatever its type.

@@ -30,7 +30,7 @@ using simulation::SaveRequest;
 
 namespace {
 
-/// The text of a tag, and where it stands.
+/// The text of a tag, and its place in the scene.
 struct Word {
   Location where;
   std::string text;

@@ -6,7 +6,7 @@
 namespace tushar::analysis {
 
 /// `vorticity`: the rotation of the velocity of the gas as a variable of cells, `c.vorticity`, that can be saved and
-/// that other modules can look at; Uintah's `vorticity`.
+/// that other modules can sample; Uintah's `vorticity`.
 simulation::AnalysisKind vorticityKind();
 
 /// It always has three components: those across the axes that the grid uses are the others.

@@ -51,7 +51,7 @@ std::optional<T> givenAt(const Place& place, const Gas& gas, const BoundaryLabel
   const auto condition = place.level.boundary(place.axis, place.side, label, gas.material, place.part);
   return condition && condition->isDirichlet() ? std::optional(condition->at(place.x, place.time)) : std::nullopt;
 }
-/// The same of the pressure, which all materials share: Uintah's scenes give it for material 0.
+/// The same for the pressure, which all materials share: Uintah's scenes give it for material 0.
 std::optional<double> pressureAt(const Place& place, const Gas& gas);
 
 /// Whether there is a wall: Symmetric, or with a Velocity alone that lies in the side.

@@ -64,9 +64,9 @@ struct ColdCurve {
   }
 };
 
-// What a gas other than a stiffened one has to know. A state is the density [kg/m³] and a number that with it gives
-// pressure and energy: the pressure itself [Pa] or, of a substance whose pressure does not depend on its heat, the heat
-// rho c_v T [J/m³].
+// The equation of state of a gas that is not a stiffened one. A state is the density [kg/m³] and a number that with it
+// gives pressure and energy: the pressure itself [Pa] or, of a substance whose pressure does not depend on its heat,
+// the heat rho c_v T [J/m³].
 
 /// p = p_cold + Gamma rho c_v T, E = E_cold + rho c_v T, with a constant Gamma: after Mie & Grueneisen. With Gamma = 0
 /// the pressure is that of the density alone.

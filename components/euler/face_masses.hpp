@@ -6,7 +6,7 @@
 namespace tushar::euler {
 
 namespace c {
-/// Of a step, for what the gas carries along.
+/// Variables of a step, for scalars that the gas carries along.
 template <int D>
 inline constexpr CellLabel<Vec<D>> massFluxBelow{"c.massFluxBelow", "kg/(m^2 s)", "mass through the lower faces"};
 template <int D>

@@ -50,7 +50,7 @@ struct StiffenedGas {
   double pressure(double, double internalEnergyPerVolume) const {
     return (gamma - 1) * internalEnergyPerVolume - gamma * pInfinity;
   }
-  /// The number that stands for heat in a state: the pressure.
+  /// The number of a state that represents heat: the pressure.
   double last(double density, double internalEnergyPerVolume) const {
     return pressure(density, internalEnergyPerVolume);
   }

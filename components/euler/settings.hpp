@@ -18,7 +18,7 @@ struct GasObject {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
   input::Expression density;                          ///< kg/m³
-  input::Expression pressure;                         ///< Pa; of no account where there is a temperature
+  input::Expression pressure;                         ///< Pa; ignored where there is a temperature
   input::VectorExpression velocity;                   ///< m/s
   std::optional<input::Expression> temperature = {};  ///< K
   std::optional<input::Expression> share = {};        ///< in the volume, where several gases are; 1 without

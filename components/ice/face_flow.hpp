@@ -11,7 +11,7 @@
 
 namespace tushar::ice {
 
-/// What acts on a gas besides its pressure, and how steps are made that sound does not limit.
+/// Gravity and diffusion of a gas, and the settings of steps that sound does not limit.
 struct IceSettings {
   euler::Diffusion diffusion;
   Vec3 gravity = Vec3::Zero();  ///< m/s²

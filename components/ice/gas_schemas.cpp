@@ -102,7 +102,7 @@ const Schema<IceSection>& iceSchema() {
                   "bodies thinner than 1.25 cells leak")
         .ours()
         .section("ImplicitSolver", &IceSection::implicit, implicitSchema(),
-                 "the pressure is solved for, so that sound does not limit the steps; <explicit> passes over it")
+                 "the pressure is solved for, so that sound does not limit the steps; <explicit> switches it off")
         .section("TimeStepControl", &IceSection::steps, stepSchema(), "the steps of an <ImplicitSolver>");
     input::noteTag(tags, "max_iteration_equilibration", "the pressure follows from density and energy");
     input::noteTag(tags, "ClampSpecificVolume", "the specific volume is that of the density");

@@ -167,7 +167,7 @@ simulation::ComponentKind kind() {
     const GasScene scene = readGas(root, 0, diagnostics);
     const auto properties = root.child("MaterialProperties");
     if (const auto solids = properties ? properties->child("MPM") : std::nullopt)
-      diagnostics.error(*solids, "'ice' has no solids: keep the gas alone");
+      diagnostics.error(*solids, "'ice' has no solids: keep only the gas");
     if (scene.thinWalls) diagnostics.note(scene.where, thinWallsPath, "does nothing: there are no bodies");
     if (scene.exchange && scene.mixture.empty())
       diagnostics.note(scene.exchange->where, exchangePath, "does nothing: there is one material");

@@ -56,7 +56,7 @@ class ImplicitIce : public Ice<D> {
   void scheduleTimeAdvance(TaskList& tasks) const override;
   bool mayRepeatStep() const override { return true; }
   std::string whyOneLevel() const override {
-    return "the pressure of an <ImplicitSolver> is solved for on one; CFD/ICE/explicit=true passes over it";
+    return "an <ImplicitSolver> solves for the pressure on one level; CFD/ICE/explicit=true switches it off";
   }
 };
 

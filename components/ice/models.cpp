@@ -112,10 +112,9 @@ const Schema<PassiveScalarSection>& passiveScalarSchema() {
 void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
   const std::string type = model.attribute("type").value_or("");
   if (type != "PassiveScalar")
-    return diagnostics.error(model,
-                             fmt::format("of type '{}' is not available; take it out: a PassiveScalar is carried "
-                                         "along, and nothing burns",
-                                         type));
+    return diagnostics.error(model, fmt::format("of type '{}' is not available; take it out: PassiveScalar is the only "
+                                                "type",
+                                                type));
   const auto given = model.child("PassiveScalar");
   if (!given) return diagnostics.error(model, "missing tag <PassiveScalar> in <Model>");
   const std::size_t before = diagnostics.size();

@@ -5,7 +5,7 @@
 
 #include "core/simulation/settings.hpp"
 
-// What scenes of Uintah's ICE call the variables of a gas.
+// The names of the variables of a gas in scenes of Uintah's ICE.
 
 namespace tushar::ice {
 

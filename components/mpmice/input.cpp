@@ -44,9 +44,8 @@ void checkMomentum(const ice::Exchange& exchange, int solids, bool areRigid, con
     if (k >= walls || (areRigid && k == 0)) return;
     diagnostics.error(
         tag.child("momentum").value_or(tag),
-        fmt::format(
-            "{:g} between body {} and the gas is not available: bodies are walls to the gas, which means 1e9 or more",
-            k, body));
+        fmt::format("{:g} between body {} and the gas is not available: bodies are walls to the gas; give 1e9 or more",
+                    k, body));
   });
   if (solids > 1)
     diagnostics.note(tag.child("momentum").value_or(tag),
@@ -114,7 +113,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
                       "a second gas is not available beside bodies; keep one <material>");
   if (!scene.scalars.empty())
     diagnostics.error(scene.scalars.front().where, "Models/Model",
-                      "is not available beside bodies; take it out, or keep the gas alone");
+                      "is not available beside bodies; take it out, or keep only the gas");
   if (scene.implicit && scene.gas.gas.law)
     diagnostics.error(
         scene.implicit->where, "CFD/ICE/ImplicitSolver",

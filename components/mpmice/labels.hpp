@@ -69,7 +69,7 @@ namespace p {
 using namespace mpm::solid::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> boxEdges{"p.boxEdges", "1",
-                                                "edges of the box that stands for the particle, in cells"};
+                                                "edges of the box that represents the particle, in cells"};
 }  // namespace p
 namespace g {
 using namespace mpm::solid::g;

@@ -8,7 +8,7 @@ namespace tushar::mpmice {
 
 /// A gas in the space that bodies of particles leave free, in D dimensions: finite volumes with walls.
 ///
-/// Its tasks stand among those of the solids, which call for them. mpmice.cpp has the schedule.
+/// The schedule of the solids calls its functions, which add its tasks among theirs. mpmice.cpp has the schedule.
 template <int D>
 class GasAround : public mpm::solid::Surroundings {
  public:

@@ -2,7 +2,7 @@
 
 #include "components/ice/uintah_words.hpp"
 
-// What scenes of Uintah's MPMICE call the variables of a gas beside bodies, where it is not as for a gas alone.
+// The names of the variables of a gas beside bodies in scenes of Uintah's MPMICE, where they differ from those of ICE.
 
 namespace tushar::mpmice {
 

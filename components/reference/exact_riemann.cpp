@@ -31,7 +31,8 @@ RiemannSolution solveShifted(const RiemannProblem& problem) {
 }
 
 void checkTime(double t) {
-  if (!(t >= 0)) throw std::invalid_argument(fmt::format("A Riemann problem begins at t = 0 and has no t = {}.", t));
+  if (!(t >= 0))
+    throw std::invalid_argument(fmt::format("A Riemann problem begins at t = 0; there is no solution at t = {}.", t));
 }
 
 }  // namespace
@@ -41,7 +42,7 @@ ExactRiemann::ExactRiemann(const RiemannProblem& problem) : problem_(problem), s
     throw std::invalid_argument(fmt::format("The axis of a Riemann problem is 0, 1 or 2, not {}.", problem.axis));
   }
   if (!std::isfinite(problem.diaphragm)) {
-    throw std::invalid_argument("The diaphragm of a Riemann problem must stand at a finite position.");
+    throw std::invalid_argument("The diaphragm of a Riemann problem must be at a finite position.");
   }
 }
 

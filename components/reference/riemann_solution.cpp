@@ -213,7 +213,7 @@ void fillStar(RiemannSolution& s, const Side& left, const Side& right) {
   s.rightWave = mirrored(right.wave(p, -s.starVelocity));
 }
 
-/// What stands between a side's undisturbed gas and the contact, at `xi` in the view of that side.
+/// The state between a side's undisturbed gas and the contact, at `xi` in the view of that side.
 RiemannState behindHead(const Side& side, const RiemannWave& wave, double xi, const RiemannState& star) {
   const bool fan = side.density > 0 && wave.kind == WaveKind::rarefaction && xi < wave.tail;
   return fan ? side.inFan(xi) : star;

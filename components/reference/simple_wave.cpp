@@ -129,7 +129,8 @@ double SimpleWave::foot(double x, double t) const {
 }
 
 GasState SimpleWave::at(const Vec3& x, double t) const {
-  if (!(t >= 0)) throw std::invalid_argument(fmt::format("A simple wave begins at t = 0 and has no t = {}.", t));
+  if (!(t >= 0))
+    throw std::invalid_argument(fmt::format("A simple wave begins at t = 0; there is no solution at t = {}.", t));
   if (t >= breakingTime_) {
     throw std::domain_error(
         fmt::format("The simple wave breaks at t = {}: it has no smooth solution at t = {}.", breakingTime_, t));

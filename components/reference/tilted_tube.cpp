@@ -27,7 +27,7 @@ void TiltedTube::checkMirrors() const {
   const double distance = std::abs(problem_.diaphragm - *placement_.mirror), half = 0.5 * placement_.period;
   if (!(distance > 0) || (half > 0 && distance >= half))
     throw std::invalid_argument(fmt::format(
-        "The diaphragm must stand between two mirrors, which are {:g} m apart along the tube, but it is {:g} m from "
+        "The diaphragm must lie between two mirrors, which are {:g} m apart along the tube, but it is {:g} m from "
         "the first.",
         half > 0 ? half : std::numeric_limits<double>::infinity(), distance));
   const RiemannState& near = side_ > 0 ? problem_.left : problem_.right;

@@ -11,18 +11,18 @@ namespace tushar::reference {
 struct TubePlacement {
   Vec3 normal = Vec3::UnitX();   ///< along the tube; a unit vector
   std::optional<double> mirror;  ///< distance from the origin along the tube of a plane that it is mirrored at, m
-  double period = 0;             ///< length along the tube after which it and its image stand again, m; 0: never
+  double period = 0;             ///< length along the tube after which it and its image repeat, m; 0: never
 };
 
 /// The exact solution of a Riemann problem in a tube that lies in any direction.
 ///
 /// With s = normal . x the fields are those of ExactRiemann at s along x. Where there is a mirror, the tube is the side
-/// of it that the diaphragm is on; beyond stands its image. With a period, a second mirror stands half a period away.
+/// of it that the diaphragm is on; beyond lies its image. With a period, a second mirror is half a period away.
 /// It holds until a wave reaches a mirror.
 class TiltedTube : public GasReference {
  public:
   /// `problem` along x, its diaphragm a distance from the origin along the tube. Throws std::invalid_argument as
-  /// ExactRiemann does, where the normal is no unit vector or the diaphragm does not stand between the mirrors, and
+  /// ExactRiemann does, where the normal is no unit vector or the diaphragm does not lie between the mirrors, and
   /// where a period has no mirror or gas moves at a mirror.
   TiltedTube(const RiemannProblem& problem, const TubePlacement& placement);
 

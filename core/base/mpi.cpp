@@ -33,7 +33,7 @@ Bytes opened(Bytes words) {
 
 int wordsOf(const Bytes& words) { return static_cast<int>(words.size() / wordBytes); }
 
-/// What the operation below does; MPI hands it nothing of ours.
+/// What the operation below does; MPI passes it none of our data.
 const std::function<void(const std::byte*, std::byte*)>* merging = nullptr;
 
 /// MPI requires inout = in ∘ inout, in the order of the ranks.
@@ -223,7 +223,7 @@ Session::Session() {
   if (provided < MPI_THREAD_FUNNELED) {
     MPI_Finalize();
     if (launchedRank() > 0) throw FailedElsewhere();
-    throw std::runtime_error("this MPI does not allow a process its own threads, which sus needs");
+    throw std::runtime_error("this MPI does not support threads within a process, which sus needs");
   }
   is_open_ = true;
   ranks_ = copyOf(MPI_COMM_WORLD);

@@ -38,7 +38,7 @@ class ParticleOrder {
   Runs runs() const;
 
  private:
-  /// Cells of a row that stand together in the order.
+  /// Cells of a row that are consecutive in the order.
   struct Row {
     std::size_t place;    ///< of the first cell in the order of the cells
     std::uint64_t start;  ///< place of its first particle in the order of the particles

@@ -11,7 +11,7 @@
 
 namespace tushar::collect {
 
-/// Entries that stand one after the other on a patch as in the order of the whole grid.
+/// Entries that are consecutive on a patch and in the order of the whole grid.
 struct Run {
   std::size_t place;                  ///< of the first in the order of the whole grid
   std::uint32_t patch, first, count;  ///< where that is among the parts and on its patch, and how many there are
@@ -57,7 +57,7 @@ class EntryForm {
   double rest_[3] = {0, 0, 0};  ///< what x, y, z are along the others
 };
 
-/// Where the particles of this rank are, and where they stand in an order of those of all ranks.
+/// Where the particles of this rank are, and their places in an order of those of all ranks.
 struct ParticlePlaces {
   std::vector<Place> places;            ///< in the order
   std::vector<std::uint64_t> ranked{};  ///< place of each among those of all ranks; empty where there are no others

@@ -72,7 +72,7 @@ std::vector<std::uint64_t> shapeOf(const grid::Grid& grid, const Label& label) {
 
 std::size_t wordsOf(std::size_t bytes) { return (bytes + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t); }
 
-/// What writing and reading share: which variables there are, and where they stand in the file.
+/// What writing and reading share: which variables there are, and where they are in the file.
 class StateWalk {
  public:
   StateWalk(data::Warehouse& warehouse, const StateNames& names)

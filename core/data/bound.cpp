@@ -8,7 +8,7 @@ namespace tushar::data {
 
 namespace {
 
-/// What is looked at of many numbers at once.
+/// A summary of many numbers, for checking them at once.
 struct Look {
   double least;  ///< of those that are numbers, or 1; computed only where it is needed
   double sum;    ///< not finite where one is not finite, or where they overflow together

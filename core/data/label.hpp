@@ -10,7 +10,7 @@
 
 namespace tushar::data {
 
-/// Where a variable lives; on rims, the faces of a patch behind which another level stands, are fluxes.
+/// Where a variable lives; on rims, the faces of a patch beyond which another level begins, are fluxes.
 enum class Centring { particle, node, cell, rim, reduction };
 
 /// How one number of a variable is stored.
@@ -31,7 +31,7 @@ struct Label {
   int components;     ///< numbers per particle, node or cell
   std::size_t bytes;  ///< per particle, node or cell
   bool isVector;      ///< components follow the kernel axes
-  Bound bound;        ///< looked at after every task that writes the variable; a broken one ends the run or the step
+  Bound bound;        ///< checked after every task that writes the variable; a violation ends the run or the step
   MakeReduction makeReduction = nullptr;  ///< of reductions
   Counts counts = Counts::everywhere;
 };

@@ -52,7 +52,7 @@ class ParticleSet {
   void reset(const grid::Patch& patch, int reach);
 
   int owned() const { return owned_; }
-  /// Whether a particle stands at this place that the patch has or reads.
+  /// Whether this place holds a particle that the patch has or reads.
   bool covers(int place) const {
     return (place >= 0 && place < owned_) || (place >= ghosts_.first && place < ghosts_.last);
   }
@@ -112,7 +112,7 @@ class ParticleSet {
   /// Like setOwned, after closeRow has been called for every row that has particles.
   void setOwnedOfClosedRows(int count) { owned_ = count; }
 
-  /// The ghosts of `box` are the particles that another set has there, which stands `offset` places behind this one.
+  /// The ghosts of `box` are the particles that another set has there, which begins `offset` places after this one.
   void addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset);
   /// A ghost cell has copies, from place `to` on: of the particles `there` of cell - shift on `patch`.
   void addCopies(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift, int to);

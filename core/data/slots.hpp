@@ -13,7 +13,7 @@ struct Label;
 /// The places of a rank's patches in the single buffer of a variable, counted in values. Each patch has a slot; behind
 /// the last come copies of particles whose own place is elsewhere: on another rank, or one period away.
 ///
-/// Layouts do not change: variables that stand alike share one, and where particles need other slots there is a new
+/// Layouts do not change: variables with the same layout share one, and where particles need other slots there is a new
 /// one.
 struct Slots {
   std::vector<std::size_t> first;  ///< by place of the patch on its rank
@@ -31,7 +31,7 @@ using SharedSlots = std::shared_ptr<const Slots>;
 
 /// For a node or cell variable that is read `ghost` beyond each patch.
 SharedSlots slotsOfGrid(const grid::Grid& grid, const Label& label, int ghost);
-/// For the faces of patches behind which other levels stand.
+/// For the faces of patches beyond which other levels begin.
 SharedSlots slotsOfRims(const grid::Grid& grid);
 
 /// For so many particles on each patch. Slots of `base` (which may be null) stay where the particles fit; a patch that

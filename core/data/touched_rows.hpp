@@ -9,7 +9,7 @@ namespace tushar::data {
 
 class ParticleSet;
 
-/// The rows of nodes along the first axis that particles touch: others are neither cleared nor looked at nor copied.
+/// The rows of nodes along the first axis that particles touch: others are neither cleared nor read nor copied.
 class TouchedRows {
  public:
   /// None.

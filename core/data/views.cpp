@@ -15,7 +15,7 @@ void refuse(const Label* label, const Index3& index, const grid::Box& box) {
 }
 
 void refuse(const Label* label, int particle, int count) {
-  throw AccessError(fmt::format("{} was used for particle place {}, but the patch has {} particles and no ghost there",
+  throw AccessError(fmt::format("{} was used for particle number {}, but the patch has {} particles and no ghost there",
                                 nameOf(label), particle, count));
 }
 

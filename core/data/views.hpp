@@ -97,7 +97,7 @@ class GridView {
   }
   const grid::Box& box() const { return box_; }
   const grid::Box& stored() const { return stored_; }
-  /// Where the box `stored` stands in memory, the first axis fastest.
+  /// Where the box `stored` is in memory, the first axis fastest.
   T* values() const { return values_; }
   /// Sets everything that is stored to one value.
   void fill(const std::remove_const_t<T>& value) const { std::fill_n(values_, stored_.size(), value); }

@@ -69,9 +69,9 @@ enum class Generation { old, fresh };
 /// Holds the variables and particle sets of this rank, in two generations.
 ///
 /// A variable is one piece of memory, in which each patch of the rank has its slot. All particle variables of a
-/// material and generation of its sets stand alike, so that a place counted from the first particle of one patch
-/// reaches the particles of any other: patches read the ghosts that are on their rank where they stand. Not for several
-/// threads at once, but for what stands in variables and sets.
+/// material and generation of its sets have the same layout, so that a place counted from the first particle of one
+/// patch reaches the particles of any other: patches read the ghosts that are on their rank in place. Only the contents
+/// of variables and sets may be used by several threads at once.
 class Warehouse {
  public:
   /// For one rank on its own.
@@ -119,7 +119,7 @@ class Warehouse {
   void allocateGrid(Generation generation, int number);
   /// Room for fluxes through the rims of all patches; all 0.
   void allocateRims(Generation generation, int number);
-  /// Room for a particle variable on all patches, where the particles of the sets of generation `set` stand; NaN-filled
+  /// Room for a particle variable on all patches, in the slots of the sets of generation `set`; NaN-filled
   /// in the dev preset.
   void allocateParticles(Generation generation, int number, Generation set);
   /// Returns the memory of a variable to the pool.
@@ -135,7 +135,7 @@ class Warehouse {
   std::byte* memory(Generation generation, int number) { return storage(generation, number).memory.data(); }
   const SharedSlots& slots(Generation generation, int number) const;
   const SharedSlots& slotsOfSets(Generation generation, int material) { return layout(generation, material).slots; }
-  /// How far behind the first particle of a patch that of another stands.
+  /// The distance in memory from the first particle of a patch to that of another.
   int distance(Generation set, int material, int from, int to);
   /// Place of the next `count` ghost copies of a patch, counted from its first particle.
   int placeCopies(Generation set, int material, int patch, int count);
@@ -169,7 +169,7 @@ class Warehouse {
     SharedSlots slots;
     bool held = false;
   };
-  /// Where the particles of a material stand.
+  /// The slots of the particles of a material.
   struct Layout {
     SharedSlots slots;
     std::size_t copies = 0, mostCopies = 0;  ///< of ghosts, behind the slots: now, and ever

@@ -46,7 +46,7 @@ inline constexpr BoundaryVariable symmetric{"Symmetric"};
 struct BoundaryCondition {
   BoundaryVariable variable;
   BoundaryKind kind;
-  Vec3 value = Vec3::Zero();  ///< a number stands in the first component; the unit is the variable's
+  Vec3 value = Vec3::Zero();  ///< a number is in the first component; the unit is the variable's
   int material = -1;          ///< the number of the one that it holds for; -1: all
   /// In place of the value, for components that take formulas; a number is its first component.
   std::shared_ptr<const input::VectorExpression> formula = {};

@@ -49,7 +49,7 @@ class Grid {
   /// The patches that another tree would make.
   std::unique_ptr<BlockTiling> cut(BlockTree tree) const;
   /// Replaces the patches, in the given shares or, without any, in such that are as equal in cells as they allow;
-  /// returns the previous ones. What stands on patches is the caller's to move: see tasks::regrid.
+  /// returns the previous ones. The caller moves the values of the patches: see tasks::regrid.
   std::unique_ptr<Tiling> refine(std::unique_ptr<BlockTiling> tiling, RankOffsets shares = {});
   /// Cells of one of this rank's patches that were part of coarser ones before the last call of refine().
   const std::vector<Box>& newCells(int patch) const { return new_cells_[patch - first_patch_]; }

@@ -30,7 +30,7 @@ class SidePart {
   static SidePart rectangulus(int axis, const std::array<Vec3, 2>& inner, const std::array<Vec3, 2>& outer);
 
   bool holds(const Vec3& x) const;
-  /// The corners of a box that holds it; along the axis across the side they are of no account.
+  /// The corners of a box that holds it; along the axis across the side they are ignored.
   const Vec3& lower() const { return outer_.lower; }
   const Vec3& upper() const { return outer_.upper; }
 

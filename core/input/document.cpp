@@ -78,7 +78,7 @@ void TreeBuilder::resolvePath(const XmlFile& file, Node& node) {
   const FoundFile found = findFile(node.text, file.name());
   if (found.hasMoved)
     diagnostics_.note(node.where, node.name,
-                      fmt::format("there is no '{}': the file of that name beside the scene is taken", node.text));
+                      fmt::format("there is no '{}': the file of that name next to the scene is used", node.text));
   node.text = found.path;
 }
 

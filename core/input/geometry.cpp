@@ -70,7 +70,7 @@ Schema<Operands> operandsSchema(const std::string& name, const std::string& sent
     diagnostics.error(element, fmt::format("expected {} in <{}>, found {}", expected, element.name(), count));
   };
   Schema<Operands> schema(name, sentence);
-  schema.foreignAttribute("label", "an empty tag with this label, further down, stands for this shape")
+  schema.foreignAttribute("label", "an empty tag with this label, further down, refers to this shape")
       .foreignAttribute("name", "another word for label")
       .custom("shapes", readOperands, geometryNames(), exactlyTwo ? "two shapes" : "any number of shapes")
       .forms(geometryForms(), exactlyTwo ? 2 : 1)
@@ -94,7 +94,7 @@ Kind nothing() {
   struct Tag {};
   static const Schema<Tag> schema =
       Schema<Tag>("null", "No point: a body without particles.")
-          .foreignAttribute("label", "an empty tag with this label, further down, stands for this shape");
+          .foreignAttribute("label", "an empty tag with this label, further down, refers to this shape");
   const auto read = [](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
     schema.read(element, diagnostics);
     return std::make_shared<Nothing>();
@@ -102,7 +102,7 @@ Kind nothing() {
   return {"null", read, [](std::ostream& out, int indent) { schema.describe(out, indent); }, &schema};
 }
 
-/// A shape that stands in a file.
+/// A shape that a file defines.
 struct FileTag {
   std::string file;
 };
@@ -112,7 +112,7 @@ Kind fromFile(const std::string& name, const std::string& sentence, const std::s
               const std::function<PiecePtr(const std::string&, const Element&, Diagnostics&)>& load) {
   const auto schema = std::make_shared<const Schema<FileTag>>(
       Schema<FileTag>(name, sentence)
-          .foreignAttribute("label", "an empty tag with this label, further down, stands for this shape")
+          .foreignAttribute("label", "an empty tag with this label, further down, refers to this shape")
           .required("name", &FileTag::file, "m", whatFile));
   const auto read = [schema, load](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
     const std::size_t before = diagnostics.size();
@@ -183,7 +183,7 @@ bool isLabelledDefinition(const Element& element) {
   return !isEmpty(element) && labelOf(element) && findKind(element.name());
 }
 
-/// Collects the labelled shapes that stand wholly above `until`; returns whether that was reached.
+/// Collects the labelled shapes that lie wholly above `until`; returns whether that was reached.
 bool collectAbove(const Element& from, const Element& until, std::vector<Element>& found) {
   if (from == until) return true;
   const std::size_t place = found.size();
@@ -263,7 +263,7 @@ void noteIfTaken(const Element& shape, const std::string& label, Diagnostics& di
                                       others.front().name(), others.front().where().text()));
 }
 
-/// An empty tag that stands for a shape further up.
+/// An empty tag that refers to a shape further up.
 struct Reference {
   std::string label;
 };

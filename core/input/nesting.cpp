@@ -23,7 +23,7 @@ std::size_t endOfTag(std::string_view text, std::size_t at) {
   return npos;
 }
 
-/// Past what stands at `at` if that is no tag of an element; `at` itself if it is one.
+/// Past the text at `at` if that is no tag of an element; `at` itself if it is one.
 std::size_t pastOther(std::string_view text, std::size_t at) {
   const std::pair<std::string_view, std::string_view> others[] = {
       {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}};

@@ -105,7 +105,7 @@ std::string stepProblem(const Node& parent, const OverrideStep& step, std::size_
     return fmt::format("no <{}> in <{}> has {}='{}'", step.name, parent.name, step.attribute, step.value);
   }
   if (found <= 1) return {};
-  return fmt::format("{} tags <{}> match in <{}>; say which one, as {}[1] or {}[@label='…']", found, step.name,
+  return fmt::format("{} tags <{}> match in <{}>; say which one, such as {}[1] or {}[@label='…']", found, step.name,
                      parent.name, step.name, step.name);
 }
 

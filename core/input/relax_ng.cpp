@@ -53,7 +53,7 @@ void writeValue(xml_node parent, const TagForm& form) {
     refer(parent, "value-" + valueTypeOf(form.type).name);
 }
 
-/// How often what is written into the node that it returns may stand in `parent`.
+/// How often the content of the node that it returns may occur in `parent`.
 xml_node often(xml_node parent, int atLeast, bool repeats) {
   if (repeats) return parent.append_child(atLeast > 0 ? "oneOrMore" : "zeroOrMore");
   return atLeast > 0 ? parent : parent.append_child("optional");
@@ -86,7 +86,7 @@ class Grammar {
     std::function<void(xml_node)> fill;
   };
 
-  /// The name of the definition that `key` stands for; `fill` writes what is in its element.
+  /// The name of the definition of `key`; `fill` writes what is in its element.
   std::string define(const std::string& key, const std::string& tag, std::function<void(xml_node)> fill) {
     auto [found, isNew] = names_.try_emplace(key);
     if (isNew) {
@@ -122,7 +122,7 @@ class Grammar {
           }));
   }
 
-  /// A tag as often as it may stand among others.
+  /// A tag as often as it may occur among others.
   void writeTag(xml_node parent, TagForm form, const std::string& tag, const std::string& documentation,
                 const Demand* demand, bool isOptional) {
     if (demand && !demand->words.empty()) form.choices = demand->words;

@@ -39,7 +39,7 @@ struct SchemaEntry {
   bool repeatable = false;
   bool isAlternative = false;  ///< of the attributes that are, one must be given
   int atLeast = 0;             ///< how many must be given
-  std::vector<TagForm> forms;  ///< what may stand in the tags that a function of the parent reads; empty: anything
+  std::vector<TagForm> forms;  ///< what the tags that a function of the parent reads may contain; empty: anything
   const SchemaBase* nested = nullptr;  ///< what reads a nested tag
 
   std::function<void(void* object)> setDefault;
@@ -82,7 +82,7 @@ class SchemaBase {
   void describeContents(std::ostream& out, int indent = 0) const;
 
   using Fill = std::function<void(void* object, const Element& element, Diagnostics& diagnostics)>;
-  /// Schema::custom and Schema::forms, for functions that do not look at the object.
+  /// Schema::custom and Schema::forms, for functions that do not need the object.
   void addCustom(std::string_view name, Fill&& fill, std::vector<std::string>&& takes, std::string_view sentence,
                  std::function<void(std::ostream&, int)>&& describeBelow = {});
   void setFormsOfLast(std::vector<TagForm> forms, int atLeast = 0);

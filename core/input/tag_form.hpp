@@ -64,7 +64,7 @@ inline TagForm noForm(std::vector<std::string> tags) {
   return {.tags = std::move(tags), .kind = TagForm::Kind::nothing};
 }
 
-/// Tags whose contents are not looked at, but for the attributes of `demands`.
+/// Tags whose contents are not checked, except the attributes of `demands`.
 inline TagForm anyForm(std::vector<std::string> tags, std::vector<Demand> demands = {}) {
   return {.tags = std::move(tags), .demands = std::move(demands)};
 }

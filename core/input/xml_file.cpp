@@ -83,7 +83,8 @@ XmlFile::XmlFile(std::string_view text, std::string name, Diagnostics& diagnosti
 void XmlFile::parse(Diagnostics& diagnostics) {
   const std::optional<BadNesting> bad = findBadNesting(text_);
   if (bad && bad->tooDeep)
-    return diagnostics.error(locate(bad->where), {}, fmt::format("tags are nested more than {} deep here", mostNested));
+    return diagnostics.error(locate(bad->where), {},
+                             fmt::format("tags are nested more than {} levels deep here", mostNested));
   const unsigned options = pugi::parse_default | pugi::parse_comments;
   const pugi::xml_parse_result result = document_.load_buffer(text_.data(), text_.size(), options, pugi::encoding_utf8);
   if (!result && bad && result.status == pugi::status_end_element_mismatch) {

@@ -90,7 +90,7 @@ class Writer {
   }
 
  private:
-  /// The name of the type of a tag; empty where the type stands in the tag.
+  /// The name of the type of a tag; empty where the tag contains the type.
   std::string typeOf(const std::string& tag, const Uses& uses) {
     if (uses.mayBeAnything || (!uses.sections.empty() && !uses.values.empty())) return "xs:anyType";
     if (uses.sections.empty()) return "";

@@ -88,8 +88,8 @@ class CellSystem {
   std::size_t rowOf(std::size_t p, const Index<D>& cell) const {
     return static_cast<std::size_t>(number_(levelOf(p), cell));
   }
-  /// Learns from the equations of cells at the faces of patches which cells of other ranks they look at, and how many
-  /// cells there are in a row: all others look at those beside them.
+  /// Finds, from the equations of cells at the faces of patches, which cells of other ranks they use, and how many
+  /// cells there are in a row: all others use those beside them.
   template <class EquationOf>
   void meetOthers(EquationOf&& equationOf) {
     forEachCell([&](std::size_t p, const Index<D>& cell) {

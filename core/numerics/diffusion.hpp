@@ -29,7 +29,7 @@ struct Balance {
   std::array<Index<D>, most> cells{};  ///< the cell itself first, then some next to it; of the grid or their images
   std::array<double, most> weights{};
   std::size_t count = 1;
-  std::vector<Far> far;  ///< what stands at faces where the level ends; none where there is one level
+  std::vector<Far> far;  ///< what is beyond faces where the level ends; none where there is one level
   double constant = 0;
 
   /// Adds to the weight of a cell.

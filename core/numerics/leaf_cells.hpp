@@ -74,7 +74,8 @@ class FaceInterpolation {
     visit(cell + inwards * 2, u * (u - 1) / 2);
     return (u - 1) * (u - 2) / 2 - 1;
   }
-  /// The same of s_a s_b times the mixed difference: the mean over the corners of the cell whose other cells are there.
+  /// The same for s_a s_b times the mixed difference: the mean over the corners of the cell whose other cells are
+  /// there.
   template <class Visit>
   double addMixed(int level, const Index<D>& cell, int a, int b, const std::array<double, D>& shift,
                   Visit&& visit) const {

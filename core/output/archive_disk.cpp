@@ -79,7 +79,7 @@ herr_t setAllocated(H5FD_t* base, H5FD_mem_t, haddr_t address) {
 
 haddr_t size(const H5FD_t* base, H5FD_mem_t) { return of(base).size; }
 
-/// What lies behind the end of the file reads as zeros.
+/// Reads beyond the end of the file give zeros.
 herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t from, size_t count, void* buffer) {
   auto* to = static_cast<char*>(buffer);
   while (count > 0) {

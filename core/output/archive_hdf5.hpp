@@ -49,7 +49,7 @@ class Hdf5File {
   /// The same for an array whose values are written later: makes room for them, without gaps, and says where in the
   /// file that begins; of a compressed file 0, as there each chunk gets its room when it comes.
   std::uint64_t room(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape);
-  /// Writes a packed chunk of a dataset that has been given room; `corner` is where its first number stands, `skipped`
+  /// Writes a packed chunk of a dataset that has been given room; `corner` is the index of its first number, `skipped`
   /// HDF5's mask of filters.
   void chunk(const std::string& name, const std::vector<unsigned long long>& corner, std::uint32_t skipped,
              std::span<const std::byte> bytes);

@@ -29,7 +29,7 @@ class Chunks {
   explicit Chunks(Extents shape);
 
   std::size_t count() const { return count_; }
-  /// Where the first number of a chunk stands.
+  /// The index of the first number of a chunk.
   Extents corner(std::size_t chunk) const;
   /// Its entries, of so many numbers each.
   Piece entries(std::size_t chunk, int components) const;
@@ -39,7 +39,7 @@ class Chunks {
   std::size_t count_ = 1;
 };
 
-/// A chunk as it stands in a file.
+/// A chunk as it is stored in a file.
 struct PackedChunk {
   std::uint32_t skipped = 0;  ///< HDF5's mask of the filters that did not pay
   std::vector<std::byte> bytes;

@@ -28,7 +28,7 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// Keeps HDF5 from printing its errors while it lives, and other threads from calling HDF5, which knows only one.
+/// Keeps HDF5 from printing its errors while it lives, and other threads from calling HDF5, which supports only one.
 class Silence {
  public:
   Silence() : alone_(mutex_) {

@@ -29,7 +29,7 @@ class Hdf5Input {
   struct Placed {
     Array::Values type;        ///< no values, of the type that it has
     std::size_t count = 0;     ///< of numbers, whatever the shape
-    std::int64_t offset = -1;  ///< of the first in the file; -1 where they do not stand there as they do in memory
+    std::int64_t offset = -1;  ///< of the first in the file; -1 where their layout differs from that in memory
   };
   Placed placed(const std::string& name) const;
   /// A dataset that Hdf5File::text wrote.

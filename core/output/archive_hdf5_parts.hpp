@@ -35,7 +35,7 @@ class Hdf5Parts {
   std::string name_;
   Array::Values type_;
   std::size_t count_ = 0, bytes_ = 0;  ///< of a number
-  std::int64_t offset_ = -1;           ///< in the file; negative where the numbers do not stand there as in memory
+  std::int64_t offset_ = -1;           ///< in the file; negative where their layout differs from that in memory
 };
 
 }  // namespace tushar::output

@@ -126,7 +126,7 @@ void addPointCloud(pugi::xml_node grid, const Context& context, const ParticleBl
 
 Vec3 reversed(const Vec3& xyz) { return {xyz[2], xyz[1], xyz[0]}; }
 
-/// Where the first node of the nodes' grid stands: an axis that is not in use has its one node in the middle.
+/// The position of the first node of the nodes' grid: an axis that is not in use has its one node in the middle.
 Vec3 firstNode(const GridInfo& grid) {
   Vec3 at = grid.lower + grid.spacing / 2;
   for (const int axis : axesInUse(grid)) at[axis] = grid.lower[axis];

@@ -52,7 +52,7 @@ class Behind {
   void waitUntil(std::unique_lock<std::mutex>& lock, Condition&& condition);
 
   std::size_t most_ = 0;
-  std::size_t in_use_ = 0;  ///< bytes of buffers that have been handed out
+  std::size_t in_use_ = 0;  ///< bytes of buffers in use
   std::deque<Job> jobs_;
   std::vector<std::vector<std::byte>> spare_;
   long given_ = 0, done_ = 0;

@@ -75,7 +75,7 @@ void RunLog::end(const std::string& why, int step, int exitCode) {
   try {
     replaceFile(file_, textOf(runs));
   } catch (const FileError&) {
-    // The results are what matters, and their errors have been told.
+    // The results are what matters, and their errors have been reported.
   }
 }
 

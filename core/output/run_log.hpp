@@ -19,7 +19,7 @@ struct RunRecord {
 };
 
 /// `run.json` in the folder of an archive: the runs that wrote there, each start and restart, with dates (UTC). They
-/// stand here, not in outputs, so that equal results have equal bytes. A run without an end was killed.
+/// are here, not in outputs, so that equal results have equal bytes. A run without an end was killed.
 class RunLog {
  public:
   static constexpr int format = 1;

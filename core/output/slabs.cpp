@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little, "files have the bytes 
 
 namespace {
 
-/// Makes 4 bytes of each 8 of real numbers, where they stand.
+/// Makes 4 bytes of each 8 of real numbers, in place.
 std::span<std::byte> narrowed(std::span<std::byte> numbers) {
   const std::size_t count = numbers.size() / sizeof(double);
   for (std::size_t k = 0; k < count; ++k) {

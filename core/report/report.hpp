@@ -83,7 +83,7 @@ struct Report {
   std::vector<tasks::LeftOut> leftOut;
   std::string fingerprint;
   std::string archive;                     ///< folder, if anything was saved
-  std::vector<std::string> unusedOptions;  ///< given to PETSc, which no solve has looked at
+  std::vector<std::string> unusedOptions;  ///< given to PETSc, which no solve has used
 };
 
 /// The report as JSON, with the keys that tools/README.md lists.

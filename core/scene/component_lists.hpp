@@ -6,7 +6,7 @@
 
 #include "core/simulation/component.hpp"
 
-// What the task lists of a component say about it.
+// Properties of a component that follow from its task lists.
 
 namespace tushar::scene {
 

@@ -25,9 +25,9 @@ bool isGlobal(const std::string& label) { return label.size() < 2 || label[1] !=
 void refuseTwice(const Analysis& analysis, const Element& module, TakenByModules& taken) {
   for (const report::MeasuredError& error : analysis.errors())
     if (const std::string what = error.field + ", " + error.place; !taken.measured.insert(what).second)
-      refuse(module, fmt::format("the errors of '{}' are measured by a module above already; keep one", what));
+      refuse(module, fmt::format("a module above already measures the errors of '{}'; keep one", what));
   if (!analysis.energies().empty() && !taken.measured.insert("energies").second)
-    refuse(module, "a module above keeps the energy budget already; keep one");
+    refuse(module, "a module above already has the energy budget; keep one");
   tasks::TaskList tasks;
   analysis.schedule(tasks);
   std::set<std::string> computed;
@@ -36,7 +36,7 @@ void refuseTwice(const Analysis& analysis, const Element& module, TakenByModules
       if (access.kind == tasks::AccessKind::computes) computed.emplace(access.label->name);
   for (const std::string& name : computed)
     if (!taken.computed.insert(name).second)
-      refuse(module, fmt::format("'{}' is computed by a module above already; keep one", name));
+      refuse(module, fmt::format("a module above already computes '{}'; keep one", name));
 }
 
 void refuseSharedFiles(const std::vector<std::unique_ptr<Analysis>>& analyses,
@@ -51,8 +51,8 @@ void refuseSharedFiles(const std::vector<std::unique_ptr<Analysis>>& analyses,
       if (!isFree)
         diagnostics.error(
             file.where, "DataAnalysis/Module",
-            fmt::format("would write '{}' of the archive, which {} needs; keep one, or choose another name", file.path,
-                        other->second));
+            fmt::format("would overwrite '{}' of the archive, which {} needs; keep one, or choose another name",
+                        file.path, other->second));
     }
 }
 

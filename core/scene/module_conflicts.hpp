@@ -9,7 +9,7 @@
 #include "core/input/element.hpp"
 #include "core/simulation/analysis.hpp"
 
-// What two modules of a scene cannot both have.
+// Conflicts between two modules of a scene.
 
 namespace tushar::scene {
 

@@ -122,7 +122,7 @@ struct ReadModule {
   MakeAnalysis make;
 };
 
-/// The modules of a scene. Where its component is not known, `loads` is false: then their names alone are looked at, as
+/// The modules of a scene. Where its component is not known, `loads` is false: then only their names are checked, as
 /// a library that is missing may take minutes to build.
 std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalogue, bool loads,
                                     Diagnostics& diagnostics) {
@@ -175,7 +175,7 @@ void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, co
                   "attribute 'interval': ", diagnostics);
 }
 
-/// The same of what analysis modules sample by time.
+/// The same for what analysis modules sample by time.
 void checkIntervals(const TimeSettings& time, const std::vector<ReadModule>& modules, Diagnostics& diagnostics) {
   for (const ReadModule& module : modules)
     if (const auto tag = module.element.child("outputInterval"))
@@ -228,7 +228,7 @@ Trial tryOut(const MakeComponent& make) {
   return {};
 }
 
-/// Gives variables that Uintah calls otherwise their name here, with a note; each is saved once.
+/// Replaces Uintah's names of variables by those used here, with a note; each is saved once.
 void renameLabels(const simulation::OtherNames& names, std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   std::vector<SaveRequest> kept;
   for (SaveRequest& save : saves) {
@@ -243,7 +243,7 @@ void renameLabels(const simulation::OtherNames& names, std::vector<SaveRequest>&
   saves = std::move(kept);
 }
 
-/// Names what is wrong with the labels that are saved and sampled. Takes out, with a note, what Uintah has and nobody
+/// Names what is wrong with the labels that are saved and sampled. Takes out, with a note, what Uintah has and no task
 /// here.
 void checkLabels(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
                  std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {

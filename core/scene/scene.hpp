@@ -24,7 +24,7 @@ void describeSharedSections(std::ostream& out, const simulation::Catalogue& cata
 
 /// The `Time` section.
 simulation::TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnostics);
-/// Refuses an interval [s] at `element` that the times of a run could not resolve; `what` stands before the message.
+/// Refuses an interval [s] at `element` that the times of a run could not resolve; `what` precedes the message.
 void checkInterval(double interval, const simulation::TimeSettings& time, const input::Element& element,
                    const std::string& what, input::Diagnostics& diagnostics);
 /// The `DataArchiver` section.
@@ -44,7 +44,7 @@ AmrSettings readAmr(const input::Element& section, const simulation::ComponentKi
 /// the component lacks.
 simulation::RegridSettings settled(AmrSettings amr, const simulation::Component& component,
                                    input::Diagnostics& diagnostics);
-/// What a component understands of the sides of a grid.
+/// The conditions at sides of a grid that a component supports.
 struct SideWords {
   std::vector<grid::BoundaryVariable> labels = {};
   bool takesParts = false;     ///< parts of a side with conditions of their own

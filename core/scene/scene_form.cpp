@@ -44,7 +44,7 @@ void addSection(Schema<Unread>& root, const std::string& tag, const SchemaBase& 
   addTag(root, form, schema.sentence());
 }
 
-/// A name as it stands and, as Uintah writes it, in capitals.
+/// A name as it is and, as Uintah writes it, in capitals.
 std::vector<std::string> spellings(const std::string& name) {
   std::string capitals = name;
   std::transform(name.begin(), name.end(), capitals.begin(), [](unsigned char c) { return std::toupper(c); });

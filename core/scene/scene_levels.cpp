@@ -83,7 +83,7 @@ constexpr int mostLevels = 16;         ///< of a tree of blocks,
 constexpr int mostBlocks = 1 << 20;    ///< and the most of its finest blocks along an axis
 constexpr int fewestCellsOfBlock = 4;  ///< along an axis in use
 
-/// A tag of `Regridder` where it is given, else what stands in for it.
+/// A tag of `Regridder` where it is given, else its substitute.
 Element tagOr(const AmrSettings& amr, const std::string& tag, const Element& other) {
   const auto regridder = amr.tag ? amr.tag->child("Regridder") : std::nullopt;
   const auto given = regridder ? regridder->child(tag) : std::nullopt;

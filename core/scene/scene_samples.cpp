@@ -20,14 +20,14 @@ namespace {
 
 constexpr const char* path = "DataAnalysis/Module";
 
-/// What the variables of a scene can be, and of what.
+/// The variables and materials that a scene can name.
 struct Known {
   Phases phases;
   simulation::OtherNames names;
   tasks::Names labels;
   std::set<std::string> foreign;
   std::vector<std::string> materials;  ///< by their numbers in the scene
-  std::set<std::string> told;          ///< names of materials that a note is about
+  std::set<std::string> noted;         ///< names of materials that a note is about
 
   Known(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses)
       : phases(component, analyses), names(otherNames(component, analyses)), labels(phases.saveable()) {
@@ -51,8 +51,7 @@ int numberOf(const std::string& word, const Known& known, std::string& problem) 
   problem = number.value ? fmt::format("there is no material {}; they are counted from 0 to {}", word, count - 1)
             : all.empty()
                 ? fmt::format("there is no material '{}': the variables of this component belong to none", word)
-                : fmt::format("there is no material '{}'{}; there {} {}", word, didYouMean(word, all),
-                              all.size() == 1 ? "is" : "are", allOf(all));
+                : fmt::format("there is no material '{}'{}; available: {}", word, didYouMean(word, all), allOf(all));
   return -1;
 }
 
@@ -66,9 +65,10 @@ void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagno
   std::string problem;
   variable.material = numberOf(request.material, known, problem);
   if (variable.material < 0 && isLoneMaterial(request.material, known)) {  // as Uintah takes it
-    if (known.told.insert(request.material).second)
-      diagnostics.note(request.whereOfMaterial, path,
-                       fmt::format("'{}' is taken for the only material, '{}'", request.material, known.materials[0]));
+    if (known.noted.insert(request.material).second)
+      diagnostics.note(
+          request.whereOfMaterial, path,
+          fmt::format("'{}' is understood as the only material, '{}'", request.material, known.materials[0]));
     variable.material = 0;
     problem.clear();
   }
@@ -79,9 +79,10 @@ void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagno
     request.material.clear();
     return;
   } else if (variable.material >= static_cast<int>(bodies.size())) {
-    diagnostics.error(request.where, path,
-                      fmt::format("'{}' is no variable of the gas '{}'; give matl, the number of a body from 0 to {}",
-                                  variable.called, known.materials[variable.material], bodies.size() - 1));
+    diagnostics.error(
+        request.where, path,
+        fmt::format("'{}' is not a variable of the gas '{}'; give matl, the number of a body from 0 to {}",
+                    variable.called, known.materials[variable.material], bodies.size() - 1));
   } else {
     request.material = bodies[variable.material];
     return;

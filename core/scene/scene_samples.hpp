@@ -17,8 +17,8 @@ simulation::OtherNames otherNames(const simulation::Component& component,
 /// The name here of a variable that a scene may call as Uintah does; any other name as it is.
 std::string nameHere(const simulation::OtherNames& names, const std::string& name);
 
-/// Gives the variables that modules look at the names and materials that they have here, and takes out, with a note,
-/// what Uintah has and nobody computes here. Names materials that there are not, and variables that are neither of
+/// Gives the variables that modules sample the names and materials that they have here, and takes out, with a note,
+/// what Uintah has and no task computes here. Names materials that there are not, and variables that are neither of
 /// cells nor of nodes.
 void settleSamples(const simulation::Component& component,
                    const std::vector<std::unique_ptr<simulation::Analysis>>& analyses, input::Diagnostics& diagnostics);

@@ -50,7 +50,7 @@ void checkKind(const ConditionSection& condition, const Element& element, Diagno
     diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
 }
 
-/// Choices whose words stand for themselves.
+/// Choices that are their own words.
 input::Choices<std::string> wordsOf(const std::vector<std::string>& words) {
   input::Choices<std::string> choices;
   for (const std::string& word : words) choices.emplace_back(word, word);

@@ -50,7 +50,7 @@ class Analysis {
   /// The variables among samples() whose names the scene replaces where they are Uintah's; it removes those that no
   /// task computes. Null if there are none.
   virtual std::vector<SampledVariable>* variables() { return nullptr; }
-  /// The variables of the module itself that Uintah calls otherwise.
+  /// Uintah's names of the module's own variables, where they differ.
   virtual OtherNames otherNames() const { return {}; }
   /// The layers of the grid in which sample() needs them, without particles; if there are none, everywhere.
   virtual std::vector<collect::Layer> layers() const { return {}; }

@@ -12,7 +12,7 @@ using report::Rebalancing;
 
 /// Decides when patches change ranks.
 ///
-/// At the start by cells and particles. Later by what tasks have taken on each patch, looked at after 8, 16, 32 and
+/// At the start by cells and particles. Later by what tasks have taken on each patch, compared after 8, 16, 32 and
 /// then every 64 steps: where over the steps that have been measured other shares would have saved more time than the
 /// last change took.
 class Balance {

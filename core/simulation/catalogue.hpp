@@ -22,7 +22,7 @@ using MakeComponent = std::function<std::unique_ptr<Component>(const grid::Level
 /// A section that a component reads, for the schemas of editors.
 struct SectionForm {
   std::string name;
-  const input::SchemaBase* schema = nullptr;  ///< null: anything may stand in it
+  const input::SchemaBase* schema = nullptr;  ///< null: it may contain anything
   bool required = true;
   std::vector<input::Demand> demands = {};  ///< what else must hold for the schema to apply
 };
@@ -46,7 +46,7 @@ struct ComponentKind {
   bool takesFormulasAtSides = false;  ///< whether values of its conditions may be formulas
   /// Tags of AMR for its thresholds, besides the one of `sections` that has its name.
   std::vector<std::string> amrSections;
-  /// Paths of tags whose labelled shapes their siblings can use, even those that stand above: `MaterialProperties/MPM`.
+  /// Paths of tags whose labelled shapes their siblings can use, even those further up: `MaterialProperties/MPM`.
   std::vector<std::string> readFirst;
 };
 
@@ -59,7 +59,8 @@ struct AnalysisKind {
   std::string sentence;
   std::function<MakeAnalysis(const input::Element& module, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;
-  std::function<const input::SchemaBase*()> schema = {};  ///< of the tag; where it is empty, anything may stand in it
+  std::function<const input::SchemaBase*()> schema =
+      {};  ///< of the tag; where it is empty, the tag may contain anything
 };
 
 /// The entry of that name, or null.

@@ -29,7 +29,7 @@ class Component {
   virtual bool mayRepeatStep() const { return false; }
   /// Variables that Uintah's component of this kind computes, whether or not this one does.
   virtual std::vector<std::string> foreignLabels() const { return {}; }
-  /// The variables that Uintah's component of this kind calls otherwise.
+  /// Variables with another name in Uintah's component of this kind.
   virtual OtherNames otherNames() const { return {}; }
   /// What of the scene has no effect on its grid.
   virtual std::vector<InputProblem> notes() const { return {}; }

@@ -56,8 +56,8 @@ Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
   return names;
 }
 
-/// What the next step needs of a step, without what is computed anew before each, and with the ids of particles if
-/// there are any.
+/// The variables of a step that the next one needs, without what is computed anew before each, and with the ids of
+/// particles if there are any.
 std::vector<std::string> namesOfState(Names needed, const Names& decided, const Names& computed) {
   std::erase_if(
       needed, [&](const std::string& name) { return decided.contains(name) || name == data::recomputeTimeStep.name; });
@@ -73,7 +73,7 @@ std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>&
   return samples;
 }
 
-/// What lists read of the old state.
+/// The variables of the old state that lists read.
 Names requiredByAll(std::initializer_list<const Pruned*> lists) {
   Names names;
   for (const Pruned* list : lists) names.merge(requiredOfState(list->kept));
@@ -197,15 +197,14 @@ std::vector<InputProblem> Phases::problemsOf(const std::vector<SaveRequest>& sav
   std::vector<InputProblem> problems;
   for (const SaveRequest& save : named(saves)) {
     if (!known.contains(save.label))
-      problems.push_back({save.where, path,
-                          fmt::format("no task of this component computes '{}'{}; there {} {}", save.label,
-                                      didYouMean(save.label, {known.begin(), known.end()}),
-                                      known.size() == 1 ? "is" : "are", allOf({known.begin(), known.end()}))});
-    else if (!save.material.empty() && !isMaterial(save.material))
       problems.push_back(
-          {save.whereOfMaterial, path,
-           fmt::format("there is no material '{}'{}; there {} {}", save.material, didYouMean(save.material, materials_),
-                       materials_.size() == 1 ? "is" : "are", allOf(materials_))});
+          {save.where, path,
+           fmt::format("no task of this component computes '{}'{}; available: {}", save.label,
+                       didYouMean(save.label, {known.begin(), known.end()}), allOf({known.begin(), known.end()}))});
+    else if (!save.material.empty() && !isMaterial(save.material))
+      problems.push_back({save.whereOfMaterial, path,
+                          fmt::format("there is no material '{}'{}; available: {}", save.material,
+                                      didYouMean(save.material, materials_), allOf(materials_))});
   }
   return problems;
 }
@@ -261,10 +260,9 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
     if (label && label->centring == data::Centring::cell && label->number == data::Number::real)
       criteria.push_back({one, label, diagnosed.contains(one.variable)});
     else
-      problems.push_back(
-          {one.where, one.path,
-           fmt::format("'{}' is not a cell variable that this component computes{}; there {} {}", one.variable,
-                       didYouMean(one.variable, known), known.size() == 1 ? "is" : "are", allOf(known))});
+      problems.push_back({one.where, one.path,
+                          fmt::format("'{}' is not a cell variable that this component computes{}; available: {}",
+                                      one.variable, didYouMean(one.variable, known), allOf(known))});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   return estimating(lists_.diagnostics, std::move(criteria), lists_.errorEstimate);

@@ -46,7 +46,7 @@ class MarkedBlocks {
   /// Calls `visit(block)` for each of a box of them, once for each mark: cells of a row often have the same box.
   template <class Visit>
   void forEachNear(const grid::Level& level, const grid::Box& blocks, int mark, Visit&& visit);
-  /// Steps' worth of cells of a level.
+  /// The cells of a level that signals can cross until the next regridding.
   int crossed(const grid::Level& level) const { return ((interval_ - 1) >> (grid_.levels() - 1 - level.number())) + 1; }
 
   using Seen = std::array<int, 8>;  ///< level, mark, and corners of a box of blocks

@@ -67,7 +67,7 @@ struct Criterion {
 struct RegridSettings {
   bool adaptive = false;
   bool once = false;  ///< at the start only
-  int interval = 8;   ///< steps from one look at the grid to the next
+  int interval = 8;   ///< steps from one regridding to the next
   int dilation = 1;   ///< cells around those that signals can reach until then
   bool refluxes = true;
   std::vector<Criterion> criteria;

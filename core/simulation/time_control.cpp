@@ -61,19 +61,19 @@ double TimeControl::repeat(const data::Minimum& asked) {
   const double dt = del_t_ * std::clamp(asked.value, 0.1, 0.9);
   const std::string where = fmt::format("(step {}, time {:.6g} s)", step_ + 1, time_);
   const std::string advice =
-      "whatever keeps the bound of " + std::string(asked.reason.text()) + ", or a lower delt_min";
+      "whatever keeps " + std::string(asked.reason.text()) + " within its bound, or a lower delt_min";
   if (repeats_ == most_repeats_)
     throw NumericalError(
-        fmt::format("the bound of {} would still break with a time step of {:.6g} s, after {} repeats {}",
+        fmt::format("{} would still violate its bound with a time step of {:.6g} s, after {} repeats {}",
                     asked.reason.text(), del_t_, most_repeats_, where),
         advice);
   if (dt < settings_.deltMin || time_ + dt == time_)
-    throw NumericalError(
-        fmt::format(
-            "the bound of {} would break unless the time step fell to {:.6g} s, below {} {}", asked.reason.text(), dt,
-            dt < settings_.deltMin ? fmt::format("delt_min = {:.6g} s", settings_.deltMin) : "what advances time",
-            where),
-        advice);
+    throw NumericalError(fmt::format("{} would violate its bound unless the time step fell to {:.6g} s, below {} {}",
+                                     asked.reason.text(), dt,
+                                     dt < settings_.deltMin ? fmt::format("delt_min = {:.6g} s", settings_.deltMin)
+                                                            : "the least that advances time",
+                                     where),
+                         advice);
   ++retries_;
   ++repeats_;
   limit_ = asked.reason;

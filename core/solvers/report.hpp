@@ -9,7 +9,7 @@
 
 namespace tushar::solvers {
 
-// What a scene may save of a solve.
+// The results of a solve that a scene may save.
 inline constexpr data::ReductionLabel<data::Maximum> assemblyTime{"AssemblyTime", "s",
                                                                   "filling the matrix of the last solve"};
 inline constexpr data::ReductionLabel<data::Maximum> preconditionerTime{"PreconditionerTime", "s",

@@ -15,9 +15,10 @@ struct Unknowns {
   const mpi::Communicator* ranks = &mpi::Communicator::alone();  ///< those that solve together
   int block = 1;                                                 ///< unknowns of a cell or node
   int owned = 0;                                                 ///< blocks of this rank
-  std::vector<int> ghosts;   ///< blocks of other ranks: where they stand among the blocks of all, rank after rank
+  std::vector<int> ghosts;   ///< blocks of other ranks: their numbers among the blocks of all, rank after rank
   std::vector<int> entries;  ///< of each owned block row: at most so many blocks are not zero
-  /// Where the owned blocks stand, `block` numbers each [m]: gives multigrid the rigid motions of a solid. Empty: none.
+  /// The positions of the owned blocks, `block` numbers each [m]: gives multigrid the rigid motions of a solid. Empty:
+  /// none.
   std::vector<double> coordinates;
   bool constantIsFree = false;  ///< a constant added to the solution makes another one: that of mean 0 is taken
 };

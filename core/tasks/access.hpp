@@ -12,7 +12,7 @@ namespace tushar::tasks {
 /// The patches of a rank, in the order of their ids.
 using RankPatches = std::vector<const grid::Patch*>;
 
-/// An access as an argument of a task: it says what is used, and becomes one parameter of the body.
+/// An access as an argument of a task: it declares what is used, and becomes one parameter of the body.
 template <class Label, AccessKind Kind>
 struct FieldAccess;
 
@@ -54,7 +54,7 @@ struct FieldAccess<data::ReductionLabel<R>, Kind> {
   }
 };
 
-/// A plain value handed to the body.
+/// A plain value passed to the body.
 template <class T>
 struct PlainArgument {
   T value;
@@ -62,7 +62,7 @@ struct PlainArgument {
   const T& bind(const TaskContext&) const { return value; }
 };
 
-/// Hands a task that sees the whole rank the ranks that run it together: all that have patches.
+/// For a task that sees the whole rank: passes the ranks that run it together, all that have patches.
 struct RanksArgument {
   void declare(std::vector<Access>&) {}
   const mpi::Communicator& bind(const TaskContext& context) const { return context.ranks(); }
@@ -181,7 +181,7 @@ struct TimeArgument {
   double bind(const TaskContext& context) const { return context.time(); }
 };
 inline TimeArgument startTime() { return {}; }
-/// Hands `value` to the body as it is.
+/// Passes `value` to the body unchanged.
 template <class T>
 PlainArgument<T> with(T value) {
   return {std::move(value)};

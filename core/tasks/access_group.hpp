@@ -8,7 +8,7 @@
 
 namespace tushar::tasks {
 
-/// Stands for a view while a group only declares its accesses.
+/// Takes the place of a view while a group only declares its accesses.
 template <class View>
 struct Blank {
   static View make() { return View{}; }
@@ -51,7 +51,7 @@ class DeclareEach {
   std::vector<Access>* accesses_;
 };
 
-/// Hands out the views of the same accesses, in the same order.
+/// Returns the views of the same accesses, in the same order.
 class BindEach {
  public:
   BindEach(const TaskContext& context, int first) : context_(&context), next_(first) {}

@@ -51,10 +51,10 @@ std::string textOf(const double* numbers, int count) {
   return count == 1 ? text : "(" + text + ")";
 }
 
-/// Where a value stands among all: number of cell or node, and id.
+/// The place of a value among all: number of cell or node, and id.
 using Order = std::array<std::uint64_t, 2>;
 
-/// What a look at all values of a variable comes to.
+/// The result of a search through all values of a variable.
 struct Found {
   long seen = 0, broken = 0;
   Order first{};  ///< of the first broken value
@@ -171,8 +171,8 @@ class Search {
     return text + fmt::format(", but must be {}", data::textOf(bound_));
   }
   std::string howMany(const char* what) const {
-    return found_.broken == 1 ? fmt::format("no other of {} {} is broken", found_.seen, what)
-                              : fmt::format("{} of {} {} are broken", found_.broken, found_.seen, what);
+    return fmt::format("{} of {} {} {} out of bounds", found_.broken, found_.seen, what,
+                       found_.broken == 1 ? "is" : "are");
   }
 
   /// The value that the particle had at the start of the step, where it was then; none for one that is new.

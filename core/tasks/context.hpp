@@ -13,7 +13,7 @@
 
 namespace tushar::tasks {
 
-/// A declared access of a placed task: which variable, and where its particles stand.
+/// A declared access of a placed task: which variable, and in which slots its particles are.
 struct BoundAccess {
   int variable = -1;  ///< -1: an offered output that is left out
   data::Generation generation = data::Generation::fresh;

@@ -172,7 +172,7 @@ void Exchange::copyNear(const BoundGhostFill& fill, const GhostCopy& copy) {
   });
 }
 
-/// Where a copy goes: to the patch, or to the faces of its rim for what stands behind them.
+/// Where a copy goes: to the patch, or to the faces of its rim for the values behind them.
 CellValues Exchange::valuesAt(const BoundGhostFill& fill, const GhostCopy& copy) {
   const Variable to = warehouse_->variable(fill.generation, fill.variable, copy.to);
   if (copy.rim < 0) return {to.values, to.stored};
@@ -249,7 +249,7 @@ void Exchange::linkLocalGhosts(const BoundGhostFill& fill) {
   const int material = warehouse_->table()[fill.variable].material;
   const std::vector<Patch>& patches = warehouse_->grid().patches();
   const int first = warehouse_->grid().firstPatch();
-  std::vector<char> hasSome;  // by place: most patches may be empty, and their neighbours need not look at their sets
+  std::vector<char> hasSome;  // by place: most patches may be empty, and their neighbours need not visit their sets
   for (const Patch& patch : patches)
     hasSome.push_back(warehouse_->particles(fill.set, material, patch.id()).owned() > 0);
   const GhostPlan& plan = planOf(fill);

@@ -27,7 +27,7 @@ void forEachRowOf(const grid::Box& box, std::size_t bytes, Visit&& visit) {
   grid::forEach<3>(box.rowStarts(), [&](const Index3& first) { visit(first, length); });
 }
 
-/// Where the value of a cell or node stands.
+/// The address of the value of a cell or node.
 template <class Values>
 std::byte* valueAt(const Values& values, const Index3& place, std::size_t bytes) {
   return values.values + values.stored.offset(place) * bytes;

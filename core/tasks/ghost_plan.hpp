@@ -16,7 +16,7 @@ struct GhostCopy {
   int from, to;            ///< patches
   int rank;                ///< that has `from`
   grid::Box box;           ///< cells or nodes around `to`
-  Index3 shift;            ///< in cells: what stands at `box` stands at `box` - shift on `from`
+  Index3 shift;            ///< in cells: the values of `box` are at `box` - shift on `from`
   bool isMean = false;     ///< each cell is the mean of the finer ones that `from` has in it
   int coarse = -1;         ///< the coarse cells that it fills, among those of `to`; -1: the ghosts themselves
   int rim = -1;            ///< of fluxes: the piece of the rim of `to` that it fills

@@ -9,7 +9,7 @@ namespace tushar::tasks {
 /// Marks of cells: 0 for nothing, 1 for no coarser cells, 2 for finer ones.
 inline constexpr data::CellLabel<int> refinementMark{"c.refinementMark", "1", "marks of the refinement criteria"};
 
-/// Says where the cells of a patch must be finer. Several criteria mark the same cells: of a cell the finest counts.
+/// Marks where the cells of a patch must be finer. If several criteria mark a cell, the finest counts.
 class Marks {
  public:
   explicit Marks(const data::CellView<int>& marks) : marks_(marks) {}
@@ -40,14 +40,14 @@ struct MarksAccess {
     return Marks(context.grid<data::Centring::cell, int>(index, refinementMark));
   }
 };
-/// Hands the body Marks. For perPatch tasks of Component::scheduleErrorEstimate.
+/// Passes Marks to the body. For perPatch tasks of Component::scheduleErrorEstimate.
 inline MarksAccess marks() { return {}; }
 
 struct NewCellsAccess {
   void declare(std::vector<Access>&) {}
   const std::vector<grid::Box>& bind(const TaskContext& context) const { return context.newCells(); }
 };
-/// Hands the body the boxes of the patch's cells that regridding has made of coarser ones, a const std::vector<Box>&.
+/// Passes the body the boxes of the patch's cells that regridding has made of coarser ones, a const std::vector<Box>&.
 /// For tasks of Component::scheduleRefine.
 inline NewCellsAccess newCells() { return {}; }
 

@@ -10,7 +10,7 @@
 
 namespace tushar::tasks {
 
-/// Which nodes of the patches of this rank stand near particles: of variables that count only there
+/// Which nodes of the patches of this rank are near particles: of variables that count only there
 /// (data::Counts::nearParticles), patches give one another no others.
 ///
 /// A patch that computes a node sees all particles that touch it, so it alone can decide whether any does. Where ghosts

@@ -8,7 +8,7 @@
 
 namespace tushar::tasks {
 
-/// A particle variable that outlives a relocation, and where its values stand before.
+/// A particle variable that outlives a relocation, and where its values are before.
 struct Carried {
   int variable;
   data::Generation from;

@@ -21,7 +21,7 @@ using mpi::Bytes;
 
 namespace {
 
-/// Writes what stands on patches: the particles of all by cell, then each variable, behind a byte that says whether
+/// Writes the values of patches: the particles of all by cell, then each variable, behind a byte that says whether
 /// there is one.
 class PatchPacker {
  public:

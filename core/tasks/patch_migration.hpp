@@ -12,7 +12,7 @@ struct MigratedVariables {
 };
 
 /// Redistributes the patches of the grid to the ranks, each with its variables. Ghosts are left to the next exchange;
-/// all else that stands on patches is lost. All ranks that share the grid call it, between two steps.
+/// all other values of patches are lost. All ranks that share the grid call it, between two steps.
 void migratePatches(grid::Grid& grid, data::Warehouse& warehouse, const MigratedVariables& migrated,
                     const grid::RankOffsets& offsets);
 

@@ -24,7 +24,7 @@ struct Stage {
   int ready = -1;  ///< the task after which all of it may be sent, which no earlier stage is read after; -1: at once
 };
 
-/// Where the particles of an access stand: the old set until the list relocates or makes particles, then the new.
+/// The slots of the particles of an access: the old set until the list relocates or makes particles, then the new.
 std::vector<data::Generation> particleSetsBefore(const std::vector<Task>& tasks);
 
 /// Step 5 of compiling: `plan[t]` is what is exchanged before task t.

@@ -47,7 +47,7 @@ std::string whyNot(const Task& task) {
   std::string results;
   for (const Access& access : task.accesses)
     if (access.writes()) results += fmt::format("{}{}", results.empty() ? "" : ", ", access.label->name);
-  return fmt::format("nobody reads or saves {}", results.empty() ? "its results" : results);
+  return fmt::format("nothing reads or saves {}", results.empty() ? "its results" : results);
 }
 
 std::vector<Task> select(const std::vector<Task>& tasks, const std::vector<bool>& kept) {

@@ -232,7 +232,7 @@ class Luggage {
   std::vector<int> cells_, particles_;
 };
 
-/// What ranks send one another: the counts of all pieces, then the values of all.
+/// The messages between ranks: the counts of all pieces, then the values of all.
 std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, const grid::Partition& owners,
                             const Luggage& luggage) {
   const Pieces pieces(grid.tiling(), next, grid.dimension(), grid.levels());

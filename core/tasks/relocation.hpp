@@ -161,7 +161,7 @@ class Relocation {
   static void mergeCell(PatchMoves& moves, const data::ParticleRange& before, int firstIncoming, const ParticleId* ids,
                         std::size_t& nextDeparted);
   void carry(const Carried& carried, std::size_t place, data::Generation to, int material, Moves& moves);
-  /// Sets the values of departing particles aside.
+  /// Stores the values of departing particles.
   static void pack(const Move& move, std::size_t place, const PatchMoves& moves);
   /// Moves the particles that stay to their new places, and inserts those that arrive.
   void moveOn(const Move& move, std::size_t place, Moves& moves);

@@ -104,7 +104,7 @@ class TaskList {
   void add(Task task);
 
  private:
-  /// What the body of a task is called for at once.
+  /// What one call of a body covers.
   enum class Sees { patch, allMaterials, rank };
 
   void add(std::string_view name, TaskKind kind, std::vector<std::string>&& materials, std::vector<Access>&& accesses,

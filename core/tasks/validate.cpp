@@ -62,7 +62,7 @@ class Validator {
       complain(task, access, "is computed a second time; use modifies to change it");
   }
 
-  /// Patches of a rank read one another's particles where they stand; only new particles wait until all are made.
+  /// Patches of a rank read one another's particles in place; only new particles wait until all are made.
   static bool isGhostsOfParticles(const Access& access) {
     return access.kind == AccessKind::requiresNew && access.ghost > 0 &&
            access.label->centring == data::Centring::particle;

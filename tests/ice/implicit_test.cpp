@@ -194,8 +194,8 @@ TEST(ImplicitIce, RefusesSeveralLevels) {
   EXPECT_EQ(problemOf(changedScene(sod, "    </Level>\n",
                                    "    </Level>\n    <Level><Box label=\"fine\"><lower>[0.25,0,0]</lower>"
                                    "<upper>[0.5,1,1]</upper><resolution>[50,1,1]</resolution></Box></Level>\n")),
-            "'ice' needs a grid of one level: the pressure of an <ImplicitSolver> is solved for on one; "
-            "CFD/ICE/explicit=true passes over it");
+            "'ice' needs a grid of one level: an <ImplicitSolver> solves for the pressure on one level; "
+            "CFD/ICE/explicit=true switches it off");
 }
 
 }  // namespace tushar::ice

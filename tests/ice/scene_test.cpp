@@ -136,7 +136,7 @@ TEST(IceScene, RefusesAShareOfAGasAlone) {
 
 TEST(IceScene, RefusesSolids) {
   EXPECT_EQ(problemOf(changedScene(sod, "<MaterialProperties>", "<MaterialProperties><MPM/>")),
-            "'ice' has no solids: keep the gas alone");
+            "'ice' has no solids: keep only the gas");
 }
 
 TEST(IceScene, RefusesOtherEquationsOfState) {
@@ -224,7 +224,7 @@ TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
 
 TEST(IceScene, RefusesModels) {
   EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"Steady_Burn\"/></Models>\n  <CFD>")),
-            "of type 'Steady_Burn' is not available; take it out: a PassiveScalar is carried along, and nothing burns");
+            "of type 'Steady_Burn' is not available; take it out: PassiveScalar is the only type");
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {

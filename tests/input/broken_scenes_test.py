@@ -105,10 +105,10 @@ OVERRIDES = {
                           "'jitterd', expected 'midpoint', 'jittered' or 'random' (did you mean 'jittered'?)"),
     "unknown saved label": ("DataArchiver/save[1]/@label=p.densty",
                             "DataArchiver/save: no task of this component computes "
-                            "'p.densty' (did you mean 'p.density'?); there are 'CellError.density'"),
+                            "'p.densty' (did you mean 'p.density'?); available: 'CellError.density'"),
     "unknown saved material": ("DataArchiver/save[1]/@material=gass",
                                "DataArchiver/save: there is no material 'gass' (did you "
-                               "mean 'gas'?); there is 'gas'"),
+                               "mean 'gas'?); available: 'gas'"),
     "checkpoint without interval": ("DataArchiver/checkpoint/@cycle=2",
                                     "DataArchiver/checkpoint: gives none of interval, "
                                     "timestepInterval, walltimeInterval and walltimeIntervalHours; give one"),
@@ -122,7 +122,7 @@ OVERRIDES = {
                                       "max_particles"),
     "ambiguous override": (MATERIAL + "geom_object/cfl=1", f"--set {MATERIAL}geom_object/cfl=1: 2 tags <geom_object> "
                                                            f"match in <material>; "
-                           "say which one, as geom_object[1] or geom_object["),
+                           "say which one, such as geom_object[1] or geom_object["),
     "override without a value": ("Time/maxTime", "--set Time/maxTime: expected PATH=VALUE, such as Time/maxTime=0.2"),
 }
 
@@ -264,7 +264,7 @@ class BrokenScenes(unittest.TestCase):
 
     def test_a_mass_projection_that_cannot_be_measured(self):
         for sets, sentence in (((BOX + "resolution=[20,2,1]",),
-                                "works in one dimension, as its theorem does, and this grid has 2"),
+                                "works in one dimension, like its theorem, but this grid has 2"),
                                ((GAS + "volume_model=tracked",), "volume_model is tracked; use cell_share")):
             self.assert_refused(run("ups/mpm/mass_projection.ups", *sets, outputs=True), sentence)
         self.assert_refused(run("ups/heat/sine.ups", "DataAnalysis/Module[2]/@name=massProjection", outputs=True),

@@ -114,7 +114,7 @@ TEST(Document, RefusesTagsThatAreNestedTooDeep) {
   for (int k = 0; k < 200000; ++k) text += "</a>";
 
   EXPECT_EQ(problemsOf(text + "</Uintah_specification>"),
-            Lines{"s.ups:1:321: tags are nested more than 100 deep here"});
+            Lines{"s.ups:1:321: tags are nested more than 100 levels deep here"});
 }
 
 TEST(Document, SaysThatTheRootIsAnother) {

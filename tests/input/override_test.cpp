@@ -63,9 +63,10 @@ TEST(Override, AddsAnAttribute) {
 }
 
 TEST(Override, SaysThatAPathIsAmbiguous) {
-  EXPECT_EQ(problemsOf("Grid/Level/Box/patches=[1,1,1]"),
-            Lines{"--set Grid/Level/Box/patches=[1,1,1]: 2 tags <Box> match in <Level>; say which one, as Box[1] or "
-                  "Box[@label='…']"});
+  EXPECT_EQ(
+      problemsOf("Grid/Level/Box/patches=[1,1,1]"),
+      Lines{"--set Grid/Level/Box/patches=[1,1,1]: 2 tags <Box> match in <Level>; say which one, such as Box[1] or "
+            "Box[@label='…']"});
 }
 
 TEST(Override, SaysThatASiblingDoesNotExist) {

@@ -125,7 +125,7 @@ REFUSED = {
          "Version: found '3', expected 1, 11, 12: stresses return to the nearest point of a surface with corners"),
     "a rigid body without a contact":
         (BEAM, ('<material name="rubber">', '<material name="rubber"><is_rigid>true</is_rigid>'),
-         "is_rigid: needs a <contact> of type rigid or specified, whose master the material is"),
+         "is_rigid: needs a <contact> of type rigid or specified, with this material as its master"),
     "volumes that are shared by what goes by rates":
         (BEAM, (RUBBER, '<constitutive_model type="hypo_elastic"><G>1</G><K>1</K>'),
          "DoPressureStabilization: with <time_integrator> implicit only "
@@ -141,7 +141,7 @@ REFUSED = {
     "a metal without a heat capacity":
         (SPALL, ("<specific_heat>383</specific_heat>", ""), "missing tag <specific_heat>"),
     "a metal without a heat capacity in implicit steps":
-        (BEAM, (RUBBER, METAL + HARDENS), "missing tag <specific_heat>: elastic_plastic heats by its work"),
+        (BEAM, (RUBBER, METAL + HARDENS), "missing tag <specific_heat>: elastic_plastic is heated by plastic work"),
     "obstacles without an energy":
         (BEAM, (RUBBER, METAL + MTS), "g_0i, edot_0i and q_i must be greater than 0 where p_i is"),
     "friction in implicit steps":

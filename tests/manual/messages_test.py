@@ -53,7 +53,7 @@ class Messages(unittest.TestCase):
         texts = {template.text for template in self.templates}
         self.assertGreater(len(texts), 300)
         for text in ("unknown tag <{}> in <{}>{}{}", "the time step became {} s (step {}, time {} s)",
-                     "another run is writing to '{}'; wait for its end, or end it"):
+                     "another run is writing to '{}'; wait until it ends, or stop it"):
             self.assertIn(text, texts)
 
     def test_the_numbers_stay(self):

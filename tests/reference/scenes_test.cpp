@@ -155,10 +155,9 @@ TEST(DiagonalTubeScene, RefusesWhatTheGridCannotHold) {
   EXPECT_EQ(problemOf(scene, {normal + "[1,1.1,0]"}),
             "normal: along it the grid repeats every 1.34535 m for one axis, but every 1.47988 m for another");
   EXPECT_EQ(problemOf(scene, {normal + "[0,0,0]"}), "normal is [0,0,0], which is no direction");
-  EXPECT_EQ(
-      problemOf(scene, {"DataAnalysis/Module/diaphragm=1"}),
-      "The diaphragm must stand between two mirrors, which are 0.707107 m apart along the tube, but it is 0.707107 "
-      "m from the first.");
+  EXPECT_EQ(problemOf(scene, {"DataAnalysis/Module/diaphragm=1"}),
+            "The diaphragm must lie between two mirrors, which are 0.707107 m apart along the tube, but it is 0.707107 "
+            "m from the first.");
 }
 
 TEST(DiagonalTubeScene, LeavesErrorsOutOnceItsWavesHaveMet) {

@@ -90,7 +90,7 @@ class EnergyBudget(unittest.TestCase):
     def test_is_kept_once(self):
         result = run(BILLET, BUDGET, BUDGET.replace("/@name", "[2]/@name"), outputs=True)
         self.assertEqual(result.code, 3)
-        self.assertIn("a module above keeps the energy budget already; keep one", result.err)
+        self.assertIn("a module above already has the energy budget; keep one", result.err)
 
     def test_what_is_summed_can_be_saved(self):
         sets = ("Time/max_Timesteps=50", "DataArchiver/save[1]/@label=ContactWork",

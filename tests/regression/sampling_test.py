@@ -171,7 +171,7 @@ class Sampling(ModuleTest):
                    module("minMax", "<material>air</material>", ("press_CC", "vel_CC")))
         ended = sus(self.scene(modules, CHANNEL), "-check", options=())
         self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertEqual((ended.stderr + ended.stdout).count("'air' is taken for the only material, 'gas'"), 1)
+        self.assertEqual((ended.stderr + ended.stdout).count("'air' is understood as the only material, 'gas'"), 1)
 
     def test_what_a_module_cannot_show_is_refused(self):
         wrong = {
@@ -227,29 +227,29 @@ class Twice(ModuleTest):
     def test_the_same_variable(self):
         for name, file in ({"minMax": "MinMax/c.density_0"} | {"lineExtract": "along_x/c.density_0"}).items():
             self.refused(module(name, LINES if name == "lineExtract" else "", ("c.density", "c.density")),
-                         f"would write '{file}' of the archive, which the tag at ")
+                         f"would overwrite '{file}' of the archive, which the tag at ")
 
     def test_two_modules_of_the_same_files(self):
         average = "<planeOrientation>{}</planeOrientation>"
         self.refused(module("planeAverage", average.format("XY")) + module("planeAverage", average.format("XZ")),
-                     "would write 'planeAverage/c.density_0' of the archive, which the tag at ",
-                     "would write 'planeAverage/c.velocity_0' of the archive")
+                     "would overwrite 'planeAverage/c.density_0' of the archive, which the tag at ",
+                     "would overwrite 'planeAverage/c.velocity_0' of the archive")
         self.refused(module("lineExtract", LINES) + module("planeExtract", PLANES.replace('"part"', '"along_x"')),
-                     "would write 'along_x' of the archive, which the tag at ")
+                     "would overwrite 'along_x' of the archive, which the tag at ")
         slices = '<Module name="slice"><plane>z = 0</plane><label>c.density</label>' \
                  "<outputTimestepInterval>1</outputTimestepInterval></Module>"
-        self.refused(slices + slices.replace("z = 0", "z=0.0"), "would write 'slice/z=0' of the archive")
+        self.refused(slices + slices.replace("z = 0", "z=0.0"), "would overwrite 'slice/z=0' of the archive")
 
     def test_a_box_with_the_name_of_a_saved_global(self):
         box = '<Module name="controlVolFluxes"><samplingFrequency>1e10</samplingFrequency><timeStart>0</timeStart>' \
               '<timeStop>9</timeStop><controlVolumes><box label="TotalMass"><min>[-1,-1,-1]</min><max>[1,1,1]</max>' \
               "</box></controlVolumes></Module>"
-        self.refused(box, "would write 'TotalMass.dat' of the archive, which the saved 'TotalMass' needs; keep one, or "
+        self.refused(box, "would overwrite 'TotalMass.dat' of the archive, which the saved 'TotalMass' needs; keep one, or "
                      "choose another name", save='<save label="TotalMass"/>')
-        self.refused(box.replace("TotalMass", "A") * 2, "is computed by a module above already; keep one")
+        self.refused(box.replace("TotalMass", "A") * 2, "a module above already computes 'A'; keep one")
 
     def test_a_variable_that_two_modules_compute(self):
-        self.refused(VORTICITY * 2, "'c.vorticity' is computed by a module above already; keep one")
+        self.refused(VORTICITY * 2, "a module above already computes 'c.vorticity'; keep one")
 
     def test_what_differs_by_its_material_or_folder_is_taken(self):
         self.run_in("both", self.with_modules(VORTEX, module("minMax") + module("lineExtract", LINES)), *SMALL)

@@ -75,7 +75,7 @@ TEST(OnlyWhatIsNeeded, AVariableThatNobodyReadsIsNeverAllocated) {
     Simulation run(std::move(problem), options, std::chrono::steady_clock::now());
     run.tryStart();
     const int volume = run.warehouse().table().find("p.volume", 0);
-    EXPECT_EQ(volume, -1) << "nobody reads p.volume, so no task of it is bound";
+    EXPECT_EQ(volume, -1) << "nothing reads p.volume, so no task of it is bound";
     return run.warehouse().allocations();
   };
 

@@ -179,12 +179,12 @@ TEST(TimeControl, SaysWhyAStepCannotBeRepeatedAnyMore) {
   EXPECT_EQ(whatOf([&] {
               limited.repeat({0.5, "density"});
             }),
-            "the bound of density would break unless the time step fell to 0.0625 s, below delt_min = 0.1 s (step 1, "
+            "density would violate its bound unless the time step fell to 0.0625 s, below delt_min = 0.1 s (step 1, "
             "time 0 s)");
   EXPECT_EQ(whatOf([&] {
               unlimited.repeat({0.5, "density"});
             }),
-            "the bound of density would still break with a time step of 2.38419e-07 s, after 20 repeats (step 1, time "
+            "density would still violate its bound with a time step of 2.38419e-07 s, after 20 repeats (step 1, time "
             "0 s)");
 }
 

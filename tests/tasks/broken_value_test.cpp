@@ -156,7 +156,8 @@ TEST(BrokenValue, SaysWhichParticleWhereWhenAndWhatIsAroundIt) {
       EXPECT_EQ(
           planted<1>(test::domain({{8, 1, 1}}, {{patches, 1, 1}}), {{7, -0.5}, {9, nan}}, relocated),
           "p.density became -0.5 kg/m^3 from 1.07, but must be greater than 0: particle 7 in cell (3) at x = 0.46875 "
-          "m; around it: 2 in its cell, 2, 2 in cell (2), 2, nan in cell (4); 2 of 16 particles are broken (task "
+          "m; around it: 2 in its cell, 2, 2 in cell (2), 2, nan in cell (4); 2 of 16 particles are out of bounds "
+          "(task "
           "plant, patch *, material gas, step 7, time 0.5 s)");
 }
 
@@ -189,12 +190,12 @@ TEST(BrokenValue, SaysWhichCellOrNode) {
       const grid::Domain tube = test::domain({{5, 1, 1}}, {{patches, 1, 1}});
       EXPECT_EQ(plantedOnGrid<1>(tube, heat, Index<1>{{4}}, value),
                 fmt::format("c.heat became {} J from 1, but must be at least 0: cell (4) at x = 0.9 m; around it: 3 in "
-                            "cell (3); no other of 5 cells is broken (task plant, patch *, step 7, time 0.5 s)",
+                            "cell (3); 1 of 5 cells is out of bounds (task plant, patch *, step 7, time 0.5 s)",
                             value));
       EXPECT_EQ(
           plantedOnGrid<1>(tube, mass, Index<1>{{2}}, value),
           fmt::format("g.mass became {} kg from 1, but must be at least 0: node (2) at x = 0.4 m; around it: 3 in "
-                      "node (1), 3 in node (3); no other of 6 nodes is broken (task plant, patch *, step 7, time "
+                      "node (1), 3 in node (3); 1 of 6 nodes is out of bounds (task plant, patch *, step 7, time "
                       "0.5 s)",
                       value));
     }
@@ -205,7 +206,7 @@ TEST(BrokenValue, SaysWhereInTwoDimensions) {
     EXPECT_EQ(
         plantedOnGrid<2>(test::domain({{5, 3, 1}}, patches), mass, Index<2>{{0, 1}}, nan),
         "g.mass became nan kg from 1, but must be at least 0: node (0, 1) at x = (0, 0.2) m; around it: 3 in node (1, "
-        "1), 3 in node (0, 0), 3 in node (0, 2); no other of 24 nodes is broken (task plant, patch *, step 7, time "
+        "1), 3 in node (0, 0), 3 in node (0, 2); 1 of 24 nodes is out of bounds (task plant, patch *, step 7, time "
         "0.5 s)");
 }
 
@@ -226,7 +227,7 @@ TEST(BrokenValue, IsFoundInEachMaterialOfATaskForAllOfThem) {
     EXPECT_EQ(
         failure(run, graph),
         "c.heat became -1 J, but must be at least 0: cell (2) at x = 0.625 m; around it: 3 in cell (1), 3 in cell (3); "
-        "no other of 4 cells is broken (task mix, patch *, material " +
+        "1 of 4 cells is out of bounds (task mix, patch *, material " +
             two[bad].name + ", step 7, time 0.5 s)");
   }
 }
@@ -267,7 +268,7 @@ TEST(BrokenValue, IsFoundInNewParticles) {
   EXPECT_EQ(
       failure(run, begin),
       "p.velocity became (0, nan) m/s, but must be finite: particle 2 in cell (2) at x = 0.625 m; around it: none in "
-      "its cell, (0, 0) in cell (1), (0, 0) in cell (3); no other of 4 particles is broken (task create, patch *, "
+      "its cell, (0, 0) in cell (1), (0, 0) in cell (3); 1 of 4 particles is out of bounds (task create, patch *, "
       "material gas, step 7, time 0.5 s)");
 }
 

@@ -142,7 +142,7 @@ TEST(Prune, KeepsTheChainToAWantedVariableAndSaysWhyTheRestIsLeftOut) {
   EXPECT_EQ(names(pruned.kept), (std::vector<std::string>{"makeA", "makeB"}));
   ASSERT_EQ(pruned.leftOut.size(), 1u);
   EXPECT_EQ(pruned.leftOut[0].task, "makeC");
-  EXPECT_EQ(pruned.leftOut[0].reason, "nobody reads or saves c.c");
+  EXPECT_EQ(pruned.leftOut[0].reason, "nothing reads or saves c.c");
 }
 
 TEST(Prune, KeepsAllTasksThatAddToAReduction) {

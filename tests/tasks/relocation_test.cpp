@@ -84,7 +84,7 @@ void inspect(const Patch& patch, const Material&, ParticleView<const Vec<D>> pos
   });
 }
 
-/// When particles are looked at: still in the step, or when it counts.
+/// When particles are examined: still in the step, or when it counts.
 enum class Look { inStep, afterwards };
 
 /// Positions by id after some steps, and what `inspect` found on the way.
@@ -226,7 +226,8 @@ TEST(Relocation, RefusesToLetParticlesThroughASymmetryPlaneOrToNowhere) {
   EXPECT_EQ(
       shifted(std::nan(""), false, dropped),
       "p.x became nan m from 0, but must be finite: particle 0 in cell (0) at x = 0 m; around it: nan, nan in its "
-      "cell, nan, nan, nan in cell (1); 24 of 24 particles are broken; patch 0 (task relocate, material gas, step "
+      "cell, nan, nan, nan in cell (1); 24 of 24 particles are out of bounds; patch 0 (task relocate, material gas, "
+      "step "
       "7, time 0.5 s)");
 }
 

@@ -7,7 +7,7 @@ namespace tushar::euler {
 
 namespace {
 
-/// T stands where a State has the density, and nothing where it has the pressure.
+/// T takes the place of the density in a State; that of the pressure is unused.
 inline constexpr std::size_t kTemperature = kDensity;
 
 /// Distances in memory of neighbours, and 1/h, along each axis.

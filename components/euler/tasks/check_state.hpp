@@ -26,7 +26,7 @@ bool canBe(const StiffenedGas& gas, const double* density, const double* momentu
   }
   return broken == 0;
 }
-/// The same of a gas with a law of its own, whose heat must be positive.
+/// The same for a gas with its own law, whose heat must be positive.
 template <int D, class Law>
 bool canBe(const Law& law, const double* density, const double* momentum, const double* totalEnergy, int count) {
   for (int i = 0; i < count; ++i) {

@@ -3,8 +3,9 @@
 #include "components/euler/fluxes.hpp"
 #include "components/euler/rows.hpp"
 
-// The equations, as loops over the cells of a row. No turn of a loop reads what another one writes, which the compiler
-// is told by ivdep; all loops but that of the exact flux vectorise, to the same bits of a cell wherever its row begins.
+// The equations, as loops over the cells of a row. No iteration of a loop reads what another one writes, which
+// ivdep tells the compiler; all loops but that of the exact flux vectorise, to the same bits of a cell wherever its row
+// begins.
 
 namespace tushar::euler {
 

@@ -227,7 +227,7 @@ void computeScalar(const Patch& patch, CellView<const double> density, CellView<
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { value[cell] = held[cell] / density[cell]; });
 }
 
-/// What the patch holds of a scalar [kg].
+/// The amount of a scalar on the patch [kg].
 template <int D>
 void sumScalar(const Patch& patch, CellView<const double> held, Sum& total) {
   WideSum sum(total);

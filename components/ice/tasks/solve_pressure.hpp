@@ -6,7 +6,7 @@
 
 namespace tushar::ice {
 
-/// How the last solve went.
+/// The report of the last solve.
 struct SolveTotals {
   Maximum &iterations, &assembly, &preconditioner, &solution;
 

@@ -5,7 +5,7 @@
 
 namespace tushar::mpm {
 
-// Shape functions along an axis, in units of the cell width: `xi` in [0,1] is where the particle stands in its cell,
+// Shape functions along an axis, in units of the cell width: `xi` in [0,1] is the position of the particle in its cell,
 // `size` its extent. Each fills the values and derivatives at consecutive nodes and returns the first node's number,
 // where 0 is the lower node of the cell. A Real is a number, or a Quad of one for each axis, for all axes at once. No
 // particle touches a node that is `support` cells away or more.

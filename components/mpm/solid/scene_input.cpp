@@ -118,8 +118,8 @@ void checkHeat(const Problem& problem, const Element& root, Diagnostics& diagnos
     const Material& material = problem.materials[m];
     if (material.specificHeat > 0) continue;
     if (material.model->changesTemperature())
-      diagnostics.error(tags[m],
-                        "missing tag <specific_heat>: " + std::string(material.model->name()) + " heats by its work");
+      diagnostics.error(tags[m], "missing tag <specific_heat>: " + std::string(material.model->name()) +
+                                     " is heated by plastic work");
     else if (material.thermalConductivity > 0 || sharesHeat)
       diagnostics.error(tags[m], "missing tag <specific_heat>: it conducts heat");
   }

@@ -18,7 +18,7 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
     {"DoCapDensity", "take it out: density is not capped"},
     {"DoGranularMPM", "take it out"},
     {"DoDefGradAveraging", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
-    {"use_volume_integral", "take it out: particles stand for their volume"},
+    {"use_volume_integral", "take it out: particles represent their volume"},
     {"restartOnLargeNodalVelocity", "recompute_timestep in <Time> repeats a step that fails"},
 };
 

@@ -10,7 +10,7 @@
 
 namespace tushar::mpmice {
 
-/// What the gas of each cell gives to walls in a step, and what flows through open faces, where something asks for it.
+/// What the gas of each cell gives to walls in a step, and what flows through open faces, where something needs it.
 template <int D>
 struct OfferedExchange {
   std::optional<CellView<Vec<D>>> impulse;
@@ -35,7 +35,7 @@ void addToSum(const Patch& patch, CellView<const T> part, CellView<const T> befo
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { now[cell] = before[cell] + part[cell]; });
 }
 
-/// The same of heat, by coefficients and, where walls conduct, through them.
+/// The same for heat, by coefficients and, where walls conduct, through them.
 template <int D>
 void addHeatToSum(const Patch& patch, CellView<const double> heat, const std::optional<CellView<const double>>& walls,
                   CellView<const double> before, CellView<double> now) {

@@ -139,7 +139,7 @@ const Schema<Polyhedron>& Polyhedron::schema() {
                                            .list("half_space", &Planes::list, space, "a plane", 4);
   static const Schema<Polyhedron> schema =
       Schema<Polyhedron>("polyhedron", "A convex body that planes bound.")
-          .foreignAttribute("label", "an empty tag with this label, further down, stands for this shape")
+          .foreignAttribute("label", "an empty tag with this label, further down, refers to this shape")
           .foreignAttribute("name", "another word for label")
           .required("center", &Polyhedron::center, "m", "a point within")
           .requiredSection("bounds", &Polyhedron::planes, planes)

@@ -6,7 +6,7 @@
 
 #include "core/input/geometry/shapes.hpp"
 
-// What the scene says of each shape, and what makes it degenerate.
+// The tags of each shape, and what makes it degenerate.
 
 namespace tushar::input {
 
@@ -16,7 +16,7 @@ namespace {
 template <class T>
 Schema<T> shapeSchema(const std::string& name, const std::string& sentence) {
   Schema<T> schema(name, sentence);
-  schema.foreignAttribute("label", "an empty tag with this label, further down, stands for this shape");
+  schema.foreignAttribute("label", "an empty tag with this label, further down, refers to this shape");
   schema.foreignAttribute("name", "another word for label");
   return schema;
 }

@@ -89,7 +89,7 @@ const Schema<SmoothCylinder>& SmoothCylinder::schema() {
   using Self = SmoothCylinder;
   static const Schema<Self> schema = [] {
     Schema<Self> tags("smoothcyl", "A hollow cylinder whose particles, in a body of their own, follow its surface.");
-    tags.foreignAttribute("label", "an empty tag with this label, further down, stands for this shape")
+    tags.foreignAttribute("label", "an empty tag with this label, further down, refers to this shape")
         .foreignAttribute("name", "another word for label")
         .choice("discretization_scheme", &Self::scheme,
                 {{"pie_slices", Scheme::pieSlices}, {"constant_particle_volumes", Scheme::constantVolumes}},

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t headerBytes = 84, facetBytes = 50;  ///< of a binary file: 80 letters and a count; a facet
 
-/// What a file holds, or why nothing can be had of it.
+/// The contents of a file, or why it cannot be used.
 struct Read {
   Triangles triangles;
   std::string problem;

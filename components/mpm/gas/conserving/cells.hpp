@@ -53,7 +53,7 @@ void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscos
                      CellView<const double> internalEnergy, CellView<const Tensor<D>> gradient,
                      CellView<double> pressure, CellView<double> artificial, CellView<double> shock);
 
-/// The stress on the faces of a cell [Pa]. apic: p + q. affineFlip: P cof(I + dt/2 grad v), on the faces as they stand
+/// The stress on the faces of a cell [Pa]. apic: p + q. affineFlip: P cof(I + dt/2 grad v), on the faces where they are
 /// half a step later, with P = p clamp(1 - gamma dt div v / 2, .3, 2) + q, the pressure half a step later.
 template <int D, class Scheme>
 void computeStress(const Patch& patch, const Gas& gas, CellView<const double> pressure,

@@ -43,8 +43,8 @@ inline constexpr CellLabel<double> pressure{"c.pressure", "Pa",
 inline constexpr CellLabel<double> viscosity{"c.viscosity", "Pa", "artificial viscosity of the cell", Bound::finite};
 inline constexpr CellLabel<double> shock{"c.shock", "1", "whether a shock runs through the cell: 0 to 1"};
 template <int D>
-inline constexpr CellLabel<Tensor<D>> stress{"c.stress", "Pa",
-                                             "pressure and viscosity on the faces as they stand half a step later"};
+inline constexpr CellLabel<Tensor<D>> stress{
+    "c.stress", "Pa", "pressure and viscosity on the faces at their positions half a step later"};
 inline constexpr CellLabel<double> work{"c.work", "1", "relative change of the internal energy by compression"};
 inline constexpr CellLabel<double> movedMass{"c.movedMass", "kg", "mass in the cell before the remap"};
 inline constexpr CellLabel<double> movedEnergy{"c.movedEnergy", "J", "internal energy in the cell before the remap"};

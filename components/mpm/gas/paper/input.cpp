@@ -71,7 +71,7 @@ void checkSeeds(const Redistribution& how, int dimension) {
   throw InputError(
       {{how.where, "MPM/gas_dynamics/redistribute",
         fmt::format("target_particles: {} in a cell become {}, {} along each of {} axes, but max_particles is "
-                    "{}; lower the one or raise the other",
+                    "{}; lower one or raise the other",
                     how.targetParticles, seeds, along, dimension, how.maxParticles)}});
 }
 

@@ -79,11 +79,12 @@ class MassProjection : public simulation::Analysis {
 /// Why the module cannot measure this run; empty if it can.
 std::string misfit(const GasMpm<1>* mpm, const Level& level) {
   if (level.dimension() > 1)
-    return fmt::format("works in one dimension, as its theorem does, and this grid has {}; take the module out",
+    return fmt::format("works in one dimension, like its theorem, but this grid has {}; take the module out",
                        level.dimension());
-  if (!mpm) return "measures the <gas_dynamics> of the component mpm, and this scene runs none; take the module out";
+  if (!mpm)
+    return "measures the <gas_dynamics> of the component mpm, which this scene does not run; take the module out";
   if (mpm->method().volumeModel != VolumeModel::cellShare)
-    return "measures particles that share their cell's volume, and volume_model is tracked; use cell_share";
+    return "measures particles that share their cell's volume, but volume_model is tracked; use cell_share";
   return {};
 }
 

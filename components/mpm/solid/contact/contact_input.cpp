@@ -197,7 +197,7 @@ const Schema<ContactSection>& contactSchema() {
   return schema;
 }
 
-/// The numbers of a file that stands beside the scene, `columns` a line.
+/// The numbers of a file next to the scene, `columns` a line.
 std::vector<double> readTable(const Element& tag, const std::string& path, std::size_t columns,
                               Diagnostics& diagnostics) {
   std::ifstream file(path);

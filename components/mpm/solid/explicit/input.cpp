@@ -157,7 +157,7 @@ void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& d
     diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to update the velocity: choose one");
 }
 
-/// Tags of Uintah's that only implicit steps look at.
+/// Tags of Uintah's that only implicit steps read.
 constexpr std::array implicitOnly{"with_gauss_solver",
                                   "dynamic",
                                   "solver",
@@ -281,7 +281,7 @@ void checkCorners(const Problem& problem, const Element& root, Diagnostics& diag
       diagnostics.error(pressure, "missing tag <outward_normal>: needed with <use_CBDI_boundary_condition>");
 }
 
-/// What contacts cannot have together with other parts of the method.
+/// Refuses settings of contacts that other parts of the method exclude.
 void checkContactsOfMethod(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Contact& contact : problem.contacts) {
     if (problem.start.axisymmetric && contact.volumeConstraint > 0 && !contact.usesPlanes())
@@ -307,14 +307,14 @@ void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagno
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <DoExplicitHeatConduction> true");
 }
 
-/// What a scene says of its solids.
+/// The settings of the solids of a scene.
 struct ReadSolids {
   Interpolator interpolator;
   Problem problem;
   Location where;  ///< of <MPM>
 };
 
-/// What a scene of solids says; nothing if it has problems, which all go to the diagnostics.
+/// Reads a scene of solids; nothing if it has problems, which all go to the diagnostics.
 std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const MpmSection read = besideGas ? simulation::readOptionalSection(root, mpmSchema(), diagnostics)

@@ -17,7 +17,7 @@ struct Reads {
 };
 inline constexpr Reads readsOld{false}, readsNew{true};
 
-/// What the schedule asks of shape functions.
+/// What the schedule needs from shape functions.
 struct ShapeTraits {
   bool haveSizes = false;  ///< they depend on the sizes of particles
   bool deform = false;     ///< they follow F

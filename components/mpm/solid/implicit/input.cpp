@@ -126,7 +126,7 @@ void settleMasters(const Element& root, std::vector<Contact>& contacts, Diagnost
     if (!rigid || rigid->text() != "true") continue;
     if (isKnown) diagnostics.error(*rigid, "only one material can be rigid, the master of the contacts");
     if (std::none_of(contacts.begin(), contacts.end(), isSpecified))
-      diagnostics.error(*rigid, "needs a <contact> of type rigid or specified, whose master the material is");
+      diagnostics.error(*rigid, "needs a <contact> of type rigid or specified, with this material as its master");
     isKnown = true;
     for (Contact& contact : contacts)
       if (isSpecified(contact)) contact.master = static_cast<int>(m);
@@ -174,9 +174,9 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
     if (material.erosion.acts() || !onlyCounts(material.damage))
       diagnostics.error(where,
                         "'" + material.name +
-                            "' may come to bear less than its model says: only with "
-                            "<time_integrator> explicit; here <damage_model> hancock_mackenzie and johnson_cook count "
-                            "damage, without <erosion>");
+                            "' may lose strength: only with "
+                            "<time_integrator> explicit; here <damage_model> hancock_mackenzie and johnson_cook only "
+                            "accumulate damage, without <erosion>");
   for (const Contact& contact : problem.contacts) {
     if (contact.type == Contact::Type::friction || contact.usesPlanes())
       diagnostics.error(where,

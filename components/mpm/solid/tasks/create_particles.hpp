@@ -34,11 +34,10 @@ inline int loadsOn(const Level& level, const Start& start, const Material& mater
     ++number;
     if (!acts) return;
     if (factor > 65536)
-      throw InputError(
-          {{body.where, "geom_object",
-            fmt::format("more than three loads act on the particle at ({:g}, {:g}, {:g}) m; a particle can "
-                        "bear three",
-                        point[0], point[1], point[2])}});
+      throw InputError({{body.where, "geom_object",
+                         fmt::format("more than three loads act on the particle at ({:g}, {:g}, {:g}) m; the most is "
+                                     "three",
+                                     point[0], point[1], point[2])}});
     ids += factor * number;
     factor *= 256;
   };

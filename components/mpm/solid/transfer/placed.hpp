@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// What shape functions read of the particles of a material: their positions, sizes and deformations.
+/// The variables of the particles of a material that shape functions read: their positions, sizes and deformations.
 template <class Shape, int D = Shape::dimension>
 struct Placed {
   ParticleView<const Vec<D>> x;             ///< m

@@ -19,7 +19,7 @@ struct NodeWindow {
 /// third.
 using RowFactors = Quad;
 
-/// What the second axis gives to the factors of rows j, and the third to those of rows k.
+/// Factors of rows j from the second axis, and of rows k from the third.
 template <class Stencil>
 [[gnu::always_inline]] inline RowFactors secondFactors(const Stencil& stencil, std::size_t j) {
   return __builtin_shufflevector(stencil.s[j], stencil.ds[j], 1, 5, 1, 1);
