@@ -121,19 +121,28 @@ Threads::~Threads() = default;
 void Threads::resize(int count) {
   if (count == count_) return;
   count_ = count;
+  counted_outside_ = false;
   pool_.reset();
   if (count > 1) pool_ = std::make_unique<Pool>(count);
 }
 
 void Threads::run(int times, const Loop& loop, trace::Kind kind) {
+  if (counted_outside_ && times == 1) return loop.call(loop.called, 0);
   FirstFailure failure;
   const auto watched = [&](int k) { failure.watch(k, [&] { loop.call(loop.called, k); }); };
+  const auto workAlone = [&] {
+    for (int k = 0; k < times; ++k) watched(k);
+  };
+  if (counted_outside_) {
+    workAlone();
+    return failure.rethrow();
+  }
   const auto from = Clock::now();
   Clock::duration busy{};
   if (pool_ && times > 1)
     busy = pool_->run(times, watched);
   else
-    for (int k = 0; k < times; ++k) watched(k);
+    workAlone();
   const Clock::duration wall = Clock::now() - from;
   (kind == trace::Kind::message ? use_.message : use_.task) += seconds(pool_ && times > 1 ? busy : wall);
   use_.loops += seconds(wall);

@@ -51,6 +51,15 @@ class Threads {
   };
   const Use& use() const { return use_; }
 
+  /// Has loops that one thread works through alone read no clock: their caller, who reads it anyway, counts their time.
+  void countOutside(bool outside) { counted_outside_ = outside && !pool_; }
+  bool isCountedOutside() const { return counted_outside_; }
+  /// Counts the time [s] of loops that did not read the clock.
+  void count(double seconds, trace::Kind kind) {
+    (kind == trace::Kind::message ? use_.message : use_.task) += seconds;
+    use_.loops += seconds;
+  }
+
  private:
   struct Loop {
     const void* called;
@@ -60,6 +69,7 @@ class Threads {
   void run(int times, const Loop& loop, trace::Kind kind);
 
   int count_ = 1;
+  bool counted_outside_ = false;
   Use use_;
   std::unique_ptr<Pool> pool_;  ///< none for one thread
 };

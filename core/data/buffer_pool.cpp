@@ -96,9 +96,10 @@ void BufferPool::release() {
 }
 
 void BufferPool::beginStep() {
-  const auto used = std::stable_partition(free_.begin(), free_.end(), [](const Free& one) { return one.isIdle; });
-  for (auto it = free_.begin(); it != used; ++it) free_bytes_ -= it->buffer.capacity();
-  free_.erase(free_.begin(), used);
+  std::erase_if(free_, [this](const Free& one) {
+    if (one.isIdle) free_bytes_ -= one.buffer.capacity();
+    return one.isIdle;
+  });
   for (Free& one : free_) one.isIdle = true;
   most_lent_before_ = std::exchange(most_lent_, lent_);
   keepBound();

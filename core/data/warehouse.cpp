@@ -148,11 +148,14 @@ std::size_t Warehouse::valuesWithCopies(const Layout& layout, int number) const 
   return layout.slots->end + (table_->ghost(number) > 0 ? layout.mostCopies : 0);
 }
 
+/// Little memory stays with its variable for the next step: to give it back and to find it again takes longer than to
+/// use it.
 void Warehouse::free(Generation generation, int number) {
+  constexpr std::size_t little = std::size_t{1} << 13;
   Storage& freed = storage(generation, number);
   freed.held = false;
   freed.slots.reset();
-  pool_.takeBack(freed.memory);
+  if (freed.memory.capacity() > little) pool_.takeBack(freed.memory);
 }
 
 void Warehouse::layOut(Generation generation, int material, Generation base) {

@@ -36,6 +36,8 @@ class Exchange {
   /// Waits for the messages of others and fills the rest. False if another rank has stopped; then
   /// nothing more is filled, and this rank must stop too, before it reads values that are missing.
   bool finish();
+  /// Whether no patch has ghosts at all: then there is nothing to send, to begin or to finish.
+  bool movesNothing() const;
   /// Between the two calls above: whether there are messages to wait for.
   bool isUnderWay() const { return !senders_.empty(); }
   /// Between the two calls above: whether the patch at this place of the rank has all its ghosts.
@@ -53,7 +55,6 @@ class Exchange {
   }
 
  private:
-  bool movesNothing() const;
   void post(bool hasStopped);
   /// The copies between patches of this rank.
   void fillFromHere();

@@ -7,11 +7,17 @@
 
 namespace tushar::tasks {
 
+/// Copies one value; most have eight bytes.
+inline void copyValue(const std::byte* from, std::byte* to, std::size_t bytes) {
+  bytes == sizeof(double) ? std::memcpy(to, from, sizeof(double)) : std::memcpy(to, from, bytes);
+}
+
 /// `run.count` elements of `bytes` bytes from place `run.from` to place `run.to`.
 template <class Run>
 inline void moveRun(const Run& run, const std::byte* from, std::byte* to, std::size_t bytes) {
-  std::memmove(to + static_cast<std::size_t>(run.to) * bytes, from + static_cast<std::size_t>(run.from) * bytes,
-               static_cast<std::size_t>(run.count) * bytes);
+  to += static_cast<std::size_t>(run.to) * bytes;
+  from += static_cast<std::size_t>(run.from) * bytes;
+  if (to != from) std::memmove(to, from, static_cast<std::size_t>(run.count) * bytes);
 }
 
 /// Moves runs of elements of `bytes` bytes, which may be within the same memory: those that go up from the last to the

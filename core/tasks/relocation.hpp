@@ -3,6 +3,7 @@
 #include <compare>
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -114,6 +115,7 @@ class Relocation {
     std::vector<PatchMoves> patches;
     ParticleMigration migration;
     bool goFar = false;
+    int id = -1;               ///< number of the variable of ids, once it is known
     std::size_t departed = 0;  ///< from their cells, on all patches
   };
   /// A variable in transit: its memory before and after on each patch, and the values of departed particles.
@@ -136,6 +138,8 @@ class Relocation {
     });
   }
   Moves& movesOf(int material);
+  /// The number of the variable of a material's ids.
+  int idOf(int material);
   PatchMoves& of(Moves& moves, int patch) { return moves.patches[patch - warehouse_->grid().firstPatch()]; }
   static void forgetIncoming(const grid::Patch& patch, PatchMoves& moves);
   template <int D>
@@ -158,6 +162,10 @@ class Relocation {
   void rebuild(const grid::Patch& patch, int material, PatchMoves& moves);
   static void keepAll(PatchMoves& moves, int count);
   static void keep(PatchMoves& moves, int first, int count);
+  /// Appends the cells from `from` to `end` as long as none of their particles leave and none come in, and notes the
+  /// places in `to`; how many cells.
+  static int keepCells(PatchMoves& moves, std::span<const data::ParticleRange> from, const int* firstIncoming,
+                       std::size_t nextDeparted, data::ParticleRange* to);
   static void mergeCell(PatchMoves& moves, const data::ParticleRange& before, int firstIncoming, const ParticleId* ids,
                         std::size_t& nextDeparted);
   void carry(const Carried& carried, std::size_t place, data::Generation to, int material, Moves& moves);

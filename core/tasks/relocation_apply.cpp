@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "core/tasks/move_runs.hpp"
@@ -62,10 +63,10 @@ void Relocation::receiveAll(Moves& moves) {
 }
 
 void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
-  const int id = warehouse_->table().find(data::particleId.name, material);
   const ParticleSet& before = warehouse_->particles(Generation::old, material, patch.id());
   ParticleSet& after = warehouse_->particles(Generation::fresh, material, patch.id());
-  const auto* ids = reinterpret_cast<const ParticleId*>(warehouse_->variable(Generation::old, id, patch.id()).values);
+  const auto* ids = reinterpret_cast<const ParticleId*>(
+      warehouse_->variable(Generation::old, moves_[material].id, patch.id()).values);
   after.reset(patch, warehouse_->table().reach(material));
   moves.runs.clear();
   moves.entries.clear();
@@ -79,14 +80,12 @@ void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
     const ParticleRange* from = before.row(cell);
     ParticleRange* to = after.row(cell);
     const int* firstIncoming = &moves.firstIncoming[patch.cells().offset(cell)];
-    for (int k = 0; k < rowLength; ++k, ++from, ++to) {
+    for (int k = 0; k < rowLength; ++k) {
+      k += keepCells(moves, {from + k, from + rowLength}, firstIncoming + k, nextDeparted, to + k);
+      if (k == rowLength) break;
       const int first = moves.count;
-      const bool stays = nextDeparted == moves.departed.size() || moves.departed[nextDeparted] >= from->last;
-      if (stays && firstIncoming[k] < 0)
-        keep(moves, from->first, from->size());
-      else
-        mergeCell(moves, *from, firstIncoming[k], ids, nextDeparted);
-      *to = {first, moves.count};
+      mergeCell(moves, from[k], firstIncoming[k], ids, nextDeparted);
+      to[k] = {first, moves.count};
     }
     after.closeRow(cell);
   });
@@ -110,6 +109,21 @@ void Relocation::keep(PatchMoves& moves, int first, int count) {
   else
     moves.runs.push_back({moves.count, first, count});
   moves.count += count;
+}
+
+int Relocation::keepCells(PatchMoves& moves, std::span<const ParticleRange> from, const int* firstIncoming,
+                          std::size_t nextDeparted, ParticleRange* to) {
+  const int leaves =
+      nextDeparted < moves.departed.size() ? moves.departed[nextDeparted] : std::numeric_limits<int>::max();
+  const int cells = static_cast<int>(from.size());
+  int k = 0, count = moves.count, first = 0;
+  for (; k < cells && from[k].last <= leaves && firstIncoming[k] < 0; ++k) {
+    if (count == moves.count) first = from[k].first;
+    to[k].first = count;
+    to[k].last = count += from[k].size();
+  }
+  keep(moves, first, count - moves.count);
+  return k;
 }
 
 /// Appends the particles of one cell: those that stay, in their order, and those that come in between by id.
@@ -168,7 +182,7 @@ void Relocation::pack(const Move& move, std::size_t place, const PatchMoves& mov
   const std::byte* from = move.from + move.before->first[place] * move.bytes;
   std::byte* to = move.packed + moves.packed * move.bytes;
   for (const int one : moves.departed) {
-    std::memcpy(to, from + static_cast<std::size_t>(one) * move.bytes, move.bytes);
+    copyValue(from + static_cast<std::size_t>(one) * move.bytes, to, move.bytes);
     to += move.bytes;
   }
 }
@@ -188,7 +202,7 @@ void Relocation::moveOn(const Move& move, std::size_t place, Moves& all) {
       from = arrival.patch < 0 ? move.migrants + at * move.bytes
                                : move.packed + (of(all, arrival.patch).packed + at) * move.bytes;
     }
-    std::memcpy(values + static_cast<std::size_t>(entry.to) * move.bytes, from, move.bytes);
+    copyValue(from, values + static_cast<std::size_t>(entry.to) * move.bytes, move.bytes);
   }
 }
 

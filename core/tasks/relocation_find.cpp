@@ -65,8 +65,14 @@ Relocation::Moves& Relocation::movesOf(int material) {
   return moves;
 }
 
+int Relocation::idOf(int material) {
+  Moves& moves = movesOf(material);
+  if (moves.id < 0) moves.id = warehouse_->table().find(data::particleId.name, material);
+  return moves.id;
+}
+
 bool Relocation::find(int material, int position, bool hasStopped) {
-  const int id = warehouse_->table().find(data::particleId.name, material);
+  const int id = idOf(material);
   if (!hasStopped) switch (warehouse_->grid().dimension()) {
       case 1:
         findMoves<1>(material, position, id);

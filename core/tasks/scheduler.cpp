@@ -12,12 +12,11 @@
 
 namespace tushar::tasks {
 
-using Clock = std::chrono::steady_clock;
 using data::Generation;
 
 namespace {
 
-double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+double seconds(std::chrono::steady_clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 int firstMaterial(const CompiledTask& task) { return task.task.perMaterial() ? 0 : -1; }
 
@@ -136,13 +135,14 @@ void Scheduler::gatherReductions(const CompiledTask& task) {
 
 std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at) {
   if (graph.tasks().empty()) return std::nullopt;
+  const OneClock oneClock(threads_, warehouse_->ranks());
   start(graph, static_cast<int>(graph.tasks().size()));
   for (int t = 0; t < end_; ++t) {
+    CompiledTask& task = graph.tasks()[t];
     runTask(graph, t, at);
-    if (!hasStopped())
-      free(graph.tasks()[t]);
-    else if (warehouse_->ranks().isAlone())
-      break;
+    if (!hasStopped()) free(task);
+    task.seconds += lap(trace::Kind::task);
+    if (hasStopped() && warehouse_->ranks().isAlone()) break;
   }
   agree(graph);
   if (outcome_.isNone()) return std::nullopt;
@@ -153,7 +153,15 @@ std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at
   throw whatBroke(graph, at);
 }
 
+double Scheduler::lap(trace::Kind kind) {
+  const auto now = Clock::now();
+  const double taken = seconds(now - std::exchange(lap_started_, now));
+  if (threads_.isCountedOutside()) threads_.count(taken, kind);
+  return taken;
+}
+
 void Scheduler::start(const TaskGraph& graph, int end) {
+  lap_started_ = Clock::now();
   end_ = end;
   outcome_ = {};
   error_.reset();
@@ -167,21 +175,18 @@ void Scheduler::start(const TaskGraph& graph, int end) {
 void Scheduler::runTask(TaskGraph& graph, int number, const StepInfo& at) {
   CompiledTask& task = graph.tasks()[number];
   running_ = number;
-  auto started = Clock::now();
-  if (task.sends >= 0 && task.sends < end_) exchange_.send(graph.tasks()[task.sends].fills, hasStopped());
-  if (!task.fills.empty()) {
+  const bool exchanges = hasStopped() || !exchange_.movesNothing();
+  if (exchanges && task.sends >= 0 && task.sends < end_) exchange_.send(graph.tasks()[task.sends].fills, hasStopped());
+  if (exchanges && !task.fills.empty()) {
     exchange_.begin(hasStopped());
     if (!task.mayStartEarly || hasStopped()) heard_stop_ = !exchange_.finish() || heard_stop_;
-    const auto exchanged = Clock::now();
-    task.exchangeSeconds += seconds(exchanged - started);
-    started = exchanged;
+    task.exchangeSeconds += lap(trace::Kind::message);
   }
   if (task.task.kind == TaskKind::relocate)
     relocate(task, at);
   else if (task.task.perRank ? mayRunTogether() : !hasStopped())
     runWork(task, at);
   if (task.task.kind != TaskKind::work) exchange_.forgetParticles();
-  task.seconds += seconds(Clock::now() - started);
 }
 
 std::optional<data::Minimum> Scheduler::factorOf(const CompiledTask& task) {
@@ -375,10 +380,11 @@ void Scheduler::commit(TaskGraph& graph) {
 
 void Scheduler::apply(CompiledTask& last) {
   if (last.task.kind != TaskKind::relocate) return;
-  const auto started = Clock::now();
+  const OneClock oneClock(threads_, warehouse_->ranks());
+  lap_started_ = Clock::now();
   for (std::size_t m = 0; m < last.materials.size(); ++m)
     relocation_.apply(static_cast<int>(m), last.materials[m].carried, Generation::old);
-  last.seconds += seconds(Clock::now() - started);
+  last.seconds += lap(trace::Kind::task);
 }
 
 }  // namespace tushar::tasks

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 
 #include "core/tasks/outcome.hpp"
@@ -65,6 +66,23 @@ class Scheduler {
   const Threads& threads() const { return threads_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  /// While it lives, a rank that is alone and has one thread reads the clock once per task, not in each loop.
+  class OneClock {
+   public:
+    OneClock(Threads& threads, const mpi::Communicator& ranks) : threads_(threads) {
+      threads_.countOutside(ranks.isAlone());
+    }
+    ~OneClock() { threads_.countOutside(false); }
+    OneClock(const OneClock&) = delete;
+    OneClock& operator=(const OneClock&) = delete;
+
+   private:
+    Threads& threads_;
+  };
+  /// Time since the call before, or since the start of the graph, s.
+  double lap(trace::Kind kind);
   int usefulThreads() const;
   bool hasStopped() const { return !outcome_.isNone() || heard_stop_; }
   bool mayRunTogether();
@@ -113,6 +131,7 @@ class Scheduler {
   bool heard_stop_ = false;              ///< a rank whose values this one needs has stopped
   int running_ = 0;                      ///< place of the task in its graph
   int end_ = 0;                          ///< place behind the last task that is to run
+  Clock::time_point lap_started_;
   std::optional<mpi::Communicator> with_patches_;
 };
 

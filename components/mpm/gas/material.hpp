@@ -56,7 +56,9 @@ struct Gas {
   /// epsilon [J/kg] of density rho [kg/m³] and the energy that particles carry [J/kg].
   double heat(double rho, double energy) const { return energy - carried / rho; }
   /// p [Pa] of density rho [kg/m³] and the energy that particles carry [J/kg].
-  double pressure(double rho, double energy) const { return (gamma - 1) * rho * heat(rho, energy) - pInfinity; }
+  double pressure(double rho, double energy) const { return pressureOf(rho, heat(rho, energy)); }
+  /// p [Pa] of density rho [kg/m³] and epsilon [J/kg].
+  double pressureOf(double rho, double epsilon) const { return (gamma - 1) * rho * epsilon - pInfinity; }
   /// The energy that particles carry [J/kg] at density rho [kg/m³] and p [Pa].
   double internalEnergy(double rho, double p) const { return (p + pInfinity) / ((gamma - 1) * rho) + carried / rho; }
   /// e [J/kg] of density rho [kg/m³] and the energy that particles carry [J/kg].

@@ -55,7 +55,7 @@ auto sumOverCorners(Term&& term, int k = 0) {
 /// cell's list inwards, each half by itself: in the mirror image of a line the list is reversed, which only exchanges
 /// the halves.
 template <class Sum, class Add>
-Sum sumOverParticles(const data::ParticleRange& particles, Add&& add) {
+[[gnu::always_inline]] inline Sum sumOverParticles(const data::ParticleRange& particles, Add&& add) {
   Sum front{}, back{};
   int first = particles.first, last = particles.last - 1;
   for (; first < last; ++first, --last) {

@@ -4,6 +4,30 @@
 
 namespace tushar::mpm::gas::paper {
 
+/// What the places of all cells of a level have in common: it is found once for all of them.
+template <int D>
+struct CellPlaces {
+  Vec<D> middle;          ///< of the grid, m
+  Vec<D> half;            ///< place of the middle among the centres of cells
+  Vec<D> spacing;         ///< m
+  Vec<D> inverseSpacing;  ///< 1/m
+
+  explicit CellPlaces(const Level& level) {
+    for (int d = 0; d < D; ++d) {
+      middle[d] = middleOf(level, d);
+      half[d] = -fromMiddle<double>(level, d, 0);
+      spacing[d] = level.spacing(d);
+      inverseSpacing[d] = level.inverseSpacing(d);
+    }
+  }
+  /// The centre of a cell: positionInCell with the bits that it has.
+  Vec<D> centre(const Index<D>& cell) const {
+    Vec<D> at;
+    for (int d = 0; d < D; ++d) at[d] = middle[d] + (cell[d] - half[d]) * spacing[d];
+    return at;
+  }
+};
+
 /// S_ip = S_i(x_p) of (6), (7), (12) and (13) of Tran, Kim & Berzins: Linear, for the particles of one cell.
 ///
 /// Positions are measured in cells from the centre of the cell, so that the factors 1/2 - xi of lower nodes and 1/2 +
@@ -12,12 +36,8 @@ namespace tushar::mpm::gas::paper {
 template <int D>
 class ShapeFunctions {
  public:
-  ShapeFunctions(const Level& level, const Index<D>& cell) {
-    for (int d = 0; d < D; ++d) {
-      middle_[d] = positionInCell(level, d, cell[d], 0);
-      inverse_spacing_[d] = level.inverseSpacing(d);
-    }
-  }
+  ShapeFunctions(const CellPlaces<D>& places, const Index<D>& cell)
+      : middle_(places.centre(cell)), inverse_spacing_(places.inverseSpacing) {}
   /// S_ip for each node i of the cell, numbered as in Linear, and a particle at x [m].
   typename Linear<D>::Weights at(const Vec<D>& x) const {
     const Vec<D> xi = (x - middle_).cwiseProduct(inverse_spacing_);

@@ -113,7 +113,7 @@ template <int D>
 void expectLinearReproduction(const Index3& resolution) {
   const Cloud<D> cloud(resolution);
   forEach<D>(cloud.level.cells(), [&](const Index<D>& cell) {
-    const ShapeFunctions<D> shape(cloud.level, cell);
+    const ShapeFunctions<D> shape(CellPlaces<D>(cloud.level), cell);
     for (const int p : cloud.set.in(cell)) {
       const Vec<D>& at = cloud.x[p];
       const auto s = shape.at(at);

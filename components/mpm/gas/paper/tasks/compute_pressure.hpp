@@ -16,12 +16,18 @@ void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscos
                      ParticleView<const double> internalEnergy, ParticleView<const double> divergence,
                      ParticleView<double> pressure) {
   const double h = patch.level().minSpacing();
-  for (int p = 0; p < density.owned(); ++p) {
-    const double d = std::min(divergence[p], 0.0) * h;
-    const double c = std::sqrt(gas.soundSpeedSquared(internalEnergy[p]));
-    pressure[p] = gas.pressure(density[p], internalEnergy[p]) +
-                  density[p] * (viscosity.quadratic * d * d - viscosity.linear * c * d);
-  }
+  const auto press = [&](const auto& heat) {
+    for (int p = 0; p < density.owned(); ++p) {
+      const double d = std::min(divergence[p], 0.0) * h;
+      const double c = std::sqrt(gas.soundSpeedSquared(internalEnergy[p]));
+      pressure[p] = gas.pressureOf(density[p], heat(density[p], internalEnergy[p])) +
+                    density[p] * (viscosity.quadratic * d * d - viscosity.linear * c * d);
+    }
+  };
+  if (gas.carried == 0)
+    press([](double, double energy) { return energy; });  // what heat() gives then, without its division
+  else
+    press([&](double rho, double energy) { return gas.heat(rho, energy); });
 }
 
 /// p = (gamma - 1) rho eps: (3), which is (16) without viscosity. At the start of a run nothing is compressed.

@@ -34,8 +34,10 @@ void interpolateParticlesToGrid(const Patch& patch, const Gas&, ParticleView<con
                                 NodeView<double> mass, NodeView<Vec<D>> velocity) {
   mass.fill(0.0);
   velocity.fill(Vec<D>::Zero());  // P_i, until it is divided by m_i
+  const CellPlaces<D> places(patch.level());
   forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    const ShapeFunctions<D> shape(patch.level(), cell);
+    if (x.in(cell).empty()) return;
+    const ShapeFunctions<D> shape(places, cell);
     const auto sums = sumOverParticles<NodalSums<D>>(x.in(cell), [&](int p, NodalSums<D>& sum) {
       const auto s = shape.at(x[p]);
       for (std::size_t k = 0; k < s.size(); ++k) {
@@ -61,8 +63,9 @@ template <int D>
 void interpolateMassToGrid(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
                            ParticleView<const double> particleMass, NodeView<double> mass) {
   mass.fill(0.0);
+  const CellPlaces<D> places(patch.level());
   forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    const ShapeFunctions<D> shape(patch.level(), cell);
+    const ShapeFunctions<D> shape(places, cell);
     typename Linear<D>::Weights sums{};
     for (const int p : x.in(cell)) {
       const auto s = shape.at(x[p]);

@@ -70,10 +70,11 @@ struct ParticleUpdate {
 /// cell that holds the particle at t_n. Only the patch's own particles are updated.
 template <int D>
 void updateParticles(const Patch& patch, const Gas&, ParticleUpdate<D> u, double dt) {
+  const CellPlaces<D> places(patch.level());
   forEach<D>(u.x.cells(), [&](const Index<D>& cell) {
     const data::ParticleRange particles = u.x.in(cell);
     if (particles.empty()) return;
-    const ShapeFunctions<D> shape(patch.level(), cell);
+    const ShapeFunctions<D> shape(places, cell);
     const CellNodes<D> a(u.acceleration, cell), v(u.velocityStar, cell);
     const double d = v.divergence(patch.level());
     for (const int p : particles) {
@@ -98,12 +99,13 @@ template <int D>
 void updateParticlesConserving(const Patch& patch, const Gas&, ParticleUpdate<D> u, double dt) {
   const Level& level = patch.level();
   const ParticleView<const double> mass = *u.mass;
+  const CellPlaces<D> places(level);
   forEach<D>(u.x.cells(), [&](const Index<D>& cell) {
     const data::ParticleRange particles = u.x.in(cell);
     if (particles.empty()) return;
     const auto volume =
         sumOverParticles<double>(particles, [&](int p, double& part) { part += mass[p] / u.density[p]; });
-    const ShapeFunctions<D> shape(level, cell);
+    const ShapeFunctions<D> shape(places, cell);
     const CellNodes<D> a(u.acceleration, cell), v(u.velocityStar, cell);
     const double d = v.divergence(level), halfway = d - 0.5 * dt * a.divergence(level);
     const double workShare = halfway * dt * level.cellVolume() / volume;
