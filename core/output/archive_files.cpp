@@ -53,7 +53,7 @@ void refuseToReplace(const fs::path& filebase) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(filebase, error);
   if (fs::exists(status) && !fs::is_symlink(status))
-    throw FileError(fmt::format("cannot make '{}' a link to the newest archive: it is a {}; move it away",
+    throw FileError(fmt::format("cannot make '{}' the link to the newest archive: it is a {}; move it away",
                                 filebase.string(), fs::is_directory(status) ? "folder" : "file"));
 }
 

@@ -83,7 +83,7 @@ TEST(Archive, RefusesANameThatAFolderHas) {
   fs::create_directory(here / "sod.uda");
   const auto sentence = sentenceOf([&] { Archive(here / "sod.uda", ""); });
   EXPECT_EQ(sentence, "cannot make '" + (here / "sod.uda").string() +
-                          "' a link to the newest archive: it is a folder; move it away");
+                          "' the link to the newest archive: it is a folder; move it away");
   EXPECT_FALSE(fs::exists(here / "sod.uda.000"));
 }
 
