@@ -123,8 +123,8 @@ class Build(unittest.TestCase):
         by_hand = self.program_as_ninja("bash")
         for name, command in self.commands("true").items():
             with self.subTest(name):
-                done = subprocess.run([by_hand, "-c", '"$@"; exit $?', "ninja", *command], cwd=self.here / "build/release",
-                                      stderr=subprocess.PIPE, text=True, timeout=30)
+                done = subprocess.run([by_hand, "-c", '"$@"; exit $?', "ninja", *command], stderr=subprocess.PIPE,
+                                      cwd=self.here / "build/release", text=True, timeout=30)
                 self.assertEqual((done.stderr, done.returncode), ("", 0))
 
     def test_what_outlives_a_build_does_not_keep_the_lock(self):
