@@ -99,6 +99,34 @@ class Build(unittest.TestCase):
                 self.assertEqual((job.communicate()[1], job.returncode), ("", 0))
                 (self.here / "built").unlink()
 
+    def program_as_ninja(self, program):
+        """A copy of a program by the name of ninja, not where commands() puts its script."""
+        (self.here / "by_hand").mkdir()
+        return shutil.copy(shutil.which(program), self.here / "by_hand/ninja")
+
+    def test_waits_for_a_ninja_that_was_started_by_hand(self):
+        by_hand = self.program_as_ninja("sleep")
+        for name, command in self.commands(f"touch {self.here}/built").items():
+            other = subprocess.Popen([by_hand, "60"], cwd=self.here / "build/release")
+            with self.subTest(name), subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as job:
+                try:
+                    self.assertEqual(job.stderr.readline(), f"tushar: waiting for ninja, process {other.pid}, to end "
+                                                            "its build in build/release\n")
+                    self.assertFalse((self.here / "built").exists())
+                finally:
+                    other.kill()
+                    other.wait()
+                self.assertEqual((job.communicate()[1], job.returncode), ("", 0))
+                (self.here / "built").unlink()
+
+    def test_does_not_wait_for_the_ninja_that_has_started_it(self):
+        by_hand = self.program_as_ninja("bash")
+        for name, command in self.commands("true").items():
+            with self.subTest(name):
+                done = subprocess.run([by_hand, "-c", '"$@"; exit $?', "ninja", *command], stderr=subprocess.PIPE,
+                                      cwd=self.here / "build/release", text=True, timeout=30)
+                self.assertEqual((done.stderr, done.returncode), ("", 0))
+
     def test_what_outlives_a_build_does_not_keep_the_lock(self):
         sleeper = f"sleep 60 >/dev/null 2>&1 & echo $! > {self.here}/pid"
         for name, command in self.commands(sleeper).items():

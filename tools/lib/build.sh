@@ -50,6 +50,27 @@ install_missing() {
   rm -f "$log"
 }
 
+# other_ninja FOLDER: the id of a ninja that builds in the folder without the lock of `locked`, such as one started by
+# hand; two at once can damage what ninja notes there. One that has started this script, as by its target `test`, does
+# not count: it waits for us.
+other_ninja() {
+  local id=$BASHPID ancestors=' ' process line
+  while [ "${id:-0}" -gt 1 ]; do
+    ancestors+="$id "
+    line=$(grep '^PPid:' "/proc/$id/status" 2>/dev/null) || break
+    id=${line##*[[:space:]]}
+  done
+  for process in /proc/[0-9]*; do
+    id=${process#/proc/}
+    { read -r line <"$process/comm"; } 2>/dev/null || continue
+    if [ "$line" = ninja ] && [ "$process/cwd" -ef "$1" ] && [[ $ancestors != *" $id "* ]]; then
+      printf '%s\n' "$id"
+      return 0
+    fi
+  done
+  return 1
+}
+
 # locked FOLDER COMMAND...: runs the command while no other build in the folder is under way. What it starts must close
 # descriptor 9, or a process that outlives the build keeps the lock.
 locked() (
@@ -59,6 +80,10 @@ locked() (
   if ! flock -n 9; then
     say "waiting for another build in ${folder#"$root"/} to end"
     flock 9
+  fi
+  if id=$(other_ninja "$folder"); then
+    say "waiting for ninja, process $id, to end its build in ${folder#"$root"/}"
+    while other_ninja "$folder" >/dev/null; do sleep 0.2 9>&-; done
   fi
   "$@"
 )
