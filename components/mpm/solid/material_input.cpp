@@ -51,7 +51,6 @@ const std::vector<std::pair<std::string, std::string>> lackingModels{
     {"membrane", "comp_neo_hook for bodies as thick as a cell"},
     {"three_factor_mooney", "comp_mooney_rivlin"},
     {"SVK", "comp_neo_hook"},
-    {"ArrudaBoyce8", "comp_mooney_rivlin"},
     {"murnaghanMPM", "water, whose pressure obeys the same law"},
     {"p_alpha", "elastic_plastic_hp with a mie_gruneisen equation of state"},
     {"rf_elastic_plastic", "elastic_plastic_hp"},

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "components/mpm/solid/constitutive/arenisca.hpp"
+#include "components/mpm/solid/constitutive/arruda_boyce.hpp"
 #include "components/mpm/solid/constitutive/cnh_mms.hpp"
 #include "components/mpm/solid/constitutive/comp_mooney_rivlin.hpp"
 #include "components/mpm/solid/constitutive/comp_neo_hook.hpp"
@@ -30,6 +31,7 @@ namespace tushar::mpm::solid {
 using AllModels = std::tuple<Arenisca2,              //
                              Arenisca3,              //
                              Arenisca4,              //
+                             ArrudaBoyce8,           //
                              CnhMms,                 //
                              CompMooneyRivlin,       //
                              CompNeoHook,            //

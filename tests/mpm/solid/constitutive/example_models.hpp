@@ -21,6 +21,11 @@ inline CompMooneyRivlin compMooneyRivlin(double c1 = 3, double c2 = 1, double po
   model.poissonRatio = poissonRatio;
   return model;
 }
+inline ArrudaBoyce8 lockingRubber(double lockingStretch = 1.7) {
+  auto model = withModuli<ArrudaBoyce8>();
+  model.lockingStretch = lockingStretch;
+  return model;
+}
 inline CompNeoHookPlastic compNeoHookPlastic(double hardening) {
   auto model = withModuli<CompNeoHookPlastic>();
   model.yieldStress = 0.2;

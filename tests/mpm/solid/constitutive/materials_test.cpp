@@ -44,6 +44,7 @@ void expectStressFromEnergy(const M& model) {
 TEST(Hyperelasticity, StressIsTheDerivativeOfTheEnergy) {
   expectStressFromEnergy(withModuli<CompNeoHook>());
   expectStressFromEnergy(compMooneyRivlin());
+  expectStressFromEnergy(lockingRubber());
   expectStressFromEnergy(withModuli<Ucnh>());
   TransIsoHyper fibres = ligament<>();
   for (const double straight : {1.0, 1.05, 2.0}) {  // fibres that are straight, have become so, are still crimped
@@ -53,6 +54,30 @@ TEST(Hyperelasticity, StressIsTheDerivativeOfTheEnergy) {
   auto exponential = ligament<ViscoTransIsoHyper>();
   exponential.rubber = FibreElasticity::Rubber::verondaWestmann;
   expectStressFromEnergy(exponential);
+}
+
+/// Langevin's function coth z - 1/z takes the value y here, found by bisection.
+double inverseLangevin(double y) {
+  double low = 0, high = 100;
+  for (int k = 0; k < 200; ++k) {
+    const double z = 0.5 * (low + high);
+    (1 / std::tanh(z) - 1 / z < y ? low : high) = z;
+  }
+  return 0.5 * (low + high);
+}
+
+/// In a bar that keeps its volume, sigma_x - sigma_y = G/3 l/c L^-1(c/l) (s² - 1/s) with the stretch of chains c² = I/3
+/// and their locking stretch l: Arruda & Boyce (1993), eq. 22. The series leaves out a part (c/l)^10 and smaller.
+TEST(Hyperelasticity, LocksAsChainsDo) {
+  const double locking = 4;
+  const MaterialPoint<ArrudaBoyce8> point{lockingRubber(locking)};
+  for (const double s : {0.6, 1.3, 2.0, 2.5}) {
+    const Matrix3 stress = point.stress(Eigen::Vector3d(s, 1 / std::sqrt(s), 1 / std::sqrt(s)).asDiagonal());
+    const double chain = std::sqrt((s * s + 2 / s) / 3), share = chain / locking;
+    const double expected = 3.0 / 3 / share * inverseLangevin(share) * (s * s - 1 / s);
+    EXPECT_NEAR((stress(0, 0) - stress(1, 1)) / expected, 1, std::pow(share, 10) + 1e-9) << s;
+    EXPECT_NEAR(stress.trace(), 0, 1e-10) << s;
+  }
 }
 
 /// W of a strain of 1e-7 is that of the linear theory, e:e G + (K/2 - G/3) tr² e, in a body that has turned.
@@ -74,6 +99,9 @@ void expectEnergyOfSmallStrain(const M& model, double bulkModulus, double shearM
 TEST(Hyperelasticity, KeepsTheEnergyOfStrainsThatAreHardlyThere) {
   expectEnergyOfSmallStrain(withModuli<CompNeoHook>(8e9, 5e8), 8e9, 5e8);
   expectEnergyOfSmallStrain(withModuli<Ucnh>(8e9, 5e8), 8e9, 5e8);
+  const double x = 3 / (1.7 * 1.7);
+  const double stiffer = 1 + x * (0.2 + x * (33.0 / 525 + x * (76.0 / 3500 + x * 2595 / 336875)));
+  expectEnergyOfSmallStrain(lockingRubber(), 7, 3 * stiffer);
   const CompMooneyRivlin rubber = compMooneyRivlin();
   const double shear = 2 * (rubber.c1 + rubber.c2), nu = rubber.poissonRatio;
   expectEnergyOfSmallStrain(rubber, 2 * shear * (1 + nu) / (3 * (1 - 2 * nu)), shear);

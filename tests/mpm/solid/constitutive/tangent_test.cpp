@@ -20,6 +20,7 @@ TEST(NominalTangent, IsTheDerivativeOfTheStressOfHyperelasticModels) {
   expectConsistentTangent(MaterialPoint<CompNeoHook>{withModuli<CompNeoHook>()}, f);
   expectConsistentTangent(MaterialPoint<CompMooneyRivlin>{compMooneyRivlin()}, f);
   expectConsistentTangent(MaterialPoint<CnhMms>{withModuli<CnhMms>()}, f);
+  expectConsistentTangent(MaterialPoint<ArrudaBoyce8>{lockingRubber()}, f);
   TransIsoHyper fibres = ligament<>();
   for (const double straight : {1.0, 1.05, 2.0}) {
     fibres.straight = straight;
