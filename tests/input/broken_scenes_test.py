@@ -268,8 +268,8 @@ class BrokenScenes(unittest.TestCase):
                                ((GAS + "volume_model=tracked",), "volume_model is tracked; use cell_share")):
             self.assert_refused(run("ups/mpm/mass_projection.ups", *sets, outputs=True), sentence)
         self.assert_refused(run("ups/heat/sine.ups", "DataAnalysis/Module[2]/@name=massProjection", outputs=True),
-                            "DataAnalysis/Module: measures the <gas_dynamics> of the component mpm, and this scene "
-                            "runs none")
+                            "DataAnalysis/Module: measures the <gas_dynamics> of the component mpm, which this scene "
+                            "does not run")
 
     def test_labels_of_modules_can_be_saved_where_the_module_is(self):
         result = run("ups/mpm/sod.ups", "DataArchiver/save[1]/@label=g.massProjectionError", outputs=True)

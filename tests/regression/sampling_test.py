@@ -244,8 +244,8 @@ class Twice(ModuleTest):
         box = '<Module name="controlVolFluxes"><samplingFrequency>1e10</samplingFrequency><timeStart>0</timeStart>' \
               '<timeStop>9</timeStop><controlVolumes><box label="TotalMass"><min>[-1,-1,-1]</min><max>[1,1,1]</max>' \
               "</box></controlVolumes></Module>"
-        self.refused(box, "would overwrite 'TotalMass.dat' of the archive, which the saved 'TotalMass' needs; keep one, or "
-                     "choose another name", save='<save label="TotalMass"/>')
+        self.refused(box, "would overwrite 'TotalMass.dat' of the archive, which the saved 'TotalMass' needs; keep "
+                     "one, or choose another name", save='<save label="TotalMass"/>')
         self.refused(box.replace("TotalMass", "A") * 2, "a module above already computes 'A'; keep one")
 
     def test_a_variable_that_two_modules_compute(self):
