@@ -157,6 +157,8 @@ template <int D, class G>
 const G& lawIn(const G& gas, const State<D>&) {
   return gas;
 }
+template <int D, class G>
+const G& lawIn(const G&& gas, const State<D>&) = delete;  // it would outlive the gas
 
 /// |v|² of a primitive state.
 template <int D, std::size_t N>

@@ -61,7 +61,7 @@ void Archive::State::writeLists() {
 
 void Archive::State::writeVtkHdfFiles() {
   vtkhdf_pace.catchUp([&] {
-    if (last_step >= 0) writeVtkHdf(xdmf_file, xdmf.text());
+    if (last_step >= 0) writeVtkHdf(xdmf_file, xdmf.domain());
   });
 }
 

@@ -88,6 +88,17 @@ void choose(hid_t space, const VirtualPart& part) {
   H5Sselect_hyperslab(space, H5S_SELECT_SET, from.data(), nullptr, extent.data(), nullptr);
 }
 
+/// HDF5 keeps several copies of each part, of some 2.6 kB (1.10, by a heap profile), until the file is closed. Where
+/// there are more parts than this, a dataset shows others of this file that show so many each.
+constexpr std::size_t mostParts = 256;
+
+/// The end of the parts that one dataset shows: those that begin at the same entry stay together.
+std::size_t endOfRun(const std::vector<VirtualPart>& parts, std::size_t begin) {
+  std::size_t end = std::min(begin + mostParts, parts.size());
+  while (end < parts.size() && parts[end].first[0] == parts[end - 1].first[0]) ++end;
+  return end;
+}
+
 /// The type of a dataset of the file.
 Handle typeIn(hid_t file, const std::string& dataset) {
   const Handle data(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
@@ -213,9 +224,9 @@ void Hdf5File::text(const std::string& name, const std::string& value) {
   checked(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &characters), name + " in");
 }
 
-void Hdf5File::virtualDataset(const std::string& name, const Array::Values& type,
-                              const std::vector<std::uint64_t>& shape, const std::vector<VirtualPart>& parts) {
-  const Silence silence;
+/// Makes one dataset that shows all parts.
+void Hdf5File::showParts(const std::string& name, const Array::Values& type, const std::vector<std::uint64_t>& shape,
+                         std::span<const VirtualPart> parts) {
   const Handle space = spaceOf(shape), links = parentsMade(), creation = withoutTimes();
   for (const VirtualPart& part : parts) {
     const std::vector<hsize_t> first(part.first.begin(), part.first.end());
@@ -233,6 +244,36 @@ void Hdf5File::virtualDataset(const std::string& name, const Array::Values& type
       isOfThisFile ? typeIn(file_, parts.front().dataset) : Handle(H5Tcopy(fileTypeLike(type)), H5Tclose);
   const Handle data(H5Dcreate2(file_, name.c_str(), kept, space, links, creation, H5P_DEFAULT), H5Dclose);
   checked<hid_t>(data, name + " in");
+  shown_ += parts.size();
+}
+
+/// What is in the file is forgotten: HDF5 keeps the parts of all virtual datasets as long as their file is open.
+void Hdf5File::reopen() {
+  const Handle access(diskAccess(failure_), H5Pclose);
+  close();
+  file_ = checked(H5Fopen(path_.c_str(), H5F_ACC_RDWR, access), "the file");
+  shown_ = 0;
+}
+
+void Hdf5File::virtualDataset(const std::string& name, const Array::Values& type,
+                              const std::vector<std::uint64_t>& shape, const std::vector<VirtualPart>& parts) {
+  const Silence silence;
+  std::vector<VirtualPart> runs;
+  if (shown_ + parts.size() > mostParts) reopen();
+  for (std::size_t begin = 0, end; parts.size() > mostParts && begin < parts.size(); begin = end) {
+    end = endOfRun(parts, begin);
+    std::vector<VirtualPart> run(parts.begin() + static_cast<std::ptrdiff_t>(begin),
+                                 parts.begin() + static_cast<std::ptrdiff_t>(end));
+    std::vector<std::uint64_t> whole = shape, corner(shape.size(), 0);
+    corner[0] = run.front().first[0];
+    whole[0] = run.back().first[0] + run.back().extent[0] - corner[0];
+    for (VirtualPart& part : run) part.first[0] -= corner[0];
+    const std::string own = fmt::format("/runs{}/{}", name, runs.size());
+    showParts(own, type, whole, run);
+    reopen();
+    runs.push_back({".", own, whole, corner, whole});
+  }
+  showParts(name, type, shape, runs.empty() ? parts : runs);
 }
 
 void Hdf5File::sequence(const std::string& name, std::uint64_t count) {

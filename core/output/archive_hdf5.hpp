@@ -56,7 +56,8 @@ class Hdf5File {
   /// Writes a text of any length as a dataset. The groups above it are made.
   void text(const std::string& name, const std::string& value);
   /// Makes a dataset of real numbers, or of integers like those of `type`, that shows parts of others and holds no
-  /// number itself. What no part covers is NaN or 0. Where it shows parts of this file, it has their type.
+  /// number itself. What no part covers is NaN or 0. Where it shows parts of this file, it has their type. Parts come
+  /// in the order of their first entries.
   void virtualDataset(const std::string& name, const Array::Values& type, const std::vector<std::uint64_t>& shape,
                       const std::vector<VirtualPart>& parts);
   /// Writes 0, 1, 2, … as signed integers of 8 bytes.
@@ -83,6 +84,9 @@ class Hdf5File {
   template <class Result>
   Result checked(Result result, const std::string& what) const;
   Id makeDataset(const std::string& name, const Array& array, const Shape& shape, bool asFloat, Id creation);
+  void showParts(const std::string& name, const Array::Values& type, const std::vector<std::uint64_t>& shape,
+                 std::span<const VirtualPart> parts);
+  void reopen();
   template <class Number>
   void writeValues(Id data, const std::vector<Number>& values, const std::string& what);
   template <class Number>
@@ -94,6 +98,7 @@ class Hdf5File {
   int compression_;
   DiskFailure failure_;
   Id file_ = -1;
+  std::size_t shown_ = 0;         ///< parts in virtual datasets since the file was opened
   std::vector<std::byte> piece_;  ///< memory for one, kept for the next
 };
 

@@ -194,12 +194,10 @@ void putInPlace(const fs::path& path, const std::function<void(Hdf5File&)>& writ
 
 }  // namespace
 
-void writeVtkHdf(const fs::path& xdmfFile, const std::string& xdmf) {
-  pugi::xml_document document;
-  document.load_string(xdmf.c_str());
+void writeVtkHdf(const fs::path& xdmfFile, const pugi::xml_node& domain) {
   Times fields;
   Image image;
-  for (const pugi::xml_node& block : document.document_element().child("Domain")) {
+  for (const pugi::xml_node& block : domain) {
     const std::string name = block.attribute("Name").as_string();
     const pugi::xml_node first = block.child("Grid");
     if (hasBoxes(block)) {

@@ -24,6 +24,8 @@ class XdmfIndex {
   static std::size_t sizeOf(const std::string& text, int step);
   /// The whole file.
   std::string text() const;
+  /// What shows the outputs.
+  const pugi::xml_node& domain() const { return domain_; }
 
  private:
   pugi::xml_node addTime(const std::string& block, const Snapshot& snapshot, const char* type);

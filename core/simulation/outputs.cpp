@@ -42,7 +42,7 @@ Outputs::~Outputs() {
     else if (run_.ranks.isFirst())
       isAlone ? finish(mpi::Communicator::alone()) : on_its_way_->file.abandon();
   } catch (const std::runtime_error&) {
-    // Something else has ended the run, and is reported.
+    on_its_way_.reset();  // something else has ended the run, and is reported
   }
 }
 

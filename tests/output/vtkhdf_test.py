@@ -121,6 +121,16 @@ class VtkHdf(unittest.TestCase):
         self.compare_particles(archive, outputs)
         self.compare_fields(archive, outputs)
 
+    def test_more_outputs_than_one_dataset_shows(self):
+        archive, outputs = self.archive_of(self.with_nodes(SOD), "--set", "Time/max_Timesteps=600", "--set",
+                                           "DataArchiver/outputInterval=0", "--set",
+                                           "DataArchiver/outputTimestepInterval=1", "--set", "Time/maxTime=1e9")
+        self.assertGreater(len(outputs), 2 * 256)
+        with h5py.File(archive / "sod.gas.vtkhdf", "r") as file:
+            self.assertEqual({part.file_name for part in file["VTKHDF/Points"].virtual_sources()}, {"."})
+        self.compare_particles(archive, outputs)
+        self.compare_fields(archive, outputs)
+
     def test_compressed_floats(self):
         archive, outputs = self.archive_of(SOD, *SHORT, "--set", "DataArchiver/compression=gzip", "--set",
                                            "DataArchiver/outputDoubleAsFloat=true")

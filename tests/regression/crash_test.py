@@ -134,9 +134,8 @@ class Crash(unittest.TestCase):
         code, errors, _ = self.here.restart()
         run.kill()
         run.wait()
-        self.assertEqual((code, errors), (1, f"sus: another run is writing to '{self.here.uda.resolve()}'; wait for "
-                                             f"its "
-                                             "end, or end it [T403]\n"))
+        self.assertEqual((code, errors), (1, f"sus: another run is writing to '{self.here.uda.resolve()}'; wait "
+                                             "until it ends, or stop it [T403]\n"))
         self.assertEqual(self.here.restart("Time/max_Timesteps=1")[0], 0)
 
     def test_an_earlier_checkpoint_can_be_chosen_and_later_ones_are_forgotten(self):
