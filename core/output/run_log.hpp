@@ -24,6 +24,8 @@ class RunLog {
  public:
   static constexpr int format = 1;
 
+  /// Why a file of this text is not to be added to: a newer version has written it. Empty: it may be.
+  static std::string refusalOf(const std::string& text);
   /// Adds a run that starts now. A file that cannot be read is moved to `run.json.damaged`. FileError if it cannot be
   /// written.
   RunLog(const std::filesystem::path& folder, const RunRecord& record);

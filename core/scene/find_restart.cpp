@@ -13,6 +13,7 @@
 #include "core/output/archive_index.hpp"
 #include "core/output/checkpoint_manifest.hpp"
 #include "core/output/checkpoint_store.hpp"
+#include "core/output/run_log.hpp"
 
 namespace tushar::scene {
 
@@ -35,6 +36,8 @@ fs::path folderOf(const fs::path& uda) {
     refuse(uda, "this is not a .uda folder: it has neither index.xml nor checkpoints");
   if (const std::string why = output::ArchiveIndex::refusalOf(output::textOf(folder / "index.xml").value_or(""));
       !why.empty())
+    refuse(uda, why);
+  if (const std::string why = output::RunLog::refusalOf(output::textOf(folder / "run.json").value_or("")); !why.empty())
     refuse(uda, why);
   return folder;
 }

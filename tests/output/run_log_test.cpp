@@ -76,4 +76,11 @@ TEST(RunLog, MovesADamagedFileAway) {
   EXPECT_EQ(read(here / "run.json.damaged"), R"({"runs": [)");
 }
 
+TEST(RunLog, RefusesAFileOfANewerVersion) {
+  EXPECT_EQ(RunLog::refusalOf(R"({"format": 99, "runs": []})"),
+            "the archive has format 99 of run.json, but this sus reads formats up to 1");
+  EXPECT_EQ(RunLog::refusalOf(R"({"format": 1, "runs": []})"), "");
+  EXPECT_EQ(RunLog::refusalOf("{"), "");
+}
+
 }  // namespace tushar::output
