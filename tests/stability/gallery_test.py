@@ -19,8 +19,8 @@ from tushar.studies.stability import Gallery, is_stable, judge, scene_of, write_
 
 FATAL = ("toro_2", "toro_4", "toro_5", "leblanc", "ratio_1e6")  # for the paper's method
 SENTENCE = re.compile(r"p\.(?:density|internalEnergy) became -\S+ \S+ from \S+, but must be (?:greater than|at least) "
-                      r"0: particle \d+ in cell \(\d+\) at x = \S+ m; around it: .*; .* (?:is|are) out of bounds \(task \S+, "
-                      r"patch 0, material gas, step (\d+), time \S+ s, time step \S+ s\)")
+                      r"0: particle \d+ in cell \(\d+\) at x = \S+ m; around it: .*; .* (?:is|are) out of bounds "
+                      r"\(task \S+, patch 0, material gas, step (\d+), time \S+ s, time step \S+ s\)")
 
 
 def case_of(name):
