@@ -25,7 +25,7 @@ class Interrupt(FolderTest):
         with tempfile.TemporaryDirectory() as folder:
             report = pathlib.Path(folder, "report.json")
             run = subprocess.Popen([SUS, "ups/mpm/sod.ups", "--output", folder, "--json", report, "--set",
-                                    "Grid/Level/Box/resolution=[5000,1,1]"], stdout=subprocess.PIPE)
+                                    "Grid/Level/Box/resolution=[5000,1,1]"], stdout=subprocess.PIPE, cwd=ROOT)
             first = run.stdout.readline()
             self.assertIn(b"saved in", first)
             time.sleep(0.2)
@@ -47,7 +47,8 @@ class Interrupt(FolderTest):
             report = pathlib.Path(folder, "report.json")
             run = subprocess.Popen([SUS, "ups/solid/implicit_cantilever.ups", "--output", folder, "--json", report,
                                     "--set", "Time/maxTime=1e9", "--set", "DataArchiver/outputTimestepInterval=1",
-                                    "--set", "DataArchiver/outputInterval=0"], stdout=subprocess.PIPE, text=True)
+                                    "--set", "DataArchiver/outputInterval=0"], stdout=subprocess.PIPE, text=True,
+                                   cwd=ROOT)
             for line in run.stdout:  # PETSc starts in the first step
                 if line.startswith("step") and not line.split()[1] == "0":
                     break
@@ -64,7 +65,7 @@ class Interrupt(FolderTest):
             with tempfile.TemporaryDirectory() as folder:
                 run = subprocess.Popen([SUS, "ups/mpm/vortex_3d.ups", "--output", folder, "--quiet", "--set", large,
                                         *options],
-                                       stdout=subprocess.DEVNULL)
+                                       stdout=subprocess.DEVNULL, cwd=ROOT)
                 time.sleep(0.5)
                 run.send_signal(signal.SIGTERM)
                 time.sleep(apart)
