@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -150,13 +151,31 @@ std::string memoryLine(const Report& report) {
       1e-6 * sum.peak, most, 1e-6 * sum.fields, 1e-6 * sum.particles, 1e-6 * sum.buffers, 1e-6 * sum.files);
 }
 
+/// How many times as long the update of a cell takes on levels as on a uniform grid, by the number of dimensions:
+/// measured with `euler` in small blocks (ups/euler/README.md, "Several levels"), where it is 10 to 15, 1.8 to 3.1, and
+/// 1.9.
+double costOnLevels(int dimension) { return std::array{10.0, 2.5, 1.9}.at(std::clamp(dimension, 1, 3) - 1); }
+
+/// What a uniform grid of the finest cells would have taken, and whether refinement has paid.
+std::string uniformLine(const Report& report) {
+  if (report.updates <= 0 || report.uniformUpdates <= 0) return "";
+  const double saved = report.uniformUpdates / report.updates;
+  const double cost = costOnLevels(report.dimension);
+  const std::string text = fmt::format(
+      "a uniform grid of the finest cells: {:.4g} cell updates, {:.3g} times as many\n", report.uniformUpdates, saved);
+  if (saved > cost) return text;
+  return text +
+         fmt::format("  it would probably be faster: on levels an update takes about {:g} times as long\n", cost);
+}
+
 /// The cells of each level, and what stepping and changing them took.
 std::string levelsLine(const Report& report) {
   if (!isRefined(report)) return "";
   std::string cells;
   for (const long count : report.levels) cells += fmt::format("{}{}", cells.empty() ? "" : " + ", count);
   return fmt::format("cells of {} levels: {}; {:.4g} cell updates, {}\n", report.levels.size(), cells, report.updates,
-                     counted(report.regrids, "regrid"));
+                     counted(report.regrids, "regrid")) +
+         uniformLine(report);
 }
 
 std::string rebalancingLine(const Report& report) {
@@ -211,6 +230,7 @@ std::string toJson(const Report& report) {
   if (isRefined(report)) {
     json["levels"] = report.levels;
     json["updates"] = report.updates;
+    json["uniform_updates"] = report.uniformUpdates;
     json["regrids"] = report.regrids;
   }
   json["steps"] = report.steps;

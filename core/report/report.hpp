@@ -69,10 +69,11 @@ struct Report {
   double wallOutputWait = 0;  ///< s of the output spent waiting for one that was still being written
   TimeUse use;
   Rebalancing rebalancing;
-  std::vector<long> levels;  ///< cells of each level at the end, the coarsest first; 0 for a single level
-  double updates = 0;        ///< of cells: the sum over steps of the cells of all levels
-  int regrids = 0;           ///< how often the grid became another
-  double wallRegrid = 0;     ///< s of the loop spent choosing and making other grids
+  std::vector<long> levels;   ///< cells of each level at the end, the coarsest first; 0 for a single level
+  double updates = 0;         ///< of cells: the sum over steps of the cells of all levels
+  double uniformUpdates = 0;  ///< the same, had all cells been as fine as the finest
+  int regrids = 0;            ///< how often the grid became another
+  double wallRegrid = 0;      ///< s of the loop spent choosing and making other grids
   std::vector<TaskTime> tasks;
   double exchange = 0;  ///< s of the loop spent filling ghosts
   std::vector<ErrorNorms> errors;

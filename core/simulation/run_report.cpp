@@ -20,6 +20,7 @@ void RunReport::beginLoop(double outputSeconds) {
 
 void RunReport::noteStep() {
   updates_ += static_cast<double>(run_.problem.grid->cellCount());
+  uniform_updates_ += static_cast<double>(run_.problem.grid->finest().cells().size());
   for (int material = 0; material < run_.materials(); ++material)
     for (const grid::Patch& patch : run_.problem.grid->patches())
       particle_steps_ += run_.warehouse.particles(data::Generation::old, material, patch.id()).owned();
@@ -70,6 +71,7 @@ void RunReport::addLayout(Report& report) {
   report.spacing = problem.grid->finest().minSpacing();
   report.cells = static_cast<long>(problem.grid->cellCount());
   report.updates = updates_;
+  report.uniformUpdates = uniform_updates_;
   report.levels.resize(problem.grid->levels());
   for (int id = 0; report.levels.size() > 1 && id < problem.grid->patchCount(); ++id) {
     const grid::Patch patch = problem.grid->patch(id);

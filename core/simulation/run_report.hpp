@@ -38,8 +38,9 @@ class RunReport {
   double output_before_ = 0;
   double start_up_ = 0, loop_ = 0;  ///< s, without outputs
   report::TimeUse use_;
-  long particle_steps_ = 0;  ///< of this rank
-  double updates_ = 0;       ///< of cells, of all ranks
+  long particle_steps_ = 0;     ///< of this rank
+  double updates_ = 0;          ///< of cells, of all ranks
+  double uniform_updates_ = 0;  ///< the same, had all cells been as fine as the finest
 };
 
 }  // namespace tushar::simulation

@@ -11,7 +11,9 @@ namespace {
 Report refined() {
   Report report;
   report.levels = {40, 30, 100};
+  report.dimension = 2;
   report.updates = 123456;
+  report.uniformUpdates = 4 * 123456;
   report.regrids = 3;
   report.wallRegrid = 0.25;
   return report;
@@ -23,12 +25,27 @@ TEST(Levels, AreInTheReportOfARefinedGrid) {
   const auto json = nlohmann::json::parse(toJson(refined()));
   EXPECT_EQ(json["levels"], (std::vector<long>{40, 30, 100}));
   EXPECT_EQ(json["updates"], 123456);
+  EXPECT_EQ(json["uniform_updates"], 4 * 123456);
   EXPECT_EQ(json["regrids"], 3);
   EXPECT_EQ(json["wall"]["regrid"], 0.25);
   const std::string text = toText(refined());
-  EXPECT_NE(text.find("cells of 3 levels: 40 + 30 + 100; 1.235e+05 cell updates, 3 regrids\n"), std::string::npos)
+  EXPECT_NE(text.find("cells of 3 levels: 40 + 30 + 100; 1.235e+05 cell updates, 3 regrids\n"
+                      "a uniform grid of the finest cells: 4.938e+05 cell updates, 4 times as many\n"),
+            std::string::npos)
       << text;
   EXPECT_NE(text.find("regridding                             250.00\n"), std::string::npos) << text;
+}
+
+TEST(Levels, TheReportSaysWhereRefinementDoesNotPay) {
+  const std::string advice = "  it would probably be faster: on levels an update takes about ";
+  Report report = refined();
+  EXPECT_EQ(toText(report).find(advice), std::string::npos);
+  report.dimension = 1;
+  EXPECT_NE(toText(report).find("4 times as many\n" + advice + "10 times as long\n"), std::string::npos);
+  report.dimension = 3;
+  EXPECT_EQ(toText(report).find(advice), std::string::npos);
+  report.uniformUpdates = 1.8 * report.updates;
+  EXPECT_NE(toText(report).find("1.8 times as many\n" + advice + "1.9 times as long\n"), std::string::npos);
 }
 
 TEST(Levels, AreNotToldOfWhereThereIsOne) {
@@ -36,7 +53,7 @@ TEST(Levels, AreNotToldOfWhereThereIsOne) {
     Report report = refined();
     report.levels = levels;
     const auto json = nlohmann::json::parse(toJson(report));
-    for (const char* key : {"levels", "updates", "regrids"}) EXPECT_FALSE(json.contains(key)) << key;
+    for (const char* key : {"levels", "updates", "uniform_updates", "regrids"}) EXPECT_FALSE(json.contains(key)) << key;
     EXPECT_FALSE(json["wall"].contains("regrid"));
     EXPECT_EQ(toText(report).find("regrid"), std::string::npos);
   }

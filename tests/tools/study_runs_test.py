@@ -55,6 +55,22 @@ class Study(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((self.here / "study-heat/study.md").exists())
 
+    def test_compares_levels_with_the_uniform_grid_of_their_finest_cells(self):
+        done = self.study("levels", "--vary", "finest=64,128", "--out", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = json.loads((self.here / "out/study.json").read_text())["rows"]
+        self.assertEqual([row["h"] for row in rows], [1 / 64, 1 / 128] * 3)
+        self.assertEqual([row["is_refined"] for row in rows], [False, False, False, True, False, True])
+        uniform, refined = rows[1], rows[3]
+        self.assertEqual(uniform["updates"], uniform["steps"] * 128 * 128)
+        self.assertLess(refined["updates"], uniform["updates"])
+        self.assertTrue((self.here / "out/error_updates.png").exists())
+        self.assertIn(f"{refined['updates']:.3g}", (self.here / "out/study.md").read_text())
+
+    def test_refuses_cells_that_no_level_has(self):
+        done = self.study("levels", "--vary", "finest=100", "--out", "out")
+        self.assertIn("--vary finest=100: ups/euler/lax_liu_3_levels.ups has 64 cells along x", done.stderr)
+
     def test_varies_the_resolution_of_a_scene_in_another_folder(self):
         self.assertEqual([row["h"] for row in self.rows("--vary", "resolution=16,32")], [1 / 16, 1 / 32])
 

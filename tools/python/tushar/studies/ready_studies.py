@@ -64,6 +64,13 @@ def at_rest(scene, *sets):
             Method("implicit, GMRES with GAMG", scene, (*sets, *STATIC))]
 
 
+def refined(name, *blocks):
+    """A uniform grid, and levels in blocks of so many cells."""
+    return [Method("uniform", f"ups/euler/{name}.ups"),
+            *(Method(f"levels, blocks of {n} x {n}", f"ups/euler/{name}_levels.ups",
+                     (f"AMR/Regridder/min_patch_size=[[{n},{n},1]]",)) for n in blocks)]
+
+
 # name -> (methods, what is varied, the error)
 READY = {
     "sod": (SOD, {"resolution": ["100", "200", "400", "800"]}, "density.cell.L1"),
@@ -93,6 +100,7 @@ READY = {
                             "DataArchiver/save[3]/@label=TotalMass", "Time/maxTime=2.5e-5"),
                     {"dt": ["1e-5", "1e-6", "1e-7", "1e-8"]},
                     "change.CenterOfMassPosition"),
+    "levels": (refined("lax_liu_3", 8, 16), {"finest": ["64", "128", "256", "512"]}, "density.cell.L1"),
     "heat": ([Method("explicit", "ups/heat/sine.ups")], {"resolution": ["16", "32", "64", "128"]},
              "temperature.cell.L1"),
 }

@@ -1,4 +1,5 @@
-"""Short names for what studies vary, whatever the scene's component: resolution, particles, cfl, dt."""
+"""Short names for what studies vary, whatever the scene's component: resolution, finest, particles, cfl, dt."""
+import math
 import xml.etree.ElementTree as xml
 
 from tushar.program import scene_path
@@ -23,6 +24,16 @@ def resolution(scene, value):
     return [f"Grid/Level/Box/resolution={value}"]
 
 
+def finest(scene, value):
+    """Cells of which `N` would fill the grid along x: of a scene with <AMR> the finest level's, of others all."""
+    if root_of(scene).find("AMR/Regridder") is None:
+        return resolution(scene, value)
+    levels = math.log2(int(value) / cells_of(scene)[0])
+    if levels < 0 or not levels.is_integer():
+        raise ValueError(f"{scene} has {cells_of(scene)[0]} cells along x, and each further level is twice as fine")
+    return [f"AMR/Regridder/max_levels={int(levels) + 1}", f"AMR/Regridder/adaptive={'true' if levels else 'false'}"]
+
+
 def particles(scene, value):
     """`P` particles per cell along each axis of more than one cell, in every body."""
     bodies = root_of(scene).findall("MaterialProperties/MPM/material/geom_object")
@@ -41,4 +52,4 @@ def dt(scene, value):
     return [f"Time/delt_init={value}", f"Time/delt_max={value}"]
 
 
-SHORT = {"resolution": resolution, "particles": particles, "cfl": cfl, "dt": dt}
+SHORT = {"resolution": resolution, "finest": finest, "particles": particles, "cfl": cfl, "dt": dt}

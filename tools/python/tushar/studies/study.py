@@ -38,7 +38,10 @@ class Case:
     def overrides(self):
         sets = list(self.method.sets)
         for name, value in self.varied:
-            sets += SHORT[name](self.method.scene, value) if name in SHORT else [f"{name}={value}"]
+            try:
+                sets += SHORT[name](self.method.scene, value) if name in SHORT else [f"{name}={value}"]
+            except ValueError as problem:
+                raise StudyError(f"--vary {name}={value}: {problem}") from None
         return sets
 
     def key(self):
@@ -146,7 +149,9 @@ class Study:
             first = reports[0]
             row |= {"h": first["layout"]["h"], "error": self._error(first),
                     "seconds": statistics.median(report["wall"]["loop"] for report in reports),
-                    "steps": first["steps"], "particle_count": first["particles"], "cells": first["layout"]["cells"],
+                    "steps": first["steps"],
+                    "updates": first.get("updates", first["steps"] * first["layout"]["cells"]),
+                    "is_refined": "updates" in first, "particle_count": first["particles"], "cells": first["layout"]["cells"],
                     "mass_drift": first["drift"].get("mass"), "energy_drift": first["drift"].get("energy"),
                     "fingerprint": first["fingerprint"],
                     "tasks": time_by_task(reports)}
@@ -192,15 +197,17 @@ def write_csv(rows, path):
 
 def write_markdown(rows, error, command, path):
     names = list(dict.fromkeys(name for row in rows for name in row["varied"]))
-    heads = ["method", *names, "h", f"error ({error})", "order", "time loop [ms]", "steps", "mass drift"]
+    refines = any(row.get("is_refined") for row in rows)
+    heads = ["method", *names, "h", f"error ({error})", "order", "time loop [ms]", "steps",
+             *(["cell updates"] if refines else []), "mass drift"]
     lines = [f"`{command}`", "", f"| {' | '.join(heads)} |", "|" + "---|" * len(heads)]
     for row in rows:
         what = " | ".join([row["method"], *(row["varied"].get(name, "") for name in names)])
         if "died" in row:
-            lines.append(f"| {what} | | died | | | | |")
+            lines.append(f"| {what} | | died | | | | |" + " |" * refines)
             continue
         rank = "" if row["order"] is None else f"{row['order']:.2f}"
         drift = "" if row["mass_drift"] is None else f"{row['mass_drift']:.1e}"
         lines.append(f"| {what} | {row['h']:g} | {row['error']:.4g} | {rank} | {1e3 * row['seconds']:.3g} "
-                     f"| {row['steps']} | {drift} |")
+                     f"| {row['steps']} |" + (f" {row['updates']:.3g} |" if refines else "") + f" {drift} |")
     pathlib.Path(path).write_text("\n".join(lines) + "\n")

@@ -1,4 +1,4 @@
-"""The figures of a study: error against cell width, error against run time, where the time went."""
+"""The figures of a study: error against cell width, run time and, on levels, cell updates; where the time went."""
 import matplotlib
 
 matplotlib.use("Agg")
@@ -19,7 +19,8 @@ def lines_of(rows):
 
 
 def draw(rows, error, folder):
-    """Writes error_h, error_time and where_the_time_went as PNG and SVG; the names of the PNGs."""
+    """Writes error_h, error_time, where_the_time_went and, if a grid is refined, error_updates as PNG and SVG; the
+    names of the PNGs."""
     lines = lines_of(rows)
     if not lines:
         return []
@@ -27,6 +28,9 @@ def draw(rows, error, folder):
         figures = {"error_h": _against(lines, "h", "cell width h [m]", error),
                    "error_time": _against(lines, "seconds", "time loop [s]", error),
                    "where_the_time_went": _time_by_task(lines)}
+        if any(row.get("is_refined") for row in rows):
+            figures["error_updates"] = _side_by_side(lines, {"seconds": "time loop [s]", "updates": "cell updates"},
+                                                     error)
         for name, figure in figures.items():
             for ending in ("png", "svg"):
                 figure.savefig(folder / f"{name}.{ending}")
@@ -37,20 +41,41 @@ def draw(rows, error, folder):
 def _against(lines, column, label, error):
     tall = 4.3, 0.24 * ((len(lines) + 1) // 2)
     figure, (axes, key) = plt.subplots(2, 1, figsize=(6.6, sum(tall)), height_ratios=tall, layout="constrained")
+    _draw_errors(axes, lines, column, label)
+    if column == "h":
+        for order in (1, 2):
+            _order_triangle(axes, lines, order)
+    axes.set_ylabel("error, " + error.replace(".", " "))
+    _draw_key(key, axes)
+    return figure
+
+
+def _side_by_side(lines, labels, error):
+    """The error against several columns, each with its label."""
+    tall = 3.6, 0.24 * ((len(lines) + 2) // 3)
+    figure = plt.figure(figsize=(5.2 * len(labels), sum(tall)), layout="constrained")
+    parts = figure.add_gridspec(2, len(labels), height_ratios=tall)
+    all_axes = [figure.add_subplot(parts[0, place]) for place in range(len(labels))]
+    for axes, (column, label) in zip(all_axes, labels.items()):
+        _draw_errors(axes, lines, column, label)
+    all_axes[0].set_ylabel("error, " + error.replace(".", " "))
+    _draw_key(figure.add_subplot(parts[1, :]), all_axes[0], 3)
+    return figure
+
+
+def _draw_errors(axes, lines, column, label):
     for number, (name, line) in enumerate(lines.items()):
         axes.loglog([row[column] for row in line], [row["error"] for row in line], color=COLOURS[number % len(COLOURS)],
                     marker=MARKERS[number % len(MARKERS)], linestyle="-" if number < len(COLOURS) else "--",
                     markersize=5,
                     linewidth=1.4, label=name)
-    if column == "h":
-        for order in (1, 2):
-            _order_triangle(axes, lines, order)
     axes.set_xlabel(label)
-    axes.set_ylabel("error, " + error.replace(".", " "))
     axes.grid(True, which="minor", linewidth=0.3)
+
+
+def _draw_key(key, axes, columns=2):
     key.axis("off")
-    key.legend(*axes.get_legend_handles_labels(), loc="center", ncols=2, fontsize=8, handlelength=2.6)
-    return figure
+    key.legend(*axes.get_legend_handles_labels(), loc="center", ncols=columns, fontsize=8, handlelength=2.6)
 
 
 def _order_triangle(axes, lines, order):
