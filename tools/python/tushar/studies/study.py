@@ -149,9 +149,9 @@ class Study:
             first = reports[0]
             row |= {"h": first["layout"]["h"], "error": self._error(first),
                     "seconds": statistics.median(report["wall"]["loop"] for report in reports),
-                    "steps": first["steps"],
+                    "steps": first["steps"], "particle_count": first["particles"], "cells": first["layout"]["cells"],
                     "updates": first.get("updates", first["steps"] * first["layout"]["cells"]),
-                    "is_refined": "updates" in first, "particle_count": first["particles"], "cells": first["layout"]["cells"],
+                    "is_refined": "updates" in first,
                     "mass_drift": first["drift"].get("mass"), "energy_drift": first["drift"].get("energy"),
                     "fingerprint": first["fingerprint"],
                     "tasks": time_by_task(reports)}
