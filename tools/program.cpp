@@ -50,12 +50,14 @@ void checkWritable(const std::string& path) {
   if (!existed) std::filesystem::remove(path);
 }
 
+void warn(const std::string& sentence) { fmt::print(stderr, "sus: {}\n", withNumber(sentence)); }
+
 /// Finds the checkpoint to go on from; the first rank says what was found damaged on the way.
 simulation::Restart findRestart(const Arguments& arguments, const mpi::Communicator& ranks) {
   const simulation::Restart restart = scene::findRestart(arguments.scene, arguments.checkpoint, ranks);
   if (!ranks.isFirst() || restart.notes.empty()) return restart;
-  for (const std::string& note : restart.notes) fmt::print(stderr, "sus: {}\n", withNumber(note));
-  fmt::print(stderr, "sus: continues from the checkpoint of step {}\n", restart.step);
+  for (const std::string& note : restart.notes) warn(note);
+  warn(simulation::continuesFrom(restart));
   return restart;
 }
 
@@ -144,6 +146,7 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   if (!arguments.run.quiet && !arguments.showsJson() && ranks.isFirst())
     for (const InputProblem& note : problem.notes) fmt::print(stderr, "note: {}\n", withNumber(note.text()));
   simulation::Simulation run(std::move(problem), arguments.run, startedAt, ranks);
+  run.setWarning(warn);
   if (arguments.check || arguments.schedule || !arguments.graph.empty()) {
     inspect(arguments, run, ranks.isFirst());
     return ExitCode::success;

@@ -175,8 +175,8 @@ class StateWriter : StateWalk {
 class StateReader : StateWalk {
  public:
   StateReader(const output::Hdf5Input& file, data::Warehouse& warehouse, const StateNames& names,
-              const std::vector<std::string>& required)
-      : StateWalk(warehouse, names), file_(file), required_(required) {}
+              const std::vector<std::string>& required, output::CheckedParts& checks)
+      : StateWalk(warehouse, names), file_(file), required_(required), checks_(checks) {}
 
   void run() {
     forEachField([&](int number, const std::string& path) {
@@ -184,6 +184,7 @@ class StateReader : StateWalk {
     });
     for (int m = 0; m < materials(); ++m)
       if (hasParticles(m) && isStored(data::particleId, perCellPath(m))) readParticles(m);
+    checks_.checkOthers();
     forEachVariable(Centring::reduction, -1, [&](int number, const std::string& path) {
       if (isStored(label(number), path)) readReduction(number, path);
     });
@@ -218,7 +219,7 @@ class StateReader : StateWalk {
 
   /// The values of a variable, to be read part by part.
   output::Hdf5Parts partsOf(const std::string& path, const Label& label, std::size_t entries) const {
-    output::Hdf5Parts parts(file_, path);
+    output::Hdf5Parts parts(file_, path, &checks_);
     check(path, parts.type(), parts.count(), emptyValues(label.number),
           entries * static_cast<std::size_t>(label.components));
     return parts;
@@ -237,9 +238,19 @@ class StateReader : StateWalk {
                        [&](std::size_t place, const Index3& first, int count) {
                          rows.push_back(partOf(field, place, static_cast<std::size_t>(count),
                                                to.values + to.stored.offset(first) * field.bytes));
+                         if (field.centring == Centring::node)
+                           rows.back().others = othersOfRow(patch, first, count) * field.components;
                        });
     }
     file.read(std::move(rows));
+  }
+
+  /// How many nodes at the end of a row belong to the next patch as well, which adds them to the sum of what is read.
+  static std::size_t othersOfRow(const Patch& patch, const Index3& first, int count) {
+    const Box &cells = patch.cells(), &all = patch.level().cells();
+    const auto isNext = [&](int d, int node) { return node == cells.upper[d] && node < all.upper[d]; };
+    if (isNext(1, first[1]) || isNext(2, first[2])) return static_cast<std::size_t>(count);
+    return isNext(0, first[0] + count - 1) ? 1 : 0;
   }
 
   /// Entries of a variable, from a place in the file on.
@@ -250,7 +261,7 @@ class StateReader : StateWalk {
 
   void readParticles(int material) {
     const std::string perCell = perCellPath(material);
-    const output::Hdf5Parts counts(file_, perCell);
+    const output::Hdf5Parts counts(file_, perCell, &checks_);
     check(perCell, counts.type(), counts.count(), std::vector<std::int32_t>{}, grid_.cellCount());
     ParticleOrder order(warehouse_, material, [&](const std::vector<ParticleOrder::Wanted>& wanted) {
       std::vector<output::Hdf5Parts::Part> parts;
@@ -282,6 +293,7 @@ class StateReader : StateWalk {
 
   const output::Hdf5Input& file_;
   const std::vector<std::string>& required_;
+  output::CheckedParts& checks_;
 };
 
 }  // namespace
@@ -291,8 +303,8 @@ StoredState::StoredState(data::Warehouse& warehouse, const StateNames& names) {
 }
 
 void readState(const output::Hdf5Input& file, data::Warehouse& warehouse, const StateNames& names,
-               const std::vector<std::string>& required) {
-  StateReader(file, warehouse, names, required).run();
+               const std::vector<std::string>& required, output::CheckedParts& checks) {
+  StateReader(file, warehouse, names, required, checks).run();
 }
 
 }  // namespace tushar::collect

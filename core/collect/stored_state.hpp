@@ -7,6 +7,7 @@
 #include "core/collect/particle_order.hpp"
 #include "core/data/warehouse.hpp"
 #include "core/output/archive_hdf5_input.hpp"
+#include "core/output/checkpoint_manifest.hpp"
 #include "core/output/shared_hdf5.hpp"
 
 namespace tushar::collect {
@@ -36,10 +37,10 @@ class StoredState {
   std::vector<output::Dataset> datasets_;
 };
 
-/// Makes a stored state the old values, on whatever patches the warehouse has; each rank reads what its own need.
-/// Collective. Throws InputError for a variable of `required` that the file lacks or has in another form, or that has
-/// another number of values.
+/// Makes a stored state the old values, on whatever patches the warehouse has; each rank reads what its own need. What
+/// is read is checked by `checks`, and then what is not. Collective. Throws DamageError, and InputError for a variable
+/// of `required` that the file lacks or has in another form, or that has another number of values.
 void readState(const output::Hdf5Input& file, data::Warehouse& warehouse, const StateNames& names,
-               const std::vector<std::string>& required);
+               const std::vector<std::string>& required, output::CheckedParts& checks);
 
 }  // namespace tushar::collect

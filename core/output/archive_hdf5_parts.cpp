@@ -35,7 +35,8 @@ constexpr std::size_t mostAtOnce = 256;  ///< parts; Linux takes 1024
 
 }  // namespace
 
-Hdf5Parts::Hdf5Parts(const Hdf5Input& file, std::string name) : file_(&file), name_(std::move(name)) {
+Hdf5Parts::Hdf5Parts(const Hdf5Input& file, std::string name, CheckedParts* checks)
+    : file_(&file), checks_(checks), name_(std::move(name)) {
   const Hdf5Input::Placed placed = file.placed(name_);
   type_ = placed.type;
   count_ = placed.count;
@@ -46,6 +47,40 @@ Hdf5Parts::Hdf5Parts(const Hdf5Input& file, std::string name) : file_(&file), na
 void Hdf5Parts::read(std::vector<Part> parts) const {
   if (offset_ < 0) return readWhole(parts);
   std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.first < b.first; });
+  if (!checks_) return readOnce(parts);
+  checks_->read(file_->path().filename().string(), static_cast<std::uint64_t>(offset_), [&](ByteSum* sum) {
+    readOnce(parts);
+    for (const Part& part : parts)
+      if (sum)
+        sum->add(static_cast<std::uint64_t>(offset_) + part.first * bytes_,
+                 {part.to, (part.count - part.others) * bytes_});
+  });
+}
+
+/// Parts that ascend: what the one that reaches farthest so far has of another is copied from there.
+void Hdf5Parts::readOnce(const std::vector<Part>& parts) const {
+  struct Copy {
+    const std::byte* from;
+    std::byte* to;
+    std::size_t bytes;
+  };
+  std::vector<Part> reads;
+  std::vector<Copy> copies;
+  const Part* farthest = nullptr;
+  for (const Part& part : parts) {
+    const std::size_t end = farthest ? farthest->first + farthest->count : 0;
+    const std::size_t common = std::min(part.count, std::max(end, part.first) - part.first);
+    if (common > 0)
+      copies.push_back({farthest->to + (part.first - farthest->first) * bytes_, part.to, common * bytes_});
+    if (common == part.count) continue;
+    reads.push_back({part.first + common, part.count - common, part.to + common * bytes_});
+    farthest = &part;
+  }
+  readRuns(reads);
+  for (const auto& [from, to, bytes] : copies) std::memcpy(to, from, bytes);
+}
+
+void Hdf5Parts::readRuns(const std::vector<Part>& parts) const {
   const OpenFile file(file_->path());
   for (const Part *first = parts.data(), *const end = first + parts.size(), *last; first != end; first = last) {
     for (last = first + 1; last != end && static_cast<std::size_t>(last - first) < mostAtOnce &&

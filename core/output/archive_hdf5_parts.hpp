@@ -5,14 +5,15 @@
 #include <vector>
 
 #include "core/output/archive_hdf5_input.hpp"
+#include "core/output/checkpoint_manifest.hpp"
 
 namespace tushar::output {
 
 /// A dataset that is read in parts when they are needed, without the rest in memory. Its functions may throw FileError.
 class Hdf5Parts {
  public:
-  /// `file` must outlive it.
-  Hdf5Parts(const Hdf5Input& file, std::string name);
+  /// `file` and `checks` must outlive it. With `checks`, all ranks read together.
+  Hdf5Parts(const Hdf5Input& file, std::string name, CheckedParts* checks = nullptr);
 
   /// No values, of the type that the dataset has.
   const Array::Values& type() const { return type_; }
@@ -23,15 +24,20 @@ class Hdf5Parts {
   struct Part {
     std::size_t first, count;
     std::byte* to;
+    std::size_t others = 0;  ///< at its end, which another part or rank has and adds to the sum
   };
-  /// Reads parts in any order; those that follow one another in the file are read at once.
+  /// Reads parts in any order; those that follow one another in the file are read at once, and numbers that several
+  /// have are read once. DamageError where the numbers that all ranks read are not those that were written.
   void read(std::vector<Part> parts) const;
 
  private:
   void readWhole(const std::vector<Part>& parts) const;
+  void readOnce(const std::vector<Part>& parts) const;
+  void readRuns(const std::vector<Part>& parts) const;
   void readRun(int descriptor, const Part* first, const Part* last) const;
 
   const Hdf5Input* file_;
+  CheckedParts* checks_;
   std::string name_;
   Array::Values type_;
   std::size_t count_ = 0, bytes_ = 0;  ///< of a number

@@ -4,6 +4,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -22,7 +23,8 @@ namespace {
 
 constexpr const char* manifestName = "manifest";
 
-constexpr std::uint64_t blockBytes = std::uint64_t{1} << 24;
+constexpr std::uint64_t blockBytes = std::uint64_t{1} << 24;   ///< of the hashes of older versions
+constexpr std::uint64_t leastOfPart = std::uint64_t{1} << 16;  ///< shorter ones are read twice
 
 struct StateFree {
   void operator()(XXH64_state_t* state) const { XXH64_freeState(state); }
@@ -48,15 +50,15 @@ std::optional<XXH64_hash_t> hashOf(std::ifstream& in, std::uint64_t first, std::
 }
 
 /// The hashes of the blocks of a file that are the share of one of several.
-std::vector<std::uint64_t> hashesOf(const fs::path& file, std::uint64_t size, int one, int several) {
+std::vector<std::uint64_t> hashesOf(const fs::path& file, std::uint64_t size, const ShareOf& share) {
   std::ifstream in(file, std::ios::binary);
   if (!in) refuseToRead(file);
   const std::uint64_t blocks = (size + blockBytes - 1) / blockBytes;
   const auto cut = [&](int before) {
-    return blocks * static_cast<std::uint64_t>(before) / static_cast<std::uint64_t>(several);
+    return blocks * static_cast<std::uint64_t>(before) / static_cast<std::uint64_t>(share.several);
   };
   std::vector<std::uint64_t> hashes;
-  for (std::uint64_t block = cut(one); block < cut(one + 1); ++block) {
+  for (std::uint64_t block = cut(share.one); block < cut(share.one + 1); ++block) {
     const std::uint64_t first = block * blockBytes;
     const auto hash = hashOf(in, first, std::min(blockBytes, size - first));
     if (!hash) refuseToRead(file);
@@ -71,15 +73,38 @@ std::string hashOf(const std::vector<std::uint64_t>& blocks) {
   return fmt::format("{:016x}/{}", XXH64(blocks.data(), blocks.size() * sizeof(blocks[0]), 0), blocks.size());
 }
 
-/// The hash of a file that has been written; it is on the disk then.
-std::string hashOnDisk(const fs::path& file, std::uint64_t size, const Writers& writers) {
-  std::vector<std::uint64_t> mine;
+/// How a sum is written, apart from the hashes of older versions.
+std::string textOfSum(std::uint64_t sum) { return fmt::format("s{:016x}", sum); }
+
+/// What of a file is in none of these ranges, which ascend.
+std::vector<ByteRange> outside(const std::vector<ByteRange>& ranges, std::uint64_t size) {
+  std::vector<ByteRange> others;
+  std::uint64_t first = 0;
+  for (const ByteRange& range : ranges) {
+    if (first < range.first) others.push_back({first, range.first});
+    first = range.last;
+  }
+  if (first < size) others.push_back({first, size});
+  return others;
+}
+
+/// The lines of a file that has been written; it is on the disk then.
+std::string linesOnDisk(const fs::path& file, std::uint64_t size, const std::vector<ByteRange>& ranges,
+                        const Writers& writers) {
+  std::vector<std::uint64_t> sums(ranges.size() + 1);
   mpi::together(writers.ranks(), [&] {
     if (writers.mine() < 0) return;
-    mine = hashesOf(file, size, writers.mine(), writers.count());
+    const ShareOf share{writers.mine(), writers.count()};
+    for (std::size_t k = 0; k < ranges.size(); ++k) sums[k] = sumOfFile(file, {&ranges[k], 1}, share);
+    sums.back() = sumOfFile(file, outside(ranges, size), share);
     syncToDisk(file);
   });
-  return hashOf(mpi::allOf(writers.ranks(), mine));
+  sums = sumsOfRanks(writers.ranks(), sums);
+  const std::string name = file.filename().string();
+  std::string lines = fmt::format("{} {} {}\n", textOfSum(sums.back()), size, name);
+  for (std::size_t k = 0; k < ranges.size(); ++k)
+    lines += fmt::format("{} {}-{} {}\n", textOfSum(sums[k]), ranges[k].first, ranges[k].last, name);
+  return lines;
 }
 
 std::string lastLine(const std::string& lines) {
@@ -112,16 +137,21 @@ std::vector<ListedFile> listedIn(const fs::path& folder, const mpi::Communicator
   return files;
 }
 
-/// A line of a manifest: `hash size name`, or `hash/blocks size name`.
+/// A line of a manifest: `hash size name`, or `hash first-last name`.
 struct Line {
-  std::string hash, name;
-  std::uintmax_t size = 0;
+  std::string hash, place, name;
+
+  bool isOfPart() const { return place.find('-') != std::string::npos; }
+  bool isSum() const { return hash.starts_with('s'); }
+  std::uint64_t sum() const { return std::strtoull(hash.c_str() + 1, nullptr, 16); }
+  std::uint64_t size() const { return std::strtoull(place.c_str(), nullptr, 10); }
+  ByteRange range() const { return {size(), std::strtoull(place.c_str() + place.find('-') + 1, nullptr, 10)}; }
 };
 
 std::vector<Line> linesOf(const std::string& text) {
   std::vector<Line> lines;
   std::istringstream in(text);
-  for (Line line; in >> line.hash >> line.size >> std::ws && std::getline(in, line.name);) lines.push_back(line);
+  for (Line line; in >> line.hash >> line.place >> std::ws && std::getline(in, line.name);) lines.push_back(line);
   return lines;
 }
 
@@ -134,54 +164,136 @@ std::string damageOfList(const fs::path& folder, std::string& lines) {
   if (lines.empty() || *text != lines + lastLine(lines))
     return fmt::format("the content of {} has changed", manifestName);
   for (const Line& line : linesOf(lines)) {
+    if (line.isOfPart()) continue;
     std::error_code error;
     const std::uintmax_t found = fs::file_size(folder / line.name, error);
     if (error) return fmt::format("{} is missing", line.name);
-    if (found != line.size) return fmt::format("{} has {} bytes instead of {}", line.name, found, line.size);
+    if (found != line.size()) return fmt::format("{} has {} bytes instead of {}", line.name, found, line.size());
   }
   return "";
 }
 
-/// The hash of a file as the manifest has it; empty if it cannot be read. That of a large file of older versions is not
-/// by blocks, and made by the first rank alone.
+/// The hash of a file as a manifest of an older version has it; empty if it cannot be read. That of a large file of the
+/// oldest is not by blocks, and made by the first rank alone.
 std::string hashNow(const fs::path& file, const Line& line, const mpi::Communicator& ranks) {
   const bool isByBlocks = line.hash.find('/') != std::string::npos;
   bool failed = false;
   std::vector<std::uint64_t> hashes;
   try {
-    if (isByBlocks) hashes = hashesOf(file, line.size, ranks.rank(), ranks.size());
+    if (isByBlocks) hashes = hashesOf(file, line.size(), {ranks.rank(), ranks.size()});
   } catch (const FileError&) {
     failed = true;
   }
   if (!isByBlocks && ranks.isFirst()) {
     std::ifstream in(file, std::ios::binary);
-    const auto hash = in ? hashOf(in, 0, line.size) : std::nullopt;
+    const auto hash = in ? hashOf(in, 0, line.size()) : std::nullopt;
     failed = !hash;
     hashes.push_back(hash.value_or(0));
   }
   return ranks.any(failed) ? "" : hashOf(mpi::allOf(ranks, hashes));
 }
 
+std::string unreadable(const std::string& name) { return fmt::format("{} cannot be read", name); }
+std::string changed(const std::string& name) { return fmt::format("the content of {} has changed", name); }
+
+/// What is wrong with bytes of a file whose sum is known: ranks read them together.
+std::string damageOfSum(const fs::path& file, const mpi::Communicator& ranks, std::uint64_t expected,
+                        const std::function<std::uint64_t()>& mine) {
+  std::uint64_t sum = 0;
+  bool failed = false;
+  try {
+    sum = mine();
+  } catch (const FileError&) {
+    failed = true;
+  }
+  if (ranks.any(failed)) return unreadable(file.filename().string());
+  return sumsOfRanks(ranks, {&sum, 1}).front() == expected ? "" : changed(file.filename().string());
+}
+
+/// What is wrong with a file, but for parts of it.
+std::string damageOutside(const fs::path& file, const Line& line, const std::vector<Line>& lines,
+                          const mpi::Communicator& ranks) {
+  if (!line.isSum()) {
+    const std::string now = hashNow(file, line, ranks);
+    return now.empty() ? unreadable(line.name) : now == line.hash ? "" : changed(line.name);
+  }
+  std::vector<ByteRange> parts;
+  for (const Line& other : lines)
+    if (other.isOfPart() && other.name == line.name) parts.push_back(other.range());
+  return damageOfSum(file, ranks, line.sum(), [&] {
+    return sumOfFile(file, outside(parts, line.size()), {ranks.rank(), ranks.size()});
+  });
+}
+
 }  // namespace
 
-void writeManifest(const fs::path& folder, const Writers& writers) {
+void writeManifest(const fs::path& folder, const Writers& writers, const std::vector<FilePart>& parts) {
   std::string lines;
-  for (const auto& [name, size] : listedIn(folder, writers.ranks()))
-    lines += fmt::format("{} {} {}\n", hashOnDisk(folder / name, size, writers), size, name);
+  for (const auto& [name, size] : listedIn(folder, writers.ranks())) {
+    std::vector<ByteRange> ranges;
+    for (const FilePart& part : parts)
+      if (part.file == name && part.bytes.size() >= leastOfPart) ranges.push_back(part.bytes);
+    std::sort(ranges.begin(), ranges.end(), [](const ByteRange& a, const ByteRange& b) { return a.first < b.first; });
+    lines += linesOnDisk(folder / name, size, ranges, writers);
+  }
   writers.ranks().onFirst([&] { replaceFileOnDisk(folder / manifestName, lines + lastLine(lines)); });
 }
 
-std::string damageOf(const fs::path& folder, const mpi::Communicator& ranks) {
-  std::string damage, lines;
-  if (ranks.isFirst()) damage = damageOfList(folder, lines);
-  damage = ranks.broadcast(damage);
-  if (!damage.empty()) return damage;
-  for (const Line& line : linesOf(ranks.broadcast(lines))) {
-    const std::string now = hashNow(folder / line.name, line, ranks);
-    if (now.empty()) return fmt::format("{} cannot be read", line.name);
-    if (now != line.hash) return fmt::format("the content of {} has changed", line.name);
+Inspection inspect(const fs::path& folder, const mpi::Communicator& ranks) {
+  Inspection found;
+  std::string text;
+  if (ranks.isFirst()) found.damage = damageOfList(folder, text);
+  found.damage = ranks.broadcast(found.damage);
+  if (!found.damage.empty()) return found;
+  const std::vector<Line> lines = linesOf(ranks.broadcast(text));
+  for (const Line& line : lines) {
+    if (line.isOfPart())
+      found.parts.push_back({line.name, line.range(), line.sum()});
+    else
+      found.damage = damageOutside(folder / line.name, line, lines, ranks);
+    if (!found.damage.empty()) break;
   }
-  return "";
+  return found;
+}
+
+std::string damageOf(const fs::path& folder, const mpi::Communicator& ranks) {
+  Inspection found = inspect(folder, ranks);
+  try {
+    if (found.damage.empty()) CheckedParts(folder, std::move(found.parts), ranks).checkOthers();
+  } catch (const DamageError& error) {
+    return error.what();
+  }
+  return found.damage;
+}
+
+CheckedParts::CheckedParts(fs::path folder, std::vector<FilePart> parts, const mpi::Communicator& ranks)
+    : folder_(std::move(folder)), parts_(std::move(parts)), ranks_(&ranks), checked_(parts_.size(), false) {}
+
+void CheckedParts::read(const std::string& file, std::uint64_t first, const std::function<void(ByteSum*)>& read) {
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    if (parts_[k].file == file && parts_[k].bytes.first == first && !checked_[k]) return check(k, read);
+  read(nullptr);
+}
+
+void CheckedParts::check(std::size_t part, const std::function<void(ByteSum*)>& read) {
+  const std::string damage = damageOfSum(folder_ / parts_[part].file, *ranks_, parts_[part].sum, [&] {
+    ByteSum sum;
+    read(&sum);
+    return sum.value();
+  });
+  if (!damage.empty()) throw DamageError(damage);
+  checked_[part] = true;
+}
+
+void CheckedParts::checkOthers() {
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    if (checked_[k]) continue;
+    const std::string damage = damageOfSum(folder_ / parts_[k].file, *ranks_, parts_[k].sum, [&] {
+      return sumOfFile(folder_ / parts_[k].file, {&parts_[k].bytes, 1}, {ranks_->rank(), ranks_->size()});
+    });
+    if (!damage.empty()) throw DamageError(damage);
+    checked_[k] = true;
+  }
 }
 
 }  // namespace tushar::output

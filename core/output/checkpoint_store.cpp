@@ -4,7 +4,6 @@
 #include <system_error>
 
 #include "core/output/archive_files.hpp"
-#include "core/output/checkpoint_manifest.hpp"
 
 namespace tushar::output {
 
@@ -39,7 +38,7 @@ int CheckpointStore::latest() const {
   return all.empty() ? -1 : all.back();
 }
 
-void CheckpointStore::write(int step, const std::function<void(const fs::path&)>& fill) const {
+void CheckpointStore::write(int step, const std::function<std::vector<FilePart>(const fs::path&)>& fill) const {
   const mpi::Communicator& ranks = writers_.ranks();
   const fs::path temporary = temporaryOf(folder(step));
   try {
@@ -48,8 +47,8 @@ void CheckpointStore::write(int step, const std::function<void(const fs::path&)>
       removeLeftovers();
       makeFolder(temporary);
     });
-    fill(temporary);
-    writeManifest(temporary, writers_);
+    const std::vector<FilePart> parts = fill(temporary);
+    writeManifest(temporary, writers_, parts);
     ranks.onFirst([&] { moveInto(temporary, folder(step)); });
   } catch (...) {
     if (ranks.isFirst()) removeLeftovers();

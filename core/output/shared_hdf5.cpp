@@ -170,7 +170,9 @@ FileInFlight::FileInFlight(const Writers& writers, Behind& behind, const std::fi
   Begun begun;
   writers.ranks().onFirst([&] { begin(begun, file, how, header, datasets); });
   if (how.compression == 0) {
-    slabs_.emplace(writers, behind, file, slabsOf(writers, how, datasets, begun.rooms));
+    const std::vector<Slab> slabs = slabsOf(writers, how, datasets, begun.rooms);
+    for (const Slab& slab : slabs) places_.push_back(rangeOf(slab));
+    slabs_.emplace(writers, behind, file, slabs);
     return;
   }
   chunks_ = std::make_unique<Chunks>(writers, behind, how, std::move(begun.file));
@@ -182,10 +184,13 @@ FileInFlight::~FileInFlight() = default;
 
 void FileInFlight::finish(const mpi::Communicator& ranks) { slabs_ ? slabs_->finish(ranks) : chunks_->finish(ranks); }
 
-void writeTogether(const Writers& writers, const std::filesystem::path& file, const Storage& how,
-                   const std::function<void(Hdf5File&)>& header, const std::vector<Dataset>& datasets) {
+std::vector<ByteRange> writeTogether(const Writers& writers, const std::filesystem::path& file, const Storage& how,
+                                     const std::function<void(Hdf5File&)>& header,
+                                     const std::vector<Dataset>& datasets) {
   Behind atOnce;
-  FileInFlight(writers, atOnce, file, how, header, datasets).finish(writers.ranks());
+  FileInFlight written(writers, atOnce, file, how, header, datasets);
+  written.finish(writers.ranks());
+  return written.places();
 }
 
 }  // namespace tushar::output

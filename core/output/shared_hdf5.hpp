@@ -45,15 +45,19 @@ class FileInFlight {
   /// Waits until the file is whole, and closes it. Collective on `ranks`: those of the writers, or the first alone
   /// where it is the only writer.
   void finish(const mpi::Communicator& ranks);
+  /// Where the values of the datasets that have a source are; none where they are compressed.
+  const std::vector<ByteRange>& places() const { return places_; }
 
  private:
   class Chunks;
+  std::vector<ByteRange> places_;
   std::optional<SlabsInFlight> slabs_;
   std::unique_ptr<Chunks> chunks_;  ///< of a file that is compressed
 };
 
-/// Writes such a file at once. Collective.
-void writeTogether(const Writers& writers, const std::filesystem::path& file, const Storage& how,
-                   const std::function<void(Hdf5File&)>& header, const std::vector<Dataset>& datasets);
+/// Writes such a file at once. Returns FileInFlight::places(). Collective.
+std::vector<ByteRange> writeTogether(const Writers& writers, const std::filesystem::path& file, const Storage& how,
+                                     const std::function<void(Hdf5File&)>& header,
+                                     const std::vector<Dataset>& datasets);
 
 }  // namespace tushar::output

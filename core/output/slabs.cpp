@@ -26,6 +26,8 @@ std::span<std::byte> narrowed(std::span<std::byte> numbers) {
   return numbers.first(count * sizeof(float));
 }
 
+std::uint64_t entryBytesInFile(const Slab& slab) { return entryBytes(*slab.array) / (slab.asFloat ? 2 : 1); }
+
 /// Brings one array to the writers, a piece to each at a time.
 class SlabWriter {
  public:
@@ -35,8 +37,8 @@ class SlabWriter {
         file_(std::move(file)),
         pieces_(pieces),
         slab_(slab),
-        entry_bytes_(entryBytes(*slab.array) / (slab.asFloat ? 2 : 1)),
-        all_{slab.offset, slab.offset + slab.array->entries() * entry_bytes_},
+        entry_bytes_(entryBytesInFile(slab)),
+        all_(rangeOf(slab)),
         most_(mostOfPiece(writers)) {}
 
   void run() {
@@ -97,6 +99,10 @@ ByteRange slabOf(const ByteRange& all, int writer, int writers) {
     return std::clamp(place * slabCut, all.first, all.last);
   };
   return {cut(writer), cut(writer + 1)};
+}
+
+ByteRange rangeOf(const Slab& slab) {
+  return {slab.offset, slab.offset + slab.array->entries() * entryBytesInFile(slab)};
 }
 
 SlabsInFlight::SlabsInFlight(const Writers& writers, Behind& behind, const std::filesystem::path& file,

@@ -7,17 +7,12 @@
 #include <vector>
 
 #include "core/output/behind.hpp"
+#include "core/output/byte_range.hpp"
 #include "core/output/shared_file.hpp"
 #include "core/output/snapshot.hpp"
 #include "core/output/writers.hpp"
 
 namespace tushar::output {
-
-/// Bytes of a file: [first, last).
-struct ByteRange {
-  std::uint64_t first = 0, last = 0;
-  std::uint64_t size() const { return last - first; }
-};
 
 /// Where in a file writers change over: at multiples of so many bytes, so that no page and no stripe has two writers.
 inline constexpr std::uint64_t slabCut = std::uint64_t{1} << 20;
@@ -33,6 +28,9 @@ struct Slab {
   std::uint64_t offset = 0;  ///< of the first number in the file
   bool asFloat = false;      ///< real numbers take 4 bytes there
 };
+
+/// The bytes of all its numbers in the file.
+ByteRange rangeOf(const Slab& slab);
 
 /// Arrays on their way into a file that the first rank has made: each writer puts there the slab that is its own. When
 /// one is made, the values have been taken over, and `behind` brings them to the file. Collective.

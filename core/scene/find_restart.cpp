@@ -1,7 +1,6 @@
 #include "core/scene/find_restart.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -11,7 +10,6 @@
 #include "core/output/archive_files.hpp"
 #include "core/output/archive_hdf5_input.hpp"
 #include "core/output/archive_index.hpp"
-#include "core/output/checkpoint_manifest.hpp"
 #include "core/output/checkpoint_store.hpp"
 #include "core/output/run_log.hpp"
 
@@ -42,15 +40,6 @@ fs::path folderOf(const fs::path& uda) {
   return folder;
 }
 
-std::string damageSentence(const output::CheckpointStore& store, int step, const std::string& damage) {
-  return fmt::format("the checkpoint {} is damaged: {}", store.folder(step).string(), damage);
-}
-
-std::string listed(const std::vector<int>& steps) {
-  return fmt::format("there {} {}", steps.size() == 1 ? "is that of step" : "are those of steps",
-                     fmt::join(steps, ", "));
-}
-
 /// Steps whose checkpoints may be taken, the first that is whole: the chosen one, or those from LATEST back.
 std::vector<int> candidatesOf(const std::string& uda, const fs::path& archive, std::optional<int> chosen) {
   const output::CheckpointStore store(archive, 1);
@@ -59,18 +48,8 @@ std::vector<int> candidatesOf(const std::string& uda, const fs::path& archive, s
   if (!chosen)
     return {std::make_reverse_iterator(std::upper_bound(steps.begin(), steps.end(), store.latest())), steps.rend()};
   if (!std::binary_search(steps.begin(), steps.end(), *chosen))
-    refuse(archive, fmt::format("there is no checkpoint of step {}; {}", *chosen, listed(steps)));
+    refuse(archive, fmt::format("there is no checkpoint of step {}; {}", *chosen, simulation::listedSteps(steps)));
   return {*chosen};
-}
-
-[[noreturn]] void refuseDamaged(const simulation::Restart& restart, std::optional<int> chosen) {
-  if (chosen)
-    refuse(restart.archive,
-           fmt::format("{}; {}", restart.notes.back(), listed(output::CheckpointStore(restart.archive, 1).steps())));
-  std::vector<InputProblem> problems;
-  for (const std::string& note : restart.notes) problems.push_back({{}, "", note});
-  problems.push_back({{}, "", "no earlier checkpoint is intact; start the run again from its scene"});
-  throw InputError(std::move(problems));
 }
 
 void restoreScene(simulation::Restart& restart) {
@@ -83,6 +62,7 @@ void restoreScene(simulation::Restart& restart) {
 
 simulation::Restart findRestart(const std::string& uda, std::optional<int> step, const mpi::Communicator& ranks) {
   simulation::Restart restart;
+  restart.isChosen = ranks.broadcast(step ? 1 : 0) != 0;
   std::vector<std::uint64_t> candidates;
   ranks.onFirst([&] {
     restart.archive = folderOf(uda);
@@ -90,17 +70,9 @@ simulation::Restart findRestart(const std::string& uda, std::optional<int> step,
       candidates.push_back(static_cast<std::uint64_t>(candidate));
   });
   restart.archive = ranks.broadcast(restart.archive.string());
-  const output::CheckpointStore store(restart.archive, 1);
-  for (const std::uint64_t candidate : mpi::allOf(ranks, candidates)) {
-    restart.step = static_cast<int>(candidate);
-    const std::string damage = output::damageOf(store.folder(restart.step), ranks);
-    if (damage.empty()) {
-      ranks.onFirst([&] { restoreScene(restart); });
-      return restart;
-    }
-    restart.notes.push_back(damageSentence(store, restart.step, damage));
-  }
-  ranks.onFirst([&] { refuseDamaged(restart, step); });
+  restart.others = mpi::allOf(ranks, candidates);
+  if (!simulation::takeNext(restart, ranks)) simulation::refuseDamaged(restart, ranks);
+  ranks.onFirst([&] { restoreScene(restart); });
   return restart;
 }
 

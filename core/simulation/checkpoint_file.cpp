@@ -97,17 +97,21 @@ void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTa
 
 }  // namespace
 
-void writeCheckpoint(RunState& run, const CheckpointTarget& target) {
+std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTarget& target) {
   const collect::StoredState state(run.warehouse, stateNames(run));
-  output::writeTogether(
+  const std::vector<output::ByteRange> places = output::writeTogether(
       run.writers, target.path, {}, [&](output::Hdf5File& file) { writeHeader(file, run, target); }, state.datasets());
+  std::vector<output::FilePart> parts;
+  for (const output::ByteRange& place : places) parts.push_back({target.path.filename().string(), place});
+  return parts;
 }
 
 void readCheckpoint(RunState& run) {
   const output::Hdf5Input file(run.problem.restart->state());
   checkScene(file, run.problem);
   readTree(file, run);
-  collect::readState(file, run.warehouse, stateNames(run), run.phases.state());
+  output::CheckedParts checks(run.problem.restart->state().parent_path(), run.problem.restart->parts, run.ranks);
+  collect::readState(file, run.warehouse, stateNames(run), run.phases.state(), checks);
   run.time.resume(file.integer("/", "step"), file.real("/", "time"), file.real("/", "delT"));
   if (run.ranks.isFirst()) run.scheduler.relocation().setDropped(static_cast<long>(file.count("/", "dropped")));
   for (const ConservedTotal& total : run.phases.totals())

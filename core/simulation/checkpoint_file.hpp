@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "core/output/archive.hpp"
+#include "core/output/checkpoint_manifest.hpp"
 #include "core/simulation/run_state.hpp"
 
 namespace tushar::simulation {
@@ -23,12 +25,13 @@ struct CheckpointTarget {
   long dropped = 0;            ///< particles that have left the grid, on all ranks
 };
 
-/// Writes the state of a run as it is now. All ranks call it. Throws FileError on a rank that cannot write, and
-/// FailedElsewhere on the others.
-void writeCheckpoint(RunState& run, const CheckpointTarget& target);
+/// Writes the state of a run as it is now; returns where its values are in the file. All ranks call it. Throws
+/// FileError on a rank that cannot write, and FailedElsewhere on the others.
+std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTarget& target);
 
 /// Restores a run from the checkpoint named in its problem: the variables, step and time, dropped particles, and totals
-/// at the start. Throws InputError for a checkpoint of another format, step, component or grid. All ranks call it.
+/// at the start. Throws InputError for a checkpoint of another format, step, component or grid, and DamageError for one
+/// whose values have changed since it was written. All ranks call it.
 void readCheckpoint(RunState& run);
 
 /// The extent of the archive when the checkpoint of a restarted run was written; the run has read the checkpoint.

@@ -13,8 +13,28 @@ Checkpoints::Checkpoints(RunState& run, Outputs& outputs) : run_(run), outputs_(
   if (const auto& asked = run.problem.archive.checkpoint) control_.emplace(*asked, run.problem.time.initTime);
 }
 
+bool Checkpoints::read() {
+  Restart& restart = *run_.problem.restart;
+  try {
+    readCheckpoint(run_);
+    return true;
+  } catch (const output::DamageError& error) {
+    noteDamage(restart, error.what());
+  }
+  const std::size_t before = restart.notes.size() - 1;
+  if (!takeNext(restart, run_.ranks)) refuseDamaged(restart, run_.ranks);
+  run_.ranks.onFirst([&] {
+    for (std::size_t k = before; warn_ && k < restart.notes.size(); ++k) warn_(restart.notes[k]);
+    if (warn_) warn_(continuesFrom(restart));
+  });
+  run_.warehouse.startAnew(run_.materials());
+  run_.scheduler.forgetLayout();
+  return false;
+}
+
 void Checkpoints::resume() {
-  readCheckpoint(run_);
+  while (!read()) {
+  }
   run_.clock.agree(run_.ranks);
   if (control_) control_->note(run_.time.time(), run_.clock.elapsed());
   last_ = run_.time.step();
@@ -49,7 +69,7 @@ void Checkpoints::write() {
   const int cycle = run_.problem.archive.checkpoint.value_or(CheckpointSettings{}).cycle;
   output::CheckpointStore(outputs_.folder(), cycle, run_.writers)
       .write(run_.time.step(), [&](const std::filesystem::path& folder) {
-        writeCheckpoint(run_, {folder / stateFile, point, dropped});
+        return writeCheckpoint(run_, {folder / stateFile, point, dropped});
       });
   run_.clock.agree(run_.ranks);
   last_ = run_.time.step();

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "core/simulation/checkpoint_control.hpp"
 #include "core/simulation/outputs.hpp"
@@ -14,7 +17,10 @@ class Checkpoints {
  public:
   Checkpoints(RunState& run, Outputs& outputs);
 
-  /// Reads the checkpoint from which the run continues. Throws InputError for one that does not fit the scene.
+  /// What the first rank says of damaged checkpoints goes there.
+  void setWarning(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
+  /// Reads the checkpoint from which the run continues; instead of a damaged one, the one before it. Throws InputError
+  /// where there is none, or for one that does not fit the scene.
   void resume();
   /// Writes a checkpoint at the start, if the scene has checkpoints.
   void writeFirst();
@@ -31,11 +37,15 @@ class Checkpoints {
   double memory() const { return memory_; }
 
  private:
+  /// False where the checkpoint is damaged; that before it is then the one to read.
+  bool read();
+
   RunState& run_;
   Outputs& outputs_;
   std::optional<CheckpointControl> control_;  ///< empty if the scene has none
   int last_ = -1;                             ///< step of the last that was written or read
   double seconds_ = 0, memory_ = 0;
+  std::function<void(const std::string&)> warn_;
 };
 
 }  // namespace tushar::simulation

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/mpi.hpp"
@@ -33,6 +35,8 @@ class Simulation {
   long tryStart();
   /// The entry of run.json for the program and its command line.
   void setRecord(output::RunRecord record) { record_ = std::move(record); }
+  /// Gets sentences on checkpoints that are found damaged when the run goes on from one; on the first rank.
+  void setWarning(std::function<void(const std::string&)> warn) { checkpoints_.setWarning(std::move(warn)); }
   /// Runs to the end of the scene, to an interrupt, to a file `stop_now` in its archive, or to a value that is not
   /// finite or out of its bounds, which the report then names: the last whole step is saved. Throws TaskError,
   /// FileError, and NumericalError for such a value at the start.

@@ -85,9 +85,14 @@ std::string fileOf(Weather& weather) {
   return text.str();
 }
 
+void readBack(Weather& weather, const std::vector<std::string>& required = {}) {
+  output::CheckedParts none(test::temporaryFolder(), {}, mpi::Communicator::alone());
+  readState(output::Hdf5Input(test::temporaryFolder() + "state.h5"), weather.warehouse, weather.names, required, none);
+}
+
 std::string refusalOf(Weather& weather, const std::vector<std::string>& required) {
   try {
-    readState(output::Hdf5Input(test::temporaryFolder() + "state.h5"), weather.warehouse, weather.names, required);
+    readBack(weather, required);
   } catch (const InputError& error) {
     return error.problems().front().sentence;
   }

@@ -17,9 +17,10 @@ namespace {
 void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
 
 /// Puts two files into a checkpoint.
-void fill(const fs::path& folder) {
+std::vector<FilePart> fill(const fs::path& folder) {
   write(folder / "state.h5", std::string(10000, 's'));
   write(folder / "input.xml", "<scene/>");
+  return {};
 }
 
 std::vector<int> stepsAfterWriting(const CheckpointStore& store, const std::vector<int>& steps) {
@@ -67,7 +68,7 @@ TEST(CheckpointStore, LeavesTheOneBeforeWhereAWriteFails) {
   const CheckpointStore store(here, 1);
   store.write(1, fill);
 
-  const auto failing = [](const fs::path& folder) {
+  const auto failing = [](const fs::path& folder) -> std::vector<FilePart> {
     fill(folder);
     throw FileError("the disk is full");
   };

@@ -3,6 +3,7 @@
 writer cannot write."""
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -31,6 +32,7 @@ CASES = {
 RANKS_AND_WRITERS = ((2, 1), (2, 2), (3, 2), (3, 3), (5, 1), (5, 4), (5, 5))
 LITTLE = 64e6  # bytes that a rank may need beyond its state to write
 OF_ALL = 100e6  # bytes that a rank may have in memory beyond its part of the state, the program included
+PROGRAM = 500e3  # bytes that a rank reads for itself: libraries, the scene, the head of the checkpoint
 PATIENCE = 200  # seconds after which a job hangs, even on a machine with much else to do
 
 
@@ -77,6 +79,65 @@ class Writers(FolderTest):
             code, errors, report = here.finish(words, ("Time/max_Timesteps=4",))
             self.assertEqual((code, errors, report["fingerprint"]), (0, "", expected["fingerprint"]))
 
+    def bytes_read(self, here, words, sets):
+        """Bytes that calls of a job's ranks have read, as the system counts them."""
+        counted = ("sh", "-c", f'"$@" || exit; grep rchar /proc/$$/io > {here.path}/read.${{OMPI_COMM_WORLD_RANK:-0}}',
+                   "sh")
+        job = self.start(here, words, sets, counted)
+        self.assertEqual((job.communicate()[1], job.returncode), ("", 0))
+        files = list(here.path.glob("read.*"))
+        self.assertEqual(len(files), here.ranks)
+        return sum(int(file.read_text().split()[1]) for file in files)
+
+    def test_a_restart_reads_each_byte_about_once(self):
+        cells = (f"{BOX}/resolution=[1000,800,1]", f"{BOX}/upper=[1,.4,1]")
+        for scene, sets, layout in ((SOD, (f"{BOX}/resolution=[300,200,1]", f"{BOX}/upper=[1,.4,1]"), "7x3x1"),
+                                    (SINE, cells, "2x5x1"), ("ups/heat/levels.ups", (), "1x1x1")):
+            for ranks, writers, again, patches in ((1, 1, 3, "8x3x1"), (3, 2, 2, "2x9x1"), (2, 2, 1, "3x4x1")):
+                with self.subTest(scene, ranks=ranks, writers=writers, again=again):
+                    here = self.folder(ranks)
+                    words = [scene, "--output", here.path, "-writers", writers, "-layout", layout]
+                    self.well(here.finish(words, (*sets, *EVERY, "Time/max_Timesteps=2")))
+                    here.ranks = again
+                    words = ["-restart", here.uda, "-layout", patches]
+                    read = self.bytes_read(here, words, ("Time/max_Timesteps=2",))
+                    size = (here.checkpoints[-1] / "state.h5").stat().st_size
+                    self.assertLess(read, 1.2 * size + again * PROGRAM)
+
+    def test_a_changed_byte_is_told_before_any_step_and_the_checkpoint_before_is_taken(self):
+        here, alone = self.folder(2), self.folder(1)
+        expected = self.run_by(alone, SOD, PLANE, 1, "6x4x1")
+        self.run_by(here, SOD, PLANE, 2, "6x4x1")
+        state = here.checkpoints[-1] / "state.h5"
+        places = [line.split()[1] for line in (state.parent / "manifest").read_text().splitlines()[:-1]]
+        self.assertGreater(len(places), 6)  # whose sums are checked while they are read, and the rest of the file
+        ranges = [tuple(map(int, place.split("-"))) if "-" in place else (0, int(place)) for place in places]
+        saved = self.saved(here)
+        for k, (first, last) in enumerate(ranges):
+            for at in (first, (first + last) // 2, last - 1):
+                with self.subTest(place=places[k], at=at):
+                    here.ranks = 1 + (k + at) % 3
+                    with state.open("r+b") as file:
+                        file.seek(at)
+                        byte = file.read(1)[0]
+                        file.seek(at)
+                        file.write(bytes([byte ^ (1 << at % 8)]))
+                    code, errors, report = here.restart("Time/max_Timesteps=4", layout="[3,5,1]")
+                    self.assertEqual((code, report["fingerprint"]), (0, expected["fingerprint"]), errors)
+                    self.assertEqual(errors, f"sus: the checkpoint {state.parent.resolve()} is damaged: the content of "
+                                             "state.h5 has changed [T502]\n"
+                                             "sus: continues from the checkpoint of step 2\n")
+                    self.put_back(here, saved)
+
+    def saved(self, here):
+        copy = here.path / "saved"
+        shutil.copytree(here.uda, copy)
+        return copy
+
+    def put_back(self, here, saved):
+        shutil.rmtree(here.uda.resolve())
+        shutil.copytree(saved, here.uda.resolve())
+
     def start(self, here, words, sets, ranks_run=(), **environment):
         """A job whose ranks are started by `ranks_run`, words of a command that starts them."""
         command = here.command(words, sets)
@@ -117,6 +178,9 @@ class Writers(FolderTest):
             self.assertEqual(len(list(here.uda.glob("t*.h5"))), 3)
         again = ["-restart", here.uda, "-layout", "2x4x1"]
         self.assertLess(self.most_memory(here, again, ("Time/max_Timesteps=3",), bounded)[1], part + OF_ALL)
+        here.ranks = 3
+        again = ["-restart", here.uda, "-layout", "1x3x1"]
+        self.assertLess(self.most_memory(here, again, ("Time/max_Timesteps=4",))[1], part * 8 / 3 + OF_ALL)
 
     def end_of(self, here, sets, rank, limit, *words):
         """A job in which one rank may write no further than so many bytes into a file: what it says."""

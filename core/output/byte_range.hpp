@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+
+namespace tushar::output {
+
+/// Bytes of a file: [first, last).
+struct ByteRange {
+  std::uint64_t first = 0, last = 0;
+  std::uint64_t size() const { return last - first; }
+};
+
+}  // namespace tushar::output

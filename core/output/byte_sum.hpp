@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "core/base/mpi.hpp"
+#include "core/output/byte_range.hpp"
+
+namespace tushar::output {
+
+/// A checksum of bytes of a file that several ranks find together, each from the bytes that it has read, in any order:
+/// the sum of w_k r^k modulo the prime 2^61 - 1, where w_k is the k-th word of 8 bytes of the file, 0 at bytes that do
+/// not belong to it. So sums of different bytes add up to that of all. A changed byte always changes it; of other
+/// changes, one in 2e18 goes unnoticed (Karp and Rabin, Efficient randomized pattern-matching algorithms, IBM J. Res.
+/// Dev. 31 (1987) 249-260).
+class ByteSum {
+ public:
+  /// Adds bytes that are in the file from a place on. Fastest where places ascend by equal steps.
+  void add(std::uint64_t at, std::span<const std::byte> bytes);
+  std::uint64_t value() const { return total_; }
+
+ private:
+  void addWord(std::uint64_t number, std::span<const std::byte> bytes, std::uint64_t before);
+  std::uint64_t power(std::uint64_t number);
+
+  std::uint64_t total_ = 0;
+  std::uint64_t last_ = 0, last_power_ = 1;  ///< the power that was needed last
+  std::uint64_t step_ = 0, step_power_ = 1;  ///< from the one before it
+};
+
+/// One of several, who share something evenly.
+struct ShareOf {
+  int one = 0, several = 1;
+};
+
+/// The sum of the bytes in ranges of a file that are the share of one. FileError if they cannot be read.
+std::uint64_t sumOfFile(const std::filesystem::path& file, std::span<const ByteRange> ranges, const ShareOf& share);
+
+/// Sums of what all ranks have, modulo 2^61 - 1, on every rank. Collective.
+std::vector<std::uint64_t> sumsOfRanks(const mpi::Communicator& ranks, std::span<const std::uint64_t> mine);
+
+}  // namespace tushar::output
