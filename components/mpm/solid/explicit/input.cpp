@@ -222,8 +222,7 @@ const Schema<MpmSection>& mpmSchema() {
 std::unique_ptr<Solids> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
   settleParticles(level, problem);
   problem.start.domainsDeform = interpolator == Interpolator::cpdi;
-  const MakeSolids make = solidsOf(interpolator, problem.start.axisymmetric);
-  return make(level.dimension(), problem);
+  return makeSolids(interpolator, level.dimension(), problem);
 }
 
 Method settle(const MpmSection& read, const PhysicalConstants& constants) {

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "components/mpm/solid/explicit/explicit_tasks.hpp"
 #include "components/mpm/solid/problem.hpp"
 #include "core/simulation/catalogue.hpp"
 
@@ -10,14 +11,17 @@ namespace tushar::mpm::solid {
 /// Shape functions of solids with explicit time steps, each in a separate module: `mpm_solid_gimp`, …
 enum class Interpolator { linear, gimp, cpdi, quadratic, cubic };
 
-/// Makes the method on a grid of 1, 2 or 3 dimensions.
-using MakeSolids = std::unique_ptr<Solids> (*)(int dimension, const Problem& problem);
+/// The tasks of shape functions in one to three dimensions, or in radius and axis; null where there are none.
+struct TasksOfShapes {
+  const ExplicitTasks<1>* line = nullptr;
+  const ExplicitTasks<2>* plane = nullptr;
+  const ExplicitTasks<3>* space = nullptr;
+};
 
-/// The factory of the method with these shape functions; loads their module.
-MakeSolids solidsOf(Interpolator interpolator, bool isAxisymmetric);
+/// The method with these shape functions on a grid of `dimension`; loads their module.
+std::unique_ptr<Solids> makeSolids(Interpolator interpolator, int dimension, const Problem& problem);
 
-/// The module of an interpolator calls this when it is loaded. `axisymmetric` is null if it has no such shape
-/// functions.
-void defineSolids(Interpolator interpolator, MakeSolids make, MakeSolids axisymmetric = nullptr);
+/// The module of an interpolator calls this when it is loaded.
+void defineShapes(Interpolator interpolator, const TasksOfShapes& shapes, const TasksOfShapes& axisymmetric = {});
 
 }  // namespace tushar::mpm::solid

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "components/mpm/shapes/tensor_shape.hpp"
+#include "components/mpm/solid/explicit/explicit_tasks.hpp"
 #include "components/mpm/solid/explicit/solids_of.hpp"
 
 namespace tushar::mpm::solid {
@@ -8,23 +8,22 @@ namespace tushar::mpm::solid {
 /// The Material Point Method for solids: Sulsky, Chen & Schreyer, Comput. Methods Appl. Mech. Engrg. 118 (1994) 179,
 /// step by step as Uintah takes it, stress last.
 ///
-/// schedule.hpp is the schedule and reads as the method; the bodies of its tasks are in tasks/. What does not depend on
-/// the shape functions is in solids_of.cpp.
-template <class Shape>
-class SolidMpm : public SolidsOf<Shape::dimension> {
+/// solid_mpm.cpp is the schedule and reads as the method; the bodies of its tasks are in tasks/. Those that work with
+/// shape functions come from the interpolator's module. What needs none is in solids_of.cpp.
+template <int D>
+class SolidMpm : public SolidsOf<D> {
  public:
-  explicit SolidMpm(Problem problem)
-      : Base(std::move(problem),
-             {.haveSizes = Shape::hasSize, .deform = Shape::deforms, .reach = static_cast<int>(Shape::reach)}) {}
+  /// `bodies` outlives it.
+  SolidMpm(Problem problem, const ExplicitTasks<D>& bodies)
+      : Base(std::move(problem), bodies.shaped.shape), bodies_(&bodies) {}
 
   void scheduleTimeAdvance(TaskList& tasks) const override;
 
  private:
-  static constexpr int D = Shape::dimension;
   using Base = SolidsOf<D>;
   using Base::clearsAllNodes, Base::frictionHasColor, Base::hasFriction, Base::hasPlanes, Base::isLoaded, Base::keeps,
       Base::keepsSizes, Base::rubbingHeats, Base::transmitsForce;
-  using Base::keeps_stress_, Base::problem_;
+  using Base::keeps_stress_, Base::problem_, Base::shapes_;
   using Base::scheduleApplyExternalLoads, Base::scheduleContact, Base::scheduleContactAtEnd, Base::scheduleCornerLoads,
       Base::scheduleDamage, Base::scheduleEndOfStep, Base::scheduleFriction, Base::scheduleHeatFlux,
       Base::scheduleKeepVelocity, Base::scheduleNodalWork, Base::scheduleSurroundingForce,
@@ -48,7 +47,13 @@ class SolidMpm : public SolidsOf<Shape::dimension> {
   void scheduleHeat(TaskList& tasks) const;
 
   /// The F by which shape functions deform, if they do; `reads` selects the old or the new one.
-  static auto shapedBy(Reads reads, int ghost = 0) { return when(Shape::deforms, reads(p::deformationMeasure, ghost)); }
+  auto shapedBy(Reads reads, int ghost = 0) const { return when(shapes_.deform, reads(p::deformationMeasure, ghost)); }
+
+  const ExplicitTasks<D>* bodies_;
 };
+
+extern template class SolidMpm<1>;
+extern template class SolidMpm<2>;
+extern template class SolidMpm<3>;
 
 }  // namespace tushar::mpm::solid

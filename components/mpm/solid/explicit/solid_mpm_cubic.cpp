@@ -1,12 +1,4 @@
-#include "components/mpm/solid/explicit/make.hpp"
-
-namespace tushar::mpm::solid {
-
-template class SolidMpm<CubicShape<1>>;
-template class SolidMpm<CubicShape<2>>;
-template class SolidMpm<CubicShape<3>>;
-
-}  // namespace tushar::mpm::solid
+#include "components/mpm/solid/explicit/define_shapes.hpp"
 
 namespace tushar::modules {
 
@@ -14,7 +6,7 @@ using namespace mpm;
 using namespace mpm::solid;
 
 simulation::Catalogue mpm_solid_cubic() {
-  defineSolids(Interpolator::cubic, makeSolids<CubicShape>);
+  defineShapes(Interpolator::cubic, shapesInSpace<CubicShape>());
   return {};
 }
 

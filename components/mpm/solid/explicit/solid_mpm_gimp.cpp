@@ -1,14 +1,4 @@
-#include "components/mpm/solid/explicit/make.hpp"
-
-namespace tushar::mpm::solid {
-
-template class SolidMpm<GimpShape<1>>;
-template class SolidMpm<GimpShape<2>>;
-template class SolidMpm<GimpShape<3>>;
-template class SolidMpm<AxisymmetricGimpShape<1>>;
-template class SolidMpm<AxisymmetricGimpShape<2>>;
-
-}  // namespace tushar::mpm::solid
+#include "components/mpm/solid/explicit/define_shapes.hpp"
 
 namespace tushar::modules {
 
@@ -16,7 +6,7 @@ using namespace mpm;
 using namespace mpm::solid;
 
 simulation::Catalogue mpm_solid_gimp() {
-  defineSolids(Interpolator::gimp, makeSolids<GimpShape>, makeAxisymmetricSolids<AxisymmetricGimpShape>);
+  defineShapes(Interpolator::gimp, shapesInSpace<GimpShape>(), shapesAroundAxis<AxisymmetricGimpShape>());
   return {};
 }
 

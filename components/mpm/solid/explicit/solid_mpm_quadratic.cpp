@@ -1,12 +1,4 @@
-#include "components/mpm/solid/explicit/make.hpp"
-
-namespace tushar::mpm::solid {
-
-template class SolidMpm<QuadraticShape<1>>;
-template class SolidMpm<QuadraticShape<2>>;
-template class SolidMpm<QuadraticShape<3>>;
-
-}  // namespace tushar::mpm::solid
+#include "components/mpm/solid/explicit/define_shapes.hpp"
 
 namespace tushar::modules {
 
@@ -14,7 +6,7 @@ using namespace mpm;
 using namespace mpm::solid;
 
 simulation::Catalogue mpm_solid_quadratic() {
-  defineSolids(Interpolator::quadratic, makeSolids<QuadraticShape>);
+  defineShapes(Interpolator::quadratic, shapesInSpace<QuadraticShape>());
   return {};
 }
 

@@ -3,6 +3,7 @@
 #include "components/mpm/solid/explicit/keeps.hpp"
 #include "components/mpm/solid/problem.hpp"
 #include "components/mpm/solid/transfer/node_record.hpp"
+#include "components/mpm/solid/transfer/placed.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpm::solid {
@@ -17,14 +18,7 @@ struct Reads {
 };
 inline constexpr Reads readsOld{false}, readsNew{true};
 
-/// What the schedule needs from shape functions.
-struct ShapeTraits {
-  bool haveSizes = false;  ///< they depend on the sizes of particles
-  bool deform = false;     ///< they follow F
-  int reach = 1;           ///< cells beyond a patch from which particles reach its nodes
-};
-
-/// The part of SolidMpm that is the same for all shape functions in D dimensions, so that it is compiled once.
+/// The part of SolidMpm that needs no shape functions.
 template <int D>
 class SolidsOf : public Solids {
  public:

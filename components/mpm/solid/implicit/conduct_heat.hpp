@@ -12,31 +12,30 @@ namespace tushar::mpm::solid::implicit {
 ///
 /// where T_i is the mean of the particles over their heat capacities. Materials have one temperature at a node. A side
 /// of the grid keeps the temperature that the scene gives; without one it is insulated.
-template <class Shape>
+template <int D>
 class NodalHeat {
  public:
-  static constexpr int D = Shape::dimension;
-
   NodalHeat(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
-            const Vec3& commonSize, const OfRank<HeatedParticles<Shape>>& particles, bool resetsGrid = true)
+            const ImplicitShapes<D>& shapes, const Vec3& commonSize, const OfRank<HeatedParticles<D>>& particles,
+            bool resetsGrid = true)
       : patches_(patches),
         materials_(materials),
+        shapes_(shapes),
         common_size_(commonSize),
         particles_(particles),
         resets_grid_(resetsGrid),
         nodes_(patches.front()->level(), ranks) {
-    forEachPoint([&](const Point&, const auto& stencil) {
-      stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& slope) {
-        if (s != 0 || slope.squaredNorm() > 0) nodes_.touch(nodes_.imageOf(node).node);
-      });
+    forEachPoint([&](const Point&, Touched touched) {
+      for (const Touch<D>& touch : touched)
+        if (touch.s != 0 || touch.gradient.squaredNorm() > 0) nodes_.touch(nodes_.imageOf(touch.node).node);
     });
-    nodes_.number(patches, Shape::ghostNodes + 1);
+    nodes_.number(patches, shapes.shaped.shape.ghostNodes + 1);
     gather();
   }
 
   solvers::Outcome solve(double dt, const solvers::LinearSettings& settings) {
     solvers::Unknowns unknowns = nodes_.unknowns(1);
-    unknowns.entries = nodes_.neighbours(Shape::Stencil::nodes - 1);
+    unknowns.entries = nodes_.neighbours(shapes_.nodes - 1);
     after_ = before_;
     std::vector<double> right(after_.size(), 0.0);
     const auto assemble = [&](solvers::Matrix& matrix) { this->assemble(dt, matrix, right); };
@@ -57,11 +56,7 @@ class NodalHeat {
   const NodeMap<D>& nodes() const { return nodes_; }
 
  private:
-  static constexpr std::size_t touches_ = [] {
-    std::size_t count = 1;
-    for (int d = 0; d < D; ++d) count *= std::size_t(Shape::Stencil::nodes);
-    return count;
-  }();
+  using Touched = std::span<const Touch<D>>;
   struct Point {
     const Material& material;
     double mass, temperature, volume;  ///< kg, K, m^3
@@ -72,26 +67,25 @@ class NodalHeat {
   void forEachPoint(Visit&& visit) const {
     for (std::size_t p = 0; p < patches_.size(); ++p)
       for (std::size_t m = 0; m < materials_.size(); ++m) {
-        const HeatedParticles<Shape>& heated = particles_[p][m];
-        forEachStencil(
-            *patches_[p], patches_[p]->cells(), heated.placed, common_size_, [&](int k, const auto& stencil) {
-              const double mass = heated.mass[k], volume = mass / materials_[m].density;
-              const Matrix3& f = heated.deformation[k];
-              const Matrix3 carried = resets_grid_ ? Matrix3(Matrix3::Identity()) : Matrix3(f.inverse());
-              visit(Point{materials_[m], mass, heated.temperature[k], volume * f.determinant(), carried}, stencil);
-            });
+        const HeatedParticles<D>& heated = particles_[p][m];
+        shapes_.forEachTouched(*patches_[p], heated.placed, common_size_, [&](int k, Touched touched) {
+          const double mass = heated.mass[k], volume = mass / materials_[m].density;
+          const Matrix3& f = heated.deformation[k];
+          const Matrix3 carried = resets_grid_ ? Matrix3(Matrix3::Identity()) : Matrix3(f.inverse());
+          visit(Point{materials_[m], mass, heated.temperature[k], volume * f.determinant(), carried}, touched);
+        });
       }
   }
   void gather() {
     std::vector<double> sums(2 * nodes_.size(), 0.0);
-    forEachPoint([&](const Point& point, const auto& stencil) {
-      stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
-        const int k = nodes_(nodes_.imageOf(node).node);
-        if (k < 0) return;
-        const double capacity = s * point.mass * point.material.specificHeat;
+    forEachPoint([&](const Point& point, Touched touched) {
+      for (const Touch<D>& touch : touched) {
+        const int k = nodes_(nodes_.imageOf(touch.node).node);
+        if (k < 0) continue;
+        const double capacity = touch.s * point.mass * point.material.specificHeat;
         sums[2 * k] += capacity;
         sums[2 * k + 1] += capacity * point.temperature;
-      });
+      }
     });
     solvers::addUp(nodes_.unknowns(2), sums);
     for (std::size_t k = 0; k < sums.size(); k += 2) least_ = std::max(least_, sums[k]);
@@ -118,17 +112,16 @@ class NodalHeat {
   }
   void assemble(double dt, solvers::Matrix& matrix, std::vector<double>& right) const {
     const Level& level = nodes_.level();
-    forEachPoint([&](const Point& point, const auto& stencil) {
-      std::array<int, touches_> numbers;
-      std::array<Vec<D>, touches_> slopes;
-      std::size_t n = 0;
-      stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& slope) {
-        const auto image = nodes_.imageOf(node);
-        numbers[n] = nodes_(image.node);
-        slopes[n++] =
-            level.template reduce<D>(Vec3(level.template expandDirection<D>(slope).transpose() * point.carried));
-      });
-      addPoint(dt * point.volume * point.material.thermalConductivity, numbers, slopes, matrix, right);
+    forEachPoint([&](const Point& point, Touched touched) {
+      std::array<int, mostTouches<D>> numbers;
+      std::array<Vec<D>, mostTouches<D>> slopes;
+      for (std::size_t n = 0; n < touched.size(); ++n) {
+        const Vec3 slope = level.template expandDirection<D>(touched[n].gradient);
+        numbers[n] = nodes_(nodes_.imageOf(touched[n].node).node);
+        slopes[n] = level.template reduce<D>(Vec3(slope.transpose() * point.carried));
+      }
+      addPoint(dt * point.volume * point.material.thermalConductivity, std::span(numbers).first(touched.size()),
+               std::span(slopes).first(touched.size()), matrix, right);
     });
     for (int k = 0; k < nodes_.owned(); ++k) {
       const double diagonal = std::max(capacity_[k], least_);
@@ -139,25 +132,27 @@ class NodalHeat {
   }
   /// Leaves out the rows and columns of nodes with a given temperature; the right-hand side takes their effect on
   /// other nodes.
-  void addPoint(double factor, const std::array<int, touches_>& numbers, const std::array<Vec<D>, touches_>& slopes,
-                solvers::Matrix& matrix, std::vector<double>& right) const {
-    std::array<double, touches_ * touches_> block{};
-    for (std::size_t i = 0; i < touches_; ++i)
-      for (std::size_t j = 0; j < touches_; ++j) {
+  void addPoint(double factor, std::span<const int> numbers, std::span<const Vec<D>> slopes, solvers::Matrix& matrix,
+                std::vector<double>& right) const {
+    const std::size_t count = numbers.size();
+    std::array<double, mostTouches<D> * mostTouches<D>> block{};
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 0; j < count; ++j) {
         if (numbers[i] < 0 || numbers[j] < 0 || given_[numbers[i]]) continue;
         const double value = factor * slopes[i].dot(slopes[j]);
         if (const auto& given = given_[numbers[j]])
           right[numbers[i]] -= value * *given;
         else
-          block[i * touches_ + j] = value;
+          block[i * count + j] = value;
       }
-    matrix.add(numbers, numbers, block);
+    matrix.add(numbers, numbers, std::span(block).first(count * count));
   }
 
   const RankPatches& patches_;
   const std::vector<Material>& materials_;
+  const ImplicitShapes<D>& shapes_;
   Vec3 common_size_;
-  const OfRank<HeatedParticles<Shape>>& particles_;
+  const OfRank<HeatedParticles<D>>& particles_;
   bool resets_grid_;
   NodeMap<D> nodes_;
   std::vector<double> capacity_, before_, after_;  ///< J/K, K, K
@@ -166,11 +161,12 @@ class NodalHeat {
 };
 
 /// The rate of change of the nodal temperatures in the step. Throws NumericalError if the solver fails.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 void conductHeat(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
-                 const ImplicitSetup& setup, double dt, const OfRank<HeatedParticles<Shape>>& particles,
+                 const ImplicitSetup<D>& setup, double dt, const OfRank<HeatedParticles<D>>& particles,
                  const OfRank<NodeView<double>>& rate) {
-  NodalHeat<Shape> heat(patches, materials, ranks, setup.problem->method.commonSize, particles, setup.how.resetsGrid);
+  NodalHeat<D> heat(patches, materials, ranks, *setup.shapes, setup.problem->method.commonSize, particles,
+                    setup.how.resetsGrid);
   const solvers::Outcome outcome = heat.solve(dt, setup.how.heat);
   if (!outcome.converged) {
     std::optional<Vec3> worst;

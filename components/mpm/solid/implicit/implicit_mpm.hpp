@@ -1,17 +1,17 @@
 #pragma once
 
-#include "components/mpm/shapes/tensor_shape.hpp"
-#include "components/mpm/solid/implicit/method.hpp"
+#include "components/mpm/solid/implicit/shapes.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpm::solid::implicit {
 
 /// The Material Point Method with implicit time steps, as Uintah's impm: Guilkey & Weiss, Int. J. Numer. Meth. Engng 57
 /// (2003) 1323. The displacement of the nodes in a step solves a non-linear system (see ImplicitSystem).
-template <class Shape>
+template <int D>
 class ImplicitMpm : public Solids {
  public:
-  ImplicitMpm(Problem problem, ImplicitMethod how);
+  /// `shapes` outlives it.
+  ImplicitMpm(Problem problem, const ImplicitShapes<D>& shapes, ImplicitMethod how);
 
   std::string whyOneLevel() const override { return "implicit steps solve one system over the whole grid"; }
   void scheduleInitialize(TaskList& tasks) const override;
@@ -21,15 +21,14 @@ class ImplicitMpm : public Solids {
   bool mayRepeatStep() const override { return true; }
 
  private:
-  static constexpr int D = Shape::dimension;
-
   void scheduleStartingAcceleration(TaskList& tasks) const;
   void scheduleMovement(TaskList& tasks) const;
   void scheduleVelocity(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
 
-  ImplicitSetup setup() const { return {&problem_, how_, state_size_}; }
+  ImplicitSetup<D> setup() const { return {&problem_, shapes_, how_, state_size_}; }
 
+  const ImplicitShapes<D>* shapes_;
   ImplicitMethod how_;
   bool heats_;          ///< the work of a step changes the temperature of some material
   bool is_damageable_;  ///< some material counts damage

@@ -214,15 +214,15 @@ void refuseConditions(const Problem& problem, const Element& root, Diagnostics& 
 
 template <template <int> class Shape>
 std::unique_ptr<Component> makeAxisymmetric(const Level& level, const Problem& problem, const ImplicitMethod& method) {
-  if (level.dimension() == 1) return std::make_unique<ImplicitMpm<Shape<1>>>(problem, method);
-  return std::make_unique<ImplicitMpm<Shape<2>>>(problem, method);
+  if (level.dimension() == 1) return std::make_unique<ImplicitMpm<1>>(problem, shapesOf<Shape<1>>, method);
+  return std::make_unique<ImplicitMpm<2>>(problem, shapesOf<Shape<2>>, method);
 }
 
 template <template <int> class Shape>
 std::unique_ptr<Component> makeComponent(const Level& level, const Problem& problem, const ImplicitMethod& method) {
-  if (level.dimension() == 1) return std::make_unique<ImplicitMpm<Shape<1>>>(problem, method);
-  if (level.dimension() == 2) return std::make_unique<ImplicitMpm<Shape<2>>>(problem, method);
-  return std::make_unique<ImplicitMpm<Shape<3>>>(problem, method);
+  if (level.dimension() == 1) return std::make_unique<ImplicitMpm<1>>(problem, shapesOf<Shape<1>>, method);
+  if (level.dimension() == 2) return std::make_unique<ImplicitMpm<2>>(problem, shapesOf<Shape<2>>, method);
+  return std::make_unique<ImplicitMpm<3>>(problem, shapesOf<Shape<3>>, method);
 }
 
 /// Reads a scene of solids with implicit time steps; every problem goes to the diagnostics.

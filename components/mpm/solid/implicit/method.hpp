@@ -25,20 +25,6 @@ struct ImplicitMethod {
   }
 };
 
-/// The settings that all steps of a run share.
-struct ImplicitSetup {
-  const Problem* problem = nullptr;
-  ImplicitMethod how;
-  int stateSize = 1;  ///< internal variables of a particle
-
-  /// The contact that makes a material a rigid body, or null.
-  const Contact* rigidContact(int material) const {
-    for (const Contact& contact : problem->contacts)
-      if (contact.type == Contact::Type::specified && contact.master == material) return &contact;
-    return nullptr;
-  }
-};
-
 namespace p {
 using namespace solid::p;
 template <int D>

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "components/mpm/solid/implicit/method.hpp"
-#include "components/mpm/solid/transfer/placed.hpp"
+#include "components/mpm/solid/implicit/shapes.hpp"
 
 // The particles that the solves of an implicit step read.
 
@@ -26,11 +25,9 @@ struct AtStart {
 };
 
 /// Particles of solids and rigid bodies before a step.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct SolidParticles {
-  static_assert(!Shape::deforms, "implicit steps have no shape functions that follow F");
-
-  Placed<Shape> placed;
+  Placed<D> placed;
   ParticleView<const double> mass;
   ParticleView<const Vec<D>> velocity;
   OptionalView<const Vec<D>> acceleration;  ///< none where a run starts
@@ -56,14 +53,14 @@ struct SolidParticles {
 };
 
 /// Particles that conduct heat.
-template <class Shape>
+template <int D>
 struct HeatedParticles {
-  Placed<Shape> placed;
+  Placed<D> placed;
   ParticleView<const double> mass, temperature;
   ParticleView<const Matrix3> deformation;
 
   static HeatedParticles from(auto& take) {
-    return {.placed = Placed<Shape>::from(take, keepsSizes),
+    return {.placed = Placed<D>::from(take, keepsSizes, 0, when(false, requiresOld(p::deformationMeasure))),
             .mass = take(requiresOld(p::mass)),
             .temperature = take(requiresOld(p::temperature)),
             .deformation = take(requiresOld(p::deformationMeasure))};

@@ -6,15 +6,15 @@
 namespace tushar::mpm::solid::implicit {
 
 /// A rigid body on the grid: the nodes that it touches, and their displacement in the step.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 class RigidBody {
  public:
-  RigidBody(const RankPatches& patches, const mpi::Communicator& ranks, const ImplicitSetup& setup, int material,
-            double time, double dt, const OfRank<SolidParticles<Shape>>& particles)
+  RigidBody(const RankPatches& patches, const mpi::Communicator& ranks, const ImplicitSetup<D>& setup, int material,
+            double time, double dt, const OfRank<SolidParticles<D>>& particles)
       : level_(&patches.front()->level()), nodes_(*level_, ranks), contact_(setup.rigidContact(material)) {
     const auto forEachTouch = [&](auto&& visit) { forEachShare(patches, setup, material, particles, visit); };
     forEachTouch([&](const Index<D>& node, double, const Vec<D>&) { nodes_.touch(node); });
-    nodes_.number(patches, Shape::ghostNodes + 1);
+    nodes_.number(patches, setup.shapes->shaped.shape.ghostNodes + 1);
     std::vector<double> sums(nodes_.size() * (D + 1), 0.0);  // mass, momentum of each node
     forEachTouch([&](const Index<D>& node, double mass, const Vec<D>& velocity) {
       double* sum = &sums[nodes_(node) * (D + 1)];
@@ -38,7 +38,7 @@ class RigidBody {
     return Vec<D>(image.sign.cwiseProduct(moved_[number]));
   }
   /// Adds the forces with which the body holds the solid along the contact's `direction`, at the nodes of this rank.
-  void addReaction(const ImplicitSystem<Shape>& system, VectorSum& reaction) const {
+  void addReaction(const ImplicitSystem<D>& system, VectorSum& reaction) const {
     const std::vector<double> forces = system.reactions();
     for (int k = 0; k < system.nodes().owned(); ++k) {
       if (!(*this)(system.nodes().node(k))) continue;
@@ -49,7 +49,7 @@ class RigidBody {
     }
   }
   /// The solid moves with the body at the nodes that both touch.
-  void prescribe(ImplicitSystem<Shape>& system) const {
+  void prescribe(ImplicitSystem<D>& system) const {
     for (int k = 0; k < system.nodes().size(); ++k)
       if (const auto moved = (*this)(system.nodes().node(k)))
         for (int d = 0; d < D; ++d)
@@ -59,16 +59,15 @@ class RigidBody {
  private:
   /// Calls `visit(node, mass, velocity)` for each particle of the body and each node that gets part of its mass.
   template <class Visit>
-  void forEachShare(const RankPatches& patches, const ImplicitSetup& setup, int material,
-                    const OfRank<SolidParticles<Shape>>& particles, Visit&& visit) const {
-    const Vec3& commonSize = setup.problem->method.commonSize;
+  void forEachShare(const RankPatches& patches, const ImplicitSetup<D>& setup, int material,
+                    const OfRank<SolidParticles<D>>& particles, Visit&& visit) const {
     for (std::size_t p = 0; p < patches.size(); ++p) {
-      const SolidParticles<Shape>& body = particles[p][material];
-      forEachStencil(*patches[p], patches[p]->cells(), body.placed, commonSize, [&](int k, const auto& stencil) {
-        stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
-          const auto image = nodes_.imageOf(node);
-          if (s > 0) visit(image.node, s * body.mass[k], image.sign.cwiseProduct(body.velocity[k]));
-        });
+      const SolidParticles<D>& body = particles[p][material];
+      setup.forEachTouched(*patches[p], body.placed, [&](int k, std::span<const Touch<D>> touched) {
+        for (const Touch<D>& touch : touched) {
+          const auto image = nodes_.imageOf(touch.node);
+          if (touch.s > 0) visit(image.node, touch.s * body.mass[k], image.sign.cwiseProduct(body.velocity[k]));
+        }
       });
     }
   }

@@ -6,8 +6,8 @@
 namespace tushar::mpm::solid::implicit {
 
 /// The solid keeps the velocity that a face has, and does not pass a symmetry plane.
-template <class Shape, int D = Shape::dimension>
-void prescribeFaces(ImplicitSystem<Shape>& system, double dt) {
+template <int D>
+void prescribeFaces(ImplicitSystem<D>& system, double dt) {
   const Level& level = system.nodes().level();
   const grid::BoundarySides<Vec3> sides = level.sides(boundary::velocity);
   for (int k = 0; k < system.nodes().size(); ++k)
@@ -24,13 +24,13 @@ void prescribeFaces(ImplicitSystem<Shape>& system, double dt) {
 }
 
 /// The particles of all materials that are not rigid bodies.
-template <class Shape>
-std::vector<PointSources<Shape>> sourcesOf(const RankPatches& patches, const std::vector<Material>& materials,
-                                           const ImplicitSetup& setup, const OfRank<SolidParticles<Shape>>& particles) {
-  std::vector<PointSources<Shape>> sources;
+template <int D>
+std::vector<PointSources<D>> sourcesOf(const RankPatches& patches, const std::vector<Material>& materials,
+                                       const ImplicitSetup<D>& setup, const OfRank<SolidParticles<D>>& particles) {
+  std::vector<PointSources<D>> sources;
   for (std::size_t p = 0; p < patches.size(); ++p)
     for (std::size_t m = 0; m < materials.size(); ++m) {
-      const SolidParticles<Shape>& solid = particles[p][m];
+      const SolidParticles<D>& solid = particles[p][m];
       if (setup.rigidContact(static_cast<int>(m)) || solid.mass.owned() == 0) continue;
       sources.push_back({.group = {.material = &materials[m],
                                    .count = solid.mass.owned(),
@@ -40,8 +40,7 @@ std::vector<PointSources<Shape>> sourcesOf(const RankPatches& patches, const std
                                    .oldStress = valuesOf(solid.stress),
                                    .oldState = valuesOf(solid.state)},
                          .patch = patches[p],
-                         .extents = solid.placed.extents(patches[p]->level(), setup.problem->method.commonSize),
-                         .x = solid.placed.x,
+                         .placed = solid.placed,
                          .velocity = valuesOf(solid.velocity),
                          .acceleration = valuesOf(solid.acceleration),
                          .externalForce = valuesOf(solid.externalForce)});
@@ -50,9 +49,8 @@ std::vector<PointSources<Shape>> sourcesOf(const RankPatches& patches, const std
 }
 
 /// Why Newton's method failed, where the residual was greatest, and what to try.
-template <class Shape>
-NumericalError failureOf(const solvers::Outcome& outcome, const ImplicitSystem<Shape>& system) {
-  constexpr int D = Shape::dimension;
+template <int D>
+NumericalError failureOf(const solvers::Outcome& outcome, const ImplicitSystem<D>& system) {
   const NodeMap<D>& nodes = system.nodes();
   std::optional<Vec3> worst;
   if (outcome.worst >= 0) worst = nodes.level().template expandPoint<D>(nodes.position(outcome.worst / D));
@@ -76,8 +74,8 @@ struct NodalMotion {
 };
 
 /// Writes the solution to the nodes of a patch.
-template <class Shape, int D = Shape::dimension>
-void writeNodes(const Patch& patch, const ImplicitSystem<Shape>& system, std::span<const double> u,
+template <int D>
+void writeNodes(const Patch& patch, const ImplicitSystem<D>& system, std::span<const double> u,
                 const NodalMotion<D>& motion) {
   forEach<D>(patch.nodes(), [&](const Index<D>& node) {
     const auto image = system.nodes().imageOf(node);
@@ -89,8 +87,8 @@ void writeNodes(const Patch& patch, const ImplicitSystem<Shape>& system, std::sp
   });
 }
 
-template <class Shape, int D = Shape::dimension>
-void writeNodes(const Patch& patch, const RigidBody<Shape>& body, const NodalMotion<D>& motion) {
+template <int D>
+void writeNodes(const Patch& patch, const RigidBody<D>& body, const NodalMotion<D>& motion) {
   forEach<D>(patch.nodes(), [&](const Index<D>& node) {
     motion.increment[node] = body(node).value_or(Vec<D>::Zero());
     motion.acceleration[node] = Vec<D>::Zero();
@@ -98,17 +96,16 @@ void writeNodes(const Patch& patch, const RigidBody<Shape>& body, const NodalMot
 }
 
 /// The rigid bodies, by material; none for materials that deform.
-template <class Shape>
-using RigidBodies = std::vector<std::optional<RigidBody<Shape>>>;
+template <int D>
+using RigidBodies = std::vector<std::optional<RigidBody<D>>>;
 
 /// Prescribes the displacements in the step at faces and rigid bodies.
-template <class Shape>
-RigidBodies<Shape> constrain(ImplicitSystem<Shape>& system, const RankPatches& patches,
-                             const std::vector<Material>& materials, const mpi::Communicator& ranks,
-                             const ImplicitSetup& setup, double time, double dt,
-                             const OfRank<SolidParticles<Shape>>& particles) {
+template <int D>
+RigidBodies<D> constrain(ImplicitSystem<D>& system, const RankPatches& patches, const std::vector<Material>& materials,
+                         const mpi::Communicator& ranks, const ImplicitSetup<D>& setup, double time, double dt,
+                         const OfRank<SolidParticles<D>>& particles) {
   prescribeFaces(system, dt);
-  RigidBodies<Shape> rigid(materials.size());
+  RigidBodies<D> rigid(materials.size());
   for (std::size_t m = 0; m < materials.size(); ++m)
     if (setup.rigidContact(static_cast<int>(m))) {
       rigid[m].emplace(patches, ranks, setup, static_cast<int>(m), time, dt, particles);
@@ -118,13 +115,13 @@ RigidBodies<Shape> constrain(ImplicitSystem<Shape>& system, const RankPatches& p
 }
 
 /// The acceleration of the nodes with which Newmark's rule starts: 0 where faces or rigid bodies hold them.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 void accelerateAtStart(const RankPatches& patches, const std::vector<Material>& materials,
-                       const mpi::Communicator& ranks, const ImplicitSetup& setup, double time,
-                       const OfRank<SolidParticles<Shape>>& particles, const OfRank<NodeView<Vec<D>>>& acceleration) {
+                       const mpi::Communicator& ranks, const ImplicitSetup<D>& setup, double time,
+                       const OfRank<SolidParticles<D>>& particles, const OfRank<NodeView<Vec<D>>>& acceleration) {
   constexpr double dt = 1;  // nothing moves, over whatever time
-  ImplicitSystem<Shape> system(patches, ranks, setup.problem->method, setup.how, dt, setup.stateSize,
-                               sourcesOf(patches, materials, setup, particles));
+  ImplicitSystem<D> system(patches, ranks, *setup.shapes, setup.problem->method, setup.how, dt, setup.stateSize,
+                           sourcesOf(patches, materials, setup, particles));
   const auto rigid = constrain(system, patches, materials, ranks, setup, time, dt, particles);
   const std::vector<double> starting = system.startingAcceleration();
   for (std::size_t p = 0; p < patches.size(); ++p)
@@ -158,12 +155,12 @@ struct SolveTotals {
 
 /// Solves for the displacement of all nodes in the step, by Newton's method. All materials that are not rigid bodies
 /// move in one field. Throws NumericalError if Newton's method fails.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 void solveStep(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
-               const ImplicitSetup& setup, double time, double dt, const OfRank<SolidParticles<Shape>>& particles,
+               const ImplicitSetup<D>& setup, double time, double dt, const OfRank<SolidParticles<D>>& particles,
                const OfRank<NodalMotion<D>>& motion, const SolveTotals& totals) {
-  ImplicitSystem<Shape> system(patches, ranks, setup.problem->method, setup.how, dt, setup.stateSize,
-                               sourcesOf(patches, materials, setup, particles));
+  ImplicitSystem<D> system(patches, ranks, *setup.shapes, setup.problem->method, setup.how, dt, setup.stateSize,
+                           sourcesOf(patches, materials, setup, particles));
   const auto rigid = constrain(system, patches, materials, ranks, setup, time, dt, particles);
   std::vector<double> u = system.guess();
   const solvers::Outcome outcome = solvers::solver().solve(system.unknowns(), system, setup.how.newton, u);

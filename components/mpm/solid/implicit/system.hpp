@@ -3,18 +3,16 @@
 #include "components/mpm/solid/implicit/material_points.hpp"
 #include "components/mpm/solid/implicit/method.hpp"
 #include "components/mpm/solid/implicit/node_map.hpp"
+#include "components/mpm/solid/implicit/shapes.hpp"
 
 namespace tushar::mpm::solid::implicit {
 
 /// Particles of an implicit step: positions, shape functions, motion and loads, apart from their state in PointGroup.
-template <class Shape>
+template <int D>
 struct PointSources {
-  static constexpr int D = Shape::dimension;
-
   PointGroup group;
   const Patch* patch = nullptr;
-  Extents<Shape> extents;
-  ParticleView<const Vec<D>> x;
+  Placed<D> placed;
   const Vec<D>* velocity = nullptr;       ///< m/s
   const Vec<D>* acceleration = nullptr;   ///< m/s^2; null where a run starts: 0
   const Vec<D>* externalForce = nullptr;  ///< N
@@ -28,14 +26,13 @@ struct PointSources {
 /// at the particle positions at the start of the step; where the grid moves with the solid, at those at the start of
 /// the run, so that grad S = F_old^-T grad_0 S. By Newmark's rule with beta = 1/4, gamma = 1/2: a = 4 (u/dt - v_old)/dt
 /// - a_old. Guilkey & Weiss, Int. J. Numer. Meth. Engng 57 (2003) 1323.
-template <class Shape>
+template <int D>
 class ImplicitSystem : public solvers::NonlinearProblem {
  public:
-  static constexpr int D = Shape::dimension;
-
   /// The particles of `patches`, all of this rank; the `ranks` form one system.
-  ImplicitSystem(const RankPatches& patches, const mpi::Communicator& ranks, const Method& method,
-                 const ImplicitMethod& how, double dt, int stateSize, std::vector<PointSources<Shape>> sources);
+  ImplicitSystem(const RankPatches& patches, const mpi::Communicator& ranks, const ImplicitShapes<D>& shapes,
+                 const Method& method, const ImplicitMethod& how, double dt, int stateSize,
+                 std::vector<PointSources<D>> sources);
 
   const NodeMap<D>& nodes() const { return map_; }
   solvers::Unknowns unknowns() const;
@@ -69,15 +66,11 @@ class ImplicitSystem : public solvers::NonlinearProblem {
     for (const Run& run : runs_)
       visit(sources_[run.source], PointRun{&sources_[run.source].group, run.from, run.count});
   }
-  static constexpr int touches_ = [] {
-    int count = 1;
-    for (int d = 0; d < D; ++d) count *= Shape::Stencil::nodes;
-    return count;
-  }();
-  // All of touches_ * D rows or columns; sizes that the compiler does not unroll.
-  using Strain = Eigen::Matrix<double, 9, Eigen::Dynamic, Eigen::ColMajor, 9, touches_ * D>;
-  using Local = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, touches_ * D, touches_ * D>;
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, touches_ * D, 1>;
+  // All of touches_ * D rows or columns.
+  static constexpr int most_ = static_cast<int>(mostTouches<D>) * D;
+  using Strain = Eigen::Matrix<double, 9, Eigen::Dynamic, Eigen::ColMajor, 9, most_>;
+  using Local = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most_, most_>;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_, 1>;
 
   /// Sums over the particles at a node of the system, in the order in which gatherNodes packs them.
   struct Node {
@@ -103,18 +96,21 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   Local stiffnessOf(const PointGroup& group, int k, const Matrix9& tangent) const;
   void addStiffness(const PointGroup& group, int k, Local stiffness, solvers::Matrix& matrix) const;
   void addRunStiffness(const PointRun& run, solvers::Matrix& matrix);
-  std::array<int, touches_> numbersOf(std::size_t point) const;
+  /// The numbers of the touches_ nodes of a point.
+  std::array<int, mostTouches<D>> numbersOf(std::size_t point) const;
   Rows volumeRow(std::size_t point) const;
   Rows volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const;
   void addSharedStiffness(const PointRun& run, const std::vector<Rows>& forces, solvers::Matrix& matrix) const;
   void addDiagonals(solvers::Matrix& matrix) const;
   bool isPrescribed(int node, int d) const { return prescribed_[D * node + d] != 0; }
 
+  const ImplicitShapes<D>& shapes_;
+  int touches_;  ///< nodes of each point
   Method method_;
   ImplicitMethod how_;
   double dt_;
   NodeMap<D> map_;
-  std::vector<PointSources<Shape>> sources_;
+  std::vector<PointSources<D>> sources_;
   struct Run {
     std::uint64_t cell;
     std::size_t source;

@@ -9,18 +9,20 @@
 
 namespace tushar::mpm::solid::implicit {
 
-template <class Shape>
-std::size_t countPoints(const std::vector<PointSources<Shape>>& sources) {
+template <int D>
+std::size_t countPoints(const std::vector<PointSources<D>>& sources) {
   std::size_t count = 0;
-  for (const PointSources<Shape>& from : sources) count += from.group.count;
+  for (const PointSources<D>& from : sources) count += from.group.count;
   return count;
 }
 
-template <class Shape>
-ImplicitSystem<Shape>::ImplicitSystem(const RankPatches& patches, const mpi::Communicator& ranks, const Method& method,
-                                      const ImplicitMethod& how, double dt, int stateSize,
-                                      std::vector<PointSources<Shape>> sources)
-    : method_(method),
+template <int D>
+ImplicitSystem<D>::ImplicitSystem(const RankPatches& patches, const mpi::Communicator& ranks,
+                                  const ImplicitShapes<D>& shapes, const Method& method, const ImplicitMethod& how,
+                                  double dt, int stateSize, std::vector<PointSources<D>> sources)
+    : shapes_(shapes),
+      touches_(shapes.touches()),
+      method_(method),
       how_(how),
       dt_(dt),
       map_(patches.front()->level(), ranks),
@@ -38,35 +40,36 @@ ImplicitSystem<Shape>::ImplicitSystem(const RankPatches& patches, const mpi::Com
   held_.assign(node_.size() * D, 0);
 }
 
-template <class Shape>
-void ImplicitSystem<Shape>::findNodes(const RankPatches& patches) {
+template <int D>
+void ImplicitSystem<D>::findNodes(const RankPatches& patches) {
   std::vector<Index<D>> images(touch_.size());
   std::size_t first = 0;
-  for (PointSources<Shape>& from : sources_) {
+  for (PointSources<D>& from : sources_) {
     from.group.first = first;
-    forEachStencil<Shape>(*from.patch, from.patch->cells(), from.x, from.extents, [&](int p, const auto& stencil) {
+    const Vec3& commonSize = method_.commonSize;
+    shapes_.forEachTouched(*from.patch, from.placed, commonSize, [&](int p, std::span<const Touch<D>> touched) {
       std::size_t at = (first + p) * touches_;
-      stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
-        const auto image = map_.imageOf(node);
+      for (const Touch<D>& of : touched) {
+        const auto image = map_.imageOf(of.node);
         NodeTouch<D>& touch = touch_[at];
-        touch = {0, s, hoopOf(stencil, node), gradient, image.sign};
-        if (s == 0 && touch.hoop == 0 && gradient.squaredNorm() == 0) touch.node = -1;
+        touch = {0, of.s, of.hoop, of.gradient, image.sign};
+        if (of.s == 0 && of.hoop == 0 && of.gradient.squaredNorm() == 0) touch.node = -1;
         if (touch.node >= 0) map_.touch(image.node);
         images[at++] = image.node;
-      });
+      }
     });
     first += from.group.count;
   }
-  map_.number(patches, Shape::ghostNodes + 1);
+  map_.number(patches, shapes_.shaped.shape.ghostNodes + 1);
   for (std::size_t k = 0; k < touch_.size(); ++k)
     if (touch_[k].node >= 0) touch_[k].node = map_(images[k]);
 }
 
 /// grad S = F_old^-T grad_0 S
-template <class Shape>
-void ImplicitSystem<Shape>::carrySlopes() {
+template <int D>
+void ImplicitSystem<D>::carrySlopes() {
   const Level& level = map_.level();
-  for (const PointSources<Shape>& from : sources_)
+  for (const PointSources<D>& from : sources_)
     for (int p = 0; p < from.group.count; ++p) {
       const Matrix3 inverse = from.group.oldDeformation[p].inverse();
       NodeTouch<D>* touch = &touch_[(from.group.first + p) * touches_];
@@ -79,12 +82,12 @@ void ImplicitSystem<Shape>::carrySlopes() {
     }
 }
 
-template <class Shape>
-void ImplicitSystem<Shape>::findRuns() {
+template <int D>
+void ImplicitSystem<D>::findRuns() {
   for (std::size_t s = 0; s < sources_.size(); ++s) {
-    const PointSources<Shape>& from = sources_[s];
+    const PointSources<D>& from = sources_[s];
     forEach<D>(from.patch->cells(), [&](const Index<D>& cell) {
-      const data::ParticleRange range = from.x.in(cell);
+      const data::ParticleRange range = from.placed.x.in(cell);
       if (!range.empty()) runs_.push_back({map_.level().template cellNumber<D>(cell), s, range.first, range.size()});
     });
   }
@@ -94,10 +97,10 @@ void ImplicitSystem<Shape>::findRuns() {
   });
 }
 
-template <class Shape>
-void ImplicitSystem<Shape>::gatherNodes() {
+template <int D>
+void ImplicitSystem<D>::gatherNodes() {
   std::vector<double> sums(sums_ * map_.size(), 0.0);
-  forEachRun([&](const PointSources<Shape>& from, const PointRun& run) {
+  forEachRun([&](const PointSources<D>& from, const PointRun& run) {
     const Material& material = *from.group.material;
     for (int p = run.from; p < run.from + run.count; ++p) {
       const NodeTouch<D>* touch = touchesOf(from.group.first + p);
@@ -121,8 +124,8 @@ void ImplicitSystem<Shape>::gatherNodes() {
   shareNodes(sums);
 }
 
-template <class Shape>
-void ImplicitSystem<Shape>::shareNodes(const std::vector<double>& sums) {
+template <int D>
+void ImplicitSystem<D>::shareNodes(const std::vector<double>& sums) {
   const Vec<D> gravity = map_.level().template reduce<D>(method_.gravity);
   for (int k = 0; k < map_.size(); ++k) {
     const Eigen::Map<const Eigen::Matrix<double, sums_, 1>> sum(sums.data() + sums_ * k);
@@ -137,9 +140,9 @@ void ImplicitSystem<Shape>::shareNodes(const std::vector<double>& sums) {
   }
 }
 
-template <class Shape>
-void ImplicitSystem<Shape>::measureStiffness() {
-  for (const PointSources<Shape>& from : sources_) {
+template <int D>
+void ImplicitSystem<D>::measureStiffness() {
+  for (const PointSources<D>& from : sources_) {
     const Material& material = *from.group.material;
     for (int p = 0; p < from.group.count; ++p) {
       const double c = material.model->initialWaveSpeed(material.density, from.group.temperature[p]);
@@ -151,31 +154,30 @@ void ImplicitSystem<Shape>::measureStiffness() {
 }
 
 /// A node with less than a millionth of a cell's volume of material may have almost no stiffness along some axis.
-template <class Shape>
-void ImplicitSystem<Shape>::supportNodes() {
+template <int D>
+void ImplicitSystem<D>::supportNodes() {
   for (Node& node : node_)
     if (node.volume < 1e-6 * map_.level().cellVolume()) node.support = 1e-10 * stiffest_;
 }
 
-template <class Shape>
-solvers::Unknowns ImplicitSystem<Shape>::unknowns() const {
+template <int D>
+solvers::Unknowns ImplicitSystem<D>::unknowns() const {
   solvers::Unknowns unknowns = map_.unknowns(D);
-  constexpr int width =
-      Shape::Stencil::nodes - 1;  // for one particle; all of a cell reach one node further if it is more than 1
+  const int width = shapes_.nodes - 1;  // for one particle; all of a cell reach one node further if it is more than 1
   unknowns.entries = map_.neighbours(width > 1 && how_.sharesVolume ? width + 1 : width);
   for (int k = 0; k < map_.owned(); ++k)
     for (int d = 0; d < D; ++d) unknowns.coordinates.push_back(map_.position(k)[d]);
   return unknowns;
 }
 
-template <class Shape>
-void ImplicitSystem<Shape>::prescribe(int node, int d, double value) {
+template <int D>
+void ImplicitSystem<D>::prescribe(int node, int d, double value) {
   prescribed_[D * node + d] = 1;
   prescribed_value_[D * node + d] = value;
 }
 
-template <class Shape>
-std::vector<double> ImplicitSystem<Shape>::guess() const {
+template <int D>
+std::vector<double> ImplicitSystem<D>::guess() const {
   std::vector<double> u = prescribed_value_;
   for (int k = 0; k < map_.size(); ++k)
     for (int d = 0; d < D; ++d)
@@ -183,15 +185,15 @@ std::vector<double> ImplicitSystem<Shape>::guess() const {
   return u;
 }
 
-template <class Shape>
-auto ImplicitSystem<Shape>::acceleration(int node, std::span<const double> u) const -> Vec<D> {
+template <int D>
+auto ImplicitSystem<D>::acceleration(int node, std::span<const double> u) const -> Vec<D> {
   if (!how_.dynamic) return Vec<D>::Zero();
   const Node& n = node_[node];
   return 4 / dt_ * (displacement(node, u) / dt_ - n.velocity) - n.acceleration;
 }
 
-template <class Shape>
-Matrix3 ImplicitSystem<Shape>::displacementGradient(std::size_t point, std::span<const double> u) const {
+template <int D>
+Matrix3 ImplicitSystem<D>::displacementGradient(std::size_t point, std::span<const double> u) const {
   const Level& level = map_.level();
   const NodeTouch<D>* touch = touchesOf(point);
   Matrix3 gradient = Matrix3::Zero();
@@ -206,8 +208,8 @@ Matrix3 ImplicitSystem<Shape>::displacementGradient(std::size_t point, std::span
   return gradient;
 }
 
-template <class Shape>
-bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double> r) {
+template <int D>
+bool ImplicitSystem<D>::residual(std::span<const double> u, std::span<double> r) {
   std::fill(r.begin(), r.end(), 0.0);
   for (int k = 0; k < map_.owned(); ++k) {
     const Node& node = node_[k];
@@ -221,10 +223,10 @@ bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double
 }
 
 /// False if a point would be turned inside out.
-template <class Shape>
-bool ImplicitSystem<Shape>::addInternalForces(std::span<const double> u, std::span<double> r) {
+template <int D>
+bool ImplicitSystem<D>::addInternalForces(std::span<const double> u, std::span<double> r) {
   bool admissible = true;
-  forEachRun([&](const PointSources<Shape>&, const PointRun& run) {
+  forEachRun([&](const PointSources<D>&, const PointRun& run) {
     for (int k = run.from; k < run.from + run.count; ++k) {
       const std::size_t at = run.group->first + k;
       states_.gradient[at] = displacementGradient(at, u);
@@ -237,8 +239,8 @@ bool ImplicitSystem<Shape>::addInternalForces(std::span<const double> u, std::sp
   return admissible;
 }
 
-template <class Shape>
-std::vector<double> ImplicitSystem<Shape>::startingAcceleration() {
+template <int D>
+std::vector<double> ImplicitSystem<D>::startingAcceleration() {
   std::vector<double> sums(node_.size() * D, 0.0);
   const std::vector<double> still(sums);
   addInternalForces(still, sums);
@@ -253,16 +255,16 @@ std::vector<double> ImplicitSystem<Shape>::startingAcceleration() {
   return sums;
 }
 
-template <class Shape>
-std::vector<double> ImplicitSystem<Shape>::reactions() const {
+template <int D>
+std::vector<double> ImplicitSystem<D>::reactions() const {
   std::vector<double> sums = held_;
   solvers::addUp(map_.unknowns(D), sums);
   sums.resize(D * map_.owned());
   return sums;
 }
 
-template <class Shape>
-bool ImplicitSystem<Shape>::isNegligible(std::span<const double> u, std::span<const double> r) const {
+template <int D>
+bool ImplicitSystem<D>::isNegligible(std::span<const double> u, std::span<const double> r) const {
   double largest = 0;
   for (int k = 0; k < map_.owned(); ++k) {
     const Node& node = node_[k];
@@ -276,8 +278,8 @@ bool ImplicitSystem<Shape>::isNegligible(std::span<const double> u, std::span<co
   return map_.ranks().max(largest) <= 1e-14;
 }
 
-template <class Shape>
-void ImplicitSystem<Shape>::addInternalForce(const PointRun& run, std::span<double> r) const {
+template <int D>
+void ImplicitSystem<D>::addInternalForce(const PointRun& run, std::span<double> r) const {
   const Level& level = map_.level();
   const PointGroup& group = *run.group;
   for (int p = run.from; p < run.from + run.count; ++p) {

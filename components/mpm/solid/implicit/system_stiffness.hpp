@@ -9,8 +9,8 @@
 namespace tushar::mpm::solid::implicit {
 
 /// The nine numbers of the displacement gradient for a unit displacement of each node that a point touches.
-template <class Shape>
-auto ImplicitSystem<Shape>::strainOf(std::size_t point) const -> Strain {
+template <int D>
+auto ImplicitSystem<D>::strainOf(std::size_t point) const -> Strain {
   const Level& level = map_.level();
   const NodeTouch<D>* touch = touchesOf(point);
   Strain strain = Strain::Zero(9, touches_ * D);
@@ -26,8 +26,8 @@ auto ImplicitSystem<Shape>::strainOf(std::size_t point) const -> Strain {
 }
 
 /// V0 Bᵀ a B, where B is strainOf and a_ijkl = sum_JL dP_iJ/dF_kL F_old_jJ F_old_lL.
-template <class Shape>
-auto ImplicitSystem<Shape>::stiffnessOf(const PointGroup& group, int k, const Matrix9& tangent) const -> Local {
+template <int D>
+auto ImplicitSystem<D>::stiffnessOf(const PointGroup& group, int k, const Matrix9& tangent) const -> Local {
   const Matrix3& f = group.oldDeformation[k];
   Matrix9 half, whole;
   for (int c = 0; c < 3; ++c) half.middleCols<3>(3 * c) = tangent.middleCols<3>(3 * c) * f.transpose();
@@ -37,16 +37,16 @@ auto ImplicitSystem<Shape>::stiffnessOf(const PointGroup& group, int k, const Ma
 }
 
 /// The row of ln det F: its change for a unit displacement of each node that a point touches, 1/m.
-template <class Shape>
-auto ImplicitSystem<Shape>::volumeRow(std::size_t point) const -> Rows {
+template <int D>
+auto ImplicitSystem<D>::volumeRow(std::size_t point) const -> Rows {
   const Matrix3 inverse = (Matrix3::Identity() + states_.gradient[point]).inverse().transpose();
   return strainOf(point).transpose() * Eigen::Map<const Vector9>(inverse.data());
 }
 
 /// The nodal forces of a point for a unit change of ln det(stretch F) at its own F, N: V0 Bᵀ q F_oldᵀ with
 /// q = (dP/dF F / stretch - 2 P) / 3.
-template <class Shape>
-auto ImplicitSystem<Shape>::volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const -> Rows {
+template <int D>
+auto ImplicitSystem<D>::volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const -> Rows {
   const std::size_t at = group.first + k;
   const Matrix3& f = states_.deformation[at];
   const Matrix3 nominal = f.determinant() * states_.stress[at] * f.inverse().transpose();
@@ -57,17 +57,17 @@ auto ImplicitSystem<Shape>::volumeForce(const PointGroup& group, int k, const Ma
          (strainOf(at).transpose() * Eigen::Map<const Vector9>(pushed.data()));
 }
 
-template <class Shape>
-auto ImplicitSystem<Shape>::numbersOf(std::size_t point) const -> std::array<int, touches_> {
-  std::array<int, touches_> numbers;
+template <int D>
+auto ImplicitSystem<D>::numbersOf(std::size_t point) const -> std::array<int, mostTouches<D>> {
+  std::array<int, mostTouches<D>> numbers;
   for (int n = 0; n < touches_; ++n) numbers[n] = touchesOf(point)[n].node;
   return numbers;
 }
 
-template <class Shape>
-void ImplicitSystem<Shape>::addStiffness(const PointGroup& group, int k, Local stiffness,
-                                         solvers::Matrix& matrix) const {
-  const std::array<int, touches_> numbers = numbersOf(group.first + k);
+template <int D>
+void ImplicitSystem<D>::addStiffness(const PointGroup& group, int k, Local stiffness, solvers::Matrix& matrix) const {
+  const auto all = numbersOf(group.first + k);
+  const std::span numbers = std::span(all).first(touches_);
   for (int n = 0; n < touches_; ++n)
     for (int d = 0; d < D; ++d) {
       const int node = numbers[n];
@@ -78,8 +78,8 @@ void ImplicitSystem<Shape>::addStiffness(const PointGroup& group, int k, Local s
   matrix.add(numbers, numbers, {stiffness.data(), static_cast<std::size_t>(stiffness.size())});
 }
 
-template <class Shape>
-void ImplicitSystem<Shape>::addRunStiffness(const PointRun& run, solvers::Matrix& matrix) {
+template <int D>
+void ImplicitSystem<D>::addRunStiffness(const PointRun& run, solvers::Matrix& matrix) {
   const PointGroup& group = *run.group;
   const bool shares = states_.sharesVolume(run);
   std::vector<Rows> forces;
@@ -96,9 +96,9 @@ void ImplicitSystem<Shape>::addRunStiffness(const PointRun& run, solvers::Matrix
 }
 
 /// The stiffness of the points of a run against their common change of volume.
-template <class Shape>
-void ImplicitSystem<Shape>::addSharedStiffness(const PointRun& run, const std::vector<Rows>& forces,
-                                               solvers::Matrix& matrix) const {
+template <int D>
+void ImplicitSystem<D>::addSharedStiffness(const PointRun& run, const std::vector<Rows>& forces,
+                                           solvers::Matrix& matrix) const {
   const PointGroup& group = *run.group;
   std::map<int, Vec<D>> common;
   double whole = 0;
@@ -119,7 +119,8 @@ void ImplicitSystem<Shape>::addSharedStiffness(const PointRun& run, const std::v
   }
   std::vector<double> block;
   for (int k = run.from; k < run.from + run.count; ++k) {
-    const std::array<int, touches_> rows = numbersOf(group.first + k);
+    const auto all = numbersOf(group.first + k);
+    const std::span rows = std::span(all).first(touches_);
     const Rows& force = forces[k - run.from];
     block.clear();
     for (int i = 0; i < touches_ * D; ++i) {
@@ -132,8 +133,8 @@ void ImplicitSystem<Shape>::addSharedStiffness(const PointRun& run, const std::v
 }
 
 /// Inertia, weak springs, and a diagonal as stiff as the rest for prescribed displacements.
-template <class Shape>
-void ImplicitSystem<Shape>::addDiagonals(solvers::Matrix& matrix) const {
+template <int D>
+void ImplicitSystem<D>::addDiagonals(solvers::Matrix& matrix) const {
   for (int k = 0; k < map_.owned(); ++k) {
     Eigen::Matrix<double, D, D> block;  // diagonal: the order of rows and columns does not matter
     block.setZero();
@@ -144,9 +145,9 @@ void ImplicitSystem<Shape>::addDiagonals(solvers::Matrix& matrix) const {
   }
 }
 
-template <class Shape>
-void ImplicitSystem<Shape>::tangent(solvers::Matrix& matrix) {
-  forEachRun([&](const PointSources<Shape>&, const PointRun& run) { addRunStiffness(run, matrix); });
+template <int D>
+void ImplicitSystem<D>::tangent(solvers::Matrix& matrix) {
+  forEachRun([&](const PointSources<D>&, const PointRun& run) { addRunStiffness(run, matrix); });
   addDiagonals(matrix);
 }
 

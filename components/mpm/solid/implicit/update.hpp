@@ -5,26 +5,26 @@
 namespace tushar::mpm::solid::implicit {
 
 /// A nodal field at a particle: sum_i S_i f_i, and the gradient in x, y, z.
-template <class Stencil, int D = Stencil::dimension>
-std::pair<Vec<D>, Matrix3> interpolated(const Level& level, const Stencil& stencil,
+template <int D>
+std::pair<Vec<D>, Matrix3> interpolated(const Level& level, std::span<const Touch<D>> touched,
                                         const NodeView<const Vec<D>>& field) {
   Vec<D> value = Vec<D>::Zero();
   Matrix3 gradient = Matrix3::Zero();
-  stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& slope) {
-    const Vec<D>& f = field[node];
-    value += s * f;
+  for (const Touch<D>& touch : touched) {
+    const Vec<D>& f = field[touch.node];
+    value += touch.s * f;
     for (int i = 0; i < D; ++i)
-      for (int j = 0; j < D; ++j) gradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) += f[i] * slope[j];
-    gradient(2, 2) += f[0] * hoopOf(stencil, node);
-  });
+      for (int j = 0; j < D; ++j) gradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) += f[i] * touch.gradient[j];
+    gradient(2, 2) += f[0] * touch.hoop;
+  }
   return {value, gradient};
 }
 
 /// Particles that move and deform in a step.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct Movement {
   NodeView<const Vec<D>> increment;  ///< displacement in the step
-  Placed<Shape> placed;
+  Placed<D> placed;
   ParticleView<const double> mass, temperature;
   ParticleView<const Matrix3> oldDeformation, oldStress;
   ParticleView<const double> oldState;
@@ -35,9 +35,9 @@ struct Movement {
   ParticleView<double> state, volume, strainEnergy;
   OptionalView<double> temperatureChange;  ///< where the work of the step heats
 
-  static Movement from(auto& take, bool resetsGrid, bool heats, const ParticleLabel<double>* state) {
-    return {.increment = take(requiresNew(g::increment<D>, Shape::ghostNodes)),
-            .placed = Placed<Shape>::from(take, keepsSizes),
+  static Movement from(auto& take, int ghostNodes, bool resetsGrid, bool heats, const ParticleLabel<double>* state) {
+    return {.increment = take(requiresNew(g::increment<D>, ghostNodes)),
+            .placed = Placed<D>::from(take, keepsSizes, 0, when(false, requiresOld(p::deformationMeasure))),
             .mass = take(requiresOld(p::mass)),
             .temperature = take(requiresOld(p::temperature)),
             .oldDeformation = take(requiresOld(p::deformationMeasure)),
@@ -56,8 +56,8 @@ struct Movement {
 };
 
 /// F_p = (I + G_p) F_p of the particles of a patch, with the gradient G_p in `states`, and the stress that follows.
-template <class Shape, int D = Shape::dimension>
-void stressOfStep(const Patch& patch, const Material& material, PointStates& states, const Movement<Shape>& m) {
+template <int D>
+void stressOfStep(const Patch& patch, const Material& material, PointStates& states, const Movement<D>& m) {
   const PointGroup group{.material = &material,
                          .count = m.mass.owned(),
                          .mass = valuesOf(m.mass),
@@ -83,15 +83,14 @@ void stressOfStep(const Patch& patch, const Material& material, PointStates& sta
 
 /// x_p += sum_i S_i u_i,  F_p = (I + sum_i u_i grad S_i) F_p, and the stress that follows. Where the grid moves with
 /// the solid, x_p stays, sum_i S_i u_i adds to the displacement of the particle, and F_p += sum_i u_i grad_0 S_i.
-template <class Shape, int D = Shape::dimension>
-void moveAndStress(const Patch& patch, const Material& material, const ImplicitSetup& setup, double dt,
-                   const Movement<Shape>& m) {
+template <int D>
+void moveAndStress(const Patch& patch, const Material& material, const ImplicitSetup<D>& setup, double dt,
+                   const Movement<D>& m) {
   const ParticleView<const Vec<D>>& x = m.placed.x;
   if (x.owned() == 0) return;
   PointStates states(x.owned(), setup.stateSize, dt, setup.how.sharesVolume);
-  const Vec3& commonSize = setup.problem->method.commonSize;
-  forEachStencil(patch, patch.cells(), m.placed, commonSize, [&](int p, const auto& stencil) {
-    const auto [moved, gradient] = interpolated(patch.level(), stencil, m.increment);
+  setup.forEachTouched(patch, m.placed, [&](int p, std::span<const Touch<D>> touched) {
+    const auto [moved, gradient] = interpolated<D>(patch.level(), touched, m.increment);
     Matrix3& step = states.gradient[p];
     if (m.displacement) {
       m.newX[p] = x[p];
@@ -106,16 +105,16 @@ void moveAndStress(const Patch& patch, const Material& material, const ImplicitS
 }
 
 /// Particles whose velocity follows Newmark's rule.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct NewmarkUpdate {
   NodeView<const Vec<D>> nodalAcceleration;
-  Placed<Shape> placed;
+  Placed<D> placed;
   ParticleView<const Vec<D>> oldVelocity, oldAcceleration;
   ParticleView<Vec<D>> velocity, acceleration;
 
-  static NewmarkUpdate from(auto& take) {
-    return {.nodalAcceleration = take(requiresNew(g::newAcceleration<D>, Shape::ghostNodes)),
-            .placed = Placed<Shape>::from(take, keepsSizes),
+  static NewmarkUpdate from(auto& take, int ghostNodes) {
+    return {.nodalAcceleration = take(requiresNew(g::newAcceleration<D>, ghostNodes)),
+            .placed = Placed<D>::from(take, keepsSizes, 0, when(false, requiresOld(p::deformationMeasure))),
             .oldVelocity = take(requiresOld(p::velocity<D>)),
             .oldAcceleration = take(requiresOld(p::acceleration<D>)),
             .velocity = take(computes(p::velocity<D>)),
@@ -124,11 +123,11 @@ struct NewmarkUpdate {
 };
 
 /// Newmark: v_p += dt/2 (a_p + a'_p) with a'_p = sum_i S_i a_i.
-template <class Shape, int D = Shape::dimension>
-void advanceVelocity(const Patch& patch, const Material&, const Vec3& commonSize, double dt,
-                     const NewmarkUpdate<Shape>& u) {
-  forEachStencil(patch, patch.cells(), u.placed, commonSize, [&](int p, const auto& stencil) {
-    u.acceleration[p] = interpolated(patch.level(), stencil, u.nodalAcceleration).first;
+template <int D>
+void advanceVelocity(const Patch& patch, const Material&, const ImplicitSetup<D>& setup, double dt,
+                     const NewmarkUpdate<D>& u) {
+  setup.forEachTouched(patch, u.placed, [&](int p, std::span<const Touch<D>> touched) {
+    u.acceleration[p] = interpolated<D>(patch.level(), touched, u.nodalAcceleration).first;
     u.velocity[p] = u.oldVelocity[p] + dt / 2 * (u.oldAcceleration[p] + u.acceleration[p]);
   });
 }
@@ -150,12 +149,12 @@ void startAtRest(const Patch&, const Material&, ParticleView<const double> mass,
 }
 
 /// Newmark: a_p = sum_i S_i a_i when a run starts.
-template <class Shape, int D = Shape::dimension>
-void startInMotion(const Patch& patch, const Material&, const Vec3& commonSize, NodeView<const Vec<D>> nodal,
+template <int D>
+void startInMotion(const Patch& patch, const Material&, const ImplicitSetup<D>& setup, NodeView<const Vec<D>> nodal,
                    ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> size, ParticleView<Vec<D>> acceleration) {
-  const Extents<Shape> extents(patch.level(), commonSize, size, std::nullopt);
-  forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
-    acceleration[p] = interpolated(patch.level(), stencil, nodal).first;
+  const Placed<D> placed{.x = x, .size = size, .deformation = std::nullopt};
+  setup.forEachTouched(patch, placed, [&](int p, std::span<const Touch<D>> touched) {
+    acceleration[p] = interpolated<D>(patch.level(), touched, nodal).first;
   });
 }
 

@@ -23,15 +23,14 @@ void setTemperature(const Patch& patch, int material, NodeView<double> field) {
 }
 
 /// Particles that give their heat to the nodes.
-template <class Shape>
+template <int D>
 struct HeatToNodes {
-  Placed<Shape> particles;
+  Placed<D> particles;
   ParticleView<const double> mass, particleTemperature;
   NodeView<double> capacity, temperatureNoBC, temperature;
 
-  static HeatToNodes from(auto& take, KeptSizes keepsSizes) {
-    constexpr int reach = Shape::reach;
-    return {.particles = Placed<Shape>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
+  static HeatToNodes from(auto& take, int reach, KeptSizes keepsSizes) {
+    return {.particles = Placed<D>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
             .mass = take(requiresOld(p::mass, reach)),
             .particleTemperature = take(requiresOld(p::temperature, reach)),
             .capacity = take(computes(g::heatCapacity)),
@@ -43,11 +42,11 @@ struct HeatToNodes {
 /// C_i = sum_p S_i m_p c_v,   T_i = sum_p S_i m_p c_v T_p / C_i; 0 at nodes without mass.
 template <class Shape, int D = Shape::dimension>
 void interpolateTemperatureToGrid(const Patch& patch, const Material& material, const Vec3& commonSize,
-                                  const HeatToNodes<Shape>& h) {
+                                  const HeatToNodes<D>& h) {
   h.capacity.fill(0.0);
   h.temperatureNoBC.fill(0.0);
   const Box& box = h.capacity.box();
-  forEachStencil(patch, h.particles.x.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
+  forEachStencil<Shape>(patch, h.particles.x.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
     const double heat = h.mass[p] * material.specificHeat;
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
       if (!box.contains(node)) return;
@@ -62,28 +61,21 @@ void interpolateTemperatureToGrid(const Patch& patch, const Material& material, 
   setTemperature<D>(patch, material.index, h.temperature);
 }
 
-template <class Shape>
-void scheduleNodalTemperature(TaskList& tasks, const std::vector<Material>& materials, const Vec3& commonSize,
-                              KeptSizes keepsSizes) {
-  tasks.perMaterial("mpm::interpolateTemperatureToGrid", interpolateTemperatureToGrid<Shape>, materials,
-                    with(commonSize), all<HeatToNodes<Shape>>(keepsSizes));
-}
-
 /// Particles that conduct heat to the nodes, and take up that of loads.
-template <class Shape>
+template <int D>
 struct HeatFlow {
-  Placed<Shape> particles;
+  Placed<D> particles;
   ParticleView<const double> mass;
   OptionalView<const double> heatFlux;  ///< W, where loads bring heat
   NodeView<const double> temperature;
   NodeView<double> heatRate;
 
-  static HeatFlow from(auto& take, KeptSizes keepsSizes, bool isHeated) {
-    constexpr int reach = Shape::reach;
-    return {.particles = Placed<Shape>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
+  static HeatFlow from(auto& take, const ShapeTraits& shape, KeptSizes keepsSizes, bool isHeated) {
+    const int reach = shape.reach;
+    return {.particles = Placed<D>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
             .mass = take(requiresOld(p::mass, reach)),
             .heatFlux = take(when(isHeated, requiresNew(p::heatFlux, reach))),
-            .temperature = take(requiresNew(g::temperature, reach + Shape::ghostNodes)),
+            .temperature = take(requiresNew(g::temperature, reach + shape.ghostNodes)),
             .heatRate = take(computes(g::heatRate))};
   }
 };
@@ -91,12 +83,12 @@ struct HeatFlow {
 /// Q_i = sum_p S_i H_p - V_p k grad S_i . grad T_p, with the heat H_p of loads if there are any, W
 template <class Shape, int D = Shape::dimension>
 void computeInternalHeatRate(const Patch& patch, const Material& material, const Vec3& commonSize,
-                             const HeatFlow<Shape>& h) {
+                             const HeatFlow<D>& h) {
   h.heatRate.fill(0.0);
   const Box& box = h.heatRate.box();
   if (material.thermalConductivity == 0 && !h.heatFlux) return;
   const double density = material.undeformedDensity();
-  forEachStencil(patch, h.particles.x.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
+  forEachStencil<Shape>(patch, h.particles.x.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
     Vec<D> slope = Vec<D>::Zero();
     stencil.forEachNode(
         [&](const Index<D>& node, double, const Vec<D>& gradient) { slope += h.temperature[node] * gradient; });
@@ -159,37 +151,30 @@ void integrateTemperatureRate(const Patch& patch, const Material& material, cons
 }
 
 /// Particles that take their temperature from the nodes.
-template <class Shape>
+template <int D>
 struct HeatToParticles {
-  Placed<Shape> particles;
+  Placed<D> particles;
   ParticleView<const double> temperature;
   NodeView<const double> rate;
   ParticleView<double> newTemperature;
 
-  static HeatToParticles from(auto& take, KeptSizes keepsSizes) {
-    return {.particles = Placed<Shape>::from(take, keepsSizes, 0, requiresOld(p::deformationMeasure)),
+  static HeatToParticles from(auto& take, int ghostNodes, KeptSizes keepsSizes) {
+    return {.particles = Placed<D>::from(take, keepsSizes, 0, requiresOld(p::deformationMeasure)),
             .temperature = take(requiresOld(p::temperature)),
-            .rate = take(requiresNew(g::temperatureRate, Shape::ghostNodes)),
+            .rate = take(requiresNew(g::temperatureRate, ghostNodes)),
             .newTemperature = take(computes(p::temperature))};
   }
 };
 
 /// T_p += dt sum_i S_i dT_i/dt
 template <class Shape, int D = Shape::dimension>
-void updateTemperature(const Patch& patch, const Material&, const Vec3& commonSize, const HeatToParticles<Shape>& h,
+void updateTemperature(const Patch& patch, const Material&, const Vec3& commonSize, const HeatToParticles<D>& h,
                        double dt) {
-  forEachStencil(patch, patch.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
+  forEachStencil<Shape>(patch, patch.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
     double change = 0;
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) { change += s * h.rate[node]; });
     h.newTemperature[p] = h.temperature[p] + dt * change;
   });
-}
-
-template <class Shape>
-void scheduleTemperatureUpdate(TaskList& tasks, const std::vector<Material>& materials, const Vec3& commonSize,
-                               KeptSizes keepsSizes) {
-  tasks.perMaterial("mpm::updateTemperature", updateTemperature<Shape>, materials, with(commonSize),
-                    all<HeatToParticles<Shape>>(keepsSizes), requiresOld(delT));
 }
 
 /// T_p changes by the work of the step, after conduction.

@@ -25,9 +25,9 @@ inline void computeStress(const Patch&, const Material& material, ParticleView<c
 }
 
 /// Particles, and their state on the grid.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct GridPicture {
-  Placed<Shape> particles;
+  Placed<D> particles;
   ParticleView<const double> particleMass;
   ParticleView<const Vec<D>> particleVelocity;
   ParticleView<const double> particleVolume;
@@ -37,9 +37,8 @@ struct GridPicture {
   NodeView<Matrix3> stress;
 
   /// `volume` and `stress` read those of particles, with the ghost cells that shape functions reach.
-  static GridPicture from(auto& take, KeptSizes keepsSizes, auto volume, auto stress) {
-    constexpr int reach = Shape::reach;
-    return {.particles = Placed<Shape>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
+  static GridPicture from(auto& take, int reach, KeptSizes keepsSizes, auto volume, auto stress) {
+    return {.particles = Placed<D>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
             .particleMass = take(requiresOld(p::mass, reach)),
             .particleVelocity = take(requiresOld(p::velocity<D>, reach)),
             .particleVolume = take(volume),
@@ -57,7 +56,7 @@ struct GridPicture {
 /// S_i / r where axisymmetric) and f_i / m_i before any contact or boundary condition; V_i = sum_p S_i V_p,   sigma_i =
 /// sum_p S_i V_p sigma_p / V_i. 0 at nodes without mass.
 template <class Shape, int D = Shape::dimension>
-void showOnGrid(const Patch& patch, const Material&, const Vec3& commonSize, const GridPicture<Shape>& picture) {
+void showOnGrid(const Patch& patch, const Material&, const Vec3& commonSize, const GridPicture<D>& picture) {
   picture.mass.fill(0.0);
   picture.volume.fill(0.0);
   picture.velocity.fill(Vec<D>::Zero());
@@ -65,34 +64,27 @@ void showOnGrid(const Patch& patch, const Material&, const Vec3& commonSize, con
   picture.stress.fill(Matrix3::Zero());
   const Box& box = picture.mass.box();
   const Level& level = patch.level();
-  forEachStencil(patch, picture.particles.x.cells(), picture.particles, commonSize, [&](int p, const auto& stencil) {
-    const Matrix3 moment = picture.particleVolume[p] * picture.particleStress[p];
-    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
-      if (!box.contains(node)) return;
-      picture.mass[node] += s * picture.particleMass[p];
-      picture.volume[node] += s * picture.particleVolume[p];
-      picture.velocity[node] += s * picture.particleMass[p] * picture.particleVelocity[p];
-      picture.stress[node] += s * moment;
-      for (int i = 0; i < D; ++i)
-        for (int d = 0; d < D; ++d)
-          picture.force[node][i] -= moment(sceneAxis<D>(level, i), sceneAxis<D>(level, d)) * gradient[d];
-      if constexpr (Shape::axisymmetric) picture.force[node][0] -= moment(2, 2) * hoopOf(stencil, node);
-    });
-  });
+  forEachStencil<Shape>(
+      patch, picture.particles.x.cells(), picture.particles, commonSize, [&](int p, const auto& stencil) {
+        const Matrix3 moment = picture.particleVolume[p] * picture.particleStress[p];
+        stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
+          if (!box.contains(node)) return;
+          picture.mass[node] += s * picture.particleMass[p];
+          picture.volume[node] += s * picture.particleVolume[p];
+          picture.velocity[node] += s * picture.particleMass[p] * picture.particleVelocity[p];
+          picture.stress[node] += s * moment;
+          for (int i = 0; i < D; ++i)
+            for (int d = 0; d < D; ++d)
+              picture.force[node][i] -= moment(sceneAxis<D>(level, i), sceneAxis<D>(level, d)) * gradient[d];
+          if constexpr (Shape::axisymmetric) picture.force[node][0] -= moment(2, 2) * hoopOf(stencil, node);
+        });
+      });
   forEach<D>(box, [&](const Index<D>& node) {
     if (picture.mass[node] > 0) picture.velocity[node] /= picture.mass[node];
     if (picture.volume[node] > 0) picture.stress[node] /= picture.volume[node];
     picture.acceleration[node] =
         picture.mass[node] > 0 ? Vec<D>(picture.force[node] / picture.mass[node]) : Vec<D>(Vec<D>::Zero());
   });
-}
-
-/// `volume` and `stress` read those of particles, with the ghost cells that shape functions reach.
-template <class Shape, class Volume, class Stress>
-void scheduleShowOnGrid(TaskList& tasks, const std::vector<Material>& materials, const Vec3& commonSize,
-                        KeptSizes keepsSizes, Volume volume, Stress stress) {
-  tasks.perMaterial("mpm::showOnGrid", showOnGrid<Shape>, materials, with(commonSize),
-                    all<GridPicture<Shape>>(keepsSizes, volume, stress));
 }
 
 }  // namespace tushar::mpm::solid

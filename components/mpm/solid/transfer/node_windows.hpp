@@ -6,9 +6,9 @@
 namespace tushar::mpm::solid {
 
 /// The rows of nodes that particles of a set touch, ghosts included: on nodes of the patch and around it.
-template <class Shape, class View>
-const data::TouchedRows& touchedRows(const View& particles) {
-  return particles.set().touched(Shape::ghostNodes, Shape::dimension);
+template <int D>
+const data::TouchedRows& touchedRows(const ParticleView<const Vec<D>>& particles, int ghostNodes) {
+  return particles.set().touched(ghostNodes, D);
 }
 
 /// The records relative to a node, which may lie outside of those that are stored.

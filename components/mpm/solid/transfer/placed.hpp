@@ -4,16 +4,26 @@
 
 namespace tushar::mpm::solid {
 
+/// What the schedule needs to know of shape functions: with these numbers it is the same for all of a dimension.
+struct ShapeTraits {
+  bool haveSizes = false;  ///< they depend on the sizes of particles
+  bool deform = false;     ///< they follow F
+  int reach = 1;           ///< cells beyond a patch from which particles reach its nodes
+  int ghostNodes = 0;      ///< nodes beyond those of a patch that its particles touch
+};
+template <class Shape>
+inline constexpr ShapeTraits traitsOf{Shape::hasSize, Shape::deforms, Shape::reach, Shape::ghostNodes};
+
 /// The variables of the particles of a material that shape functions read: their positions, sizes and deformations.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct Placed {
   ParticleView<const Vec<D>> x;             ///< m
   Sizes<D> size;                            ///< at the start
   OptionalView<const Matrix3> deformation;  ///< F, 1; where shape functions follow it
 
   /// At the start of the step, with `ghost` cells beyond the patch. F only where shape functions follow it.
-  static Placed from(auto& take, KeptSizes keepsSizes, int ghost = 0) {
-    return from(take, keepsSizes, ghost, when(Shape::deforms, requiresOld(p::deformationMeasure, ghost)));
+  static Placed from(auto& take, const ShapeTraits& shape, KeptSizes keepsSizes, int ghost = 0) {
+    return from(take, keepsSizes, ghost, when(shape.deform, requiresOld(p::deformationMeasure, ghost)));
   }
   /// With F by an access of the caller's, `when(on, access)`.
   static Placed from(auto& take, KeptSizes keepsSizes, int ghost, auto deformation) {
@@ -21,17 +31,14 @@ struct Placed {
             .size = Sizes<D>::from(take, keepsSizes, ghost),
             .deformation = take(deformation)};
   }
-
-  Extents<Shape> extents(const Level& level, const Vec3& commonSize) const {
-    return {level, commonSize, size, deformation};
-  }
 };
 
 /// Calls `visit(p, stencil)` for each particle of `cells`, cell by cell and by id.
-template <class Shape, class Visit>
-void forEachStencil(const Patch& patch, const Box& cells, const Placed<Shape>& particles, const Vec3& commonSize,
+template <class Shape, class Visit, int D = Shape::dimension>
+void forEachStencil(const Patch& patch, const Box& cells, const Placed<D>& particles, const Vec3& commonSize,
                     Visit&& visit) {
-  forEachStencil<Shape>(patch, cells, particles.x, particles.extents(patch.level(), commonSize), visit);
+  const Extents<Shape> extents(patch.level(), commonSize, particles.size, particles.deformation);
+  forEachStencil<Shape>(patch, cells, particles.x, extents, visit);
 }
 
 }  // namespace tushar::mpm::solid

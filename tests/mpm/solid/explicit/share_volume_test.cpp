@@ -1,12 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "components/mpm/shapes/tensor_shape.hpp"
 #include "components/mpm/solid/explicit/tasks/share_volume.hpp"
 
 namespace tushar::mpm::solid {
 namespace {
-
-using Shape = AxisymmetricLinearShape<2>;
 
 constexpr double roundOff = 1e-14;  // of a dozen operations on numbers of order 1
 
@@ -35,27 +32,27 @@ struct Cell {
     set.setOwned(4);
     const ParticleView<const Vec<2>> none{nullptr, set, level.cells()};
     for (std::size_t p = 0; p < 4; ++p) volume[p] = mass[p] * before[p].determinant();
-    const StateUpdate<Shape> update{.record = {nullptr, level.nodes()},
-                                    .x = none,
-                                    .size = {},
-                                    .velocity = none,
-                                    .mass = {mass.data(), set, level.cells()},
-                                    .oldDeformation = {before.data(), set, level.cells()},
-                                    .temperature = {},
-                                    .oldVolume = {},
-                                    .oldStress = {},
-                                    .oldState = {},
-                                    .localized = ParticleView<const int>{localized.data(), set, level.cells()},
-                                    .deformation = {deformation.data(), set, level.cells()},
-                                    .volume = ParticleView<double>{volume.data(), set, level.cells()},
-                                    .stress = {},
-                                    .state = {},
-                                    .viscosity = {},
-                                    .strainEnergy = {},
-                                    .temperatureChange = {},
-                                    .velocityGradient = {},
-                                    .stableTimeStep = {nullptr, level.cells()}};
-    shareVolume<Shape>(dt, {0, 4}, update, gradient.data());
+    const StateUpdate<2> update{.record = {nullptr, level.nodes()},
+                                .x = none,
+                                .size = {},
+                                .velocity = none,
+                                .mass = {mass.data(), set, level.cells()},
+                                .oldDeformation = {before.data(), set, level.cells()},
+                                .temperature = {},
+                                .oldVolume = {},
+                                .oldStress = {},
+                                .oldState = {},
+                                .localized = ParticleView<const int>{localized.data(), set, level.cells()},
+                                .deformation = {deformation.data(), set, level.cells()},
+                                .volume = ParticleView<double>{volume.data(), set, level.cells()},
+                                .stress = {},
+                                .state = {},
+                                .viscosity = {},
+                                .strainEnergy = {},
+                                .temperatureChange = {},
+                                .velocityGradient = {},
+                                .stableTimeStep = {nullptr, level.cells()}};
+    shareVolume<2>(dt, {0, 4}, update, gradient.data());
   }
 };
 

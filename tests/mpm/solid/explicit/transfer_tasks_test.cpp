@@ -79,10 +79,10 @@ struct Cloud : test::Particles {
   NodeView<NodeRecord> nodes() { return {records.data(), level.nodes()}; }
   NodeView<const NodeRecord> nodes() const { return {records.data(), level.nodes()}; }
 
-  Placed<Shape> placed() const { return {.x = read(x), .size = {}, .deformation = read(deformation)}; }
+  Placed<D> placed() const { return {.x = read(x), .size = {}, .deformation = read(deformation)}; }
 
   void toGrid(bool withStress) {
-    const MomentumSources<Shape> from{
+    const MomentumSources<D> from{
         .x = read(x), .size = {}, .mass = read(mass), .velocity = read(v), .deformation = read(deformation)};
     if (withStress)
       interpolateParticlesToGrid<Shape>(

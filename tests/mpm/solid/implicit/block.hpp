@@ -88,13 +88,14 @@ class Block {
     std::vector<Material> materials{material_};
     materials[0].thermalConductivity = materials[0].specificHeat = 1;
     const Patch& patch = grid_.patches().front();
-    const HeatedParticles<Shape> heated{.placed = {.x = view(x_), .size = std::nullopt, .deformation = std::nullopt},
-                                        .mass = view(mass_),
-                                        .temperature = view(temperature_),
-                                        .deformation = view(deformation_)};
-    const OfRank<HeatedParticles<Shape>> particles{{heated}};
+    const HeatedParticles<D> heated{.placed = {.x = view(x_), .size = std::nullopt, .deformation = std::nullopt},
+                                    .mass = view(mass_),
+                                    .temperature = view(temperature_),
+                                    .deformation = view(deformation_)};
+    const OfRank<HeatedParticles<D>> particles{{heated}};
     const RankPatches patches{&patch};
-    NodalHeat<Shape> heat(patches, materials, mpi::Communicator::alone(), Vec3(0.5, 0.5, 0.5), particles, resetsGrid);
+    NodalHeat<D> heat(patches, materials, mpi::Communicator::alone(), shapesOf<Shape>, Vec3(0.5, 0.5, 0.5), particles,
+                      resetsGrid);
     EXPECT_TRUE(heat.solve(dt, {"preonly", "lu", 1e-12, 1, ""}).converged);
     for (std::size_t p = 0; p < x_.size(); ++p) {
       if (x_[p] != x) continue;
@@ -106,27 +107,28 @@ class Block {
     return 0;
   }
 
-  ImplicitSystem<Shape> system(bool dynamic, double dt = 0.01) {
+  ImplicitSystem<D> system(bool dynamic, double dt = 0.01) {
     const Patch& patch = grid_.patches().front();
-    const PointSources<Shape> sources{
-        .group = {.material = &material_,
-                  .count = static_cast<int>(x_.size()),
-                  .mass = mass_.data(),
-                  .temperature = temperature_.data(),
-                  .oldDeformation = deformation_.data(),
-                  .oldStress = stress_.data(),
-                  .oldState = state_.data()},
-        .patch = &patch,
-        .extents = Extents<Shape>(level_, Vec3(0.5, 0.5, 0.5), std::nullopt, std::nullopt),
-        .x = view(x_),
-        .velocity = velocity_.data(),
-        .acceleration = acceleration_.data(),
-        .externalForce = force_.data()};
+    const PointSources<D> sources{.group = {.material = &material_,
+                                            .count = static_cast<int>(x_.size()),
+                                            .mass = mass_.data(),
+                                            .temperature = temperature_.data(),
+                                            .oldDeformation = deformation_.data(),
+                                            .oldStress = stress_.data(),
+                                            .oldState = state_.data()},
+                                  .patch = &patch,
+                                  .placed = {.x = view(x_), .size = std::nullopt, .deformation = std::nullopt},
+                                  .velocity = velocity_.data(),
+                                  .acceleration = acceleration_.data(),
+                                  .externalForce = force_.data()};
     ImplicitMethod how;
     how.dynamic = dynamic;
     how.sharesVolume = sharesVolume;
     how.resetsGrid = resetsGrid;
-    return ImplicitSystem<Shape>({&patch}, mpi::Communicator::alone(), method, how, dt, state_size_, {sources});
+    Method halves = method;
+    halves.commonSize = {0.5, 0.5, 0.5};
+    return ImplicitSystem<D>({&patch}, mpi::Communicator::alone(), shapesOf<Shape>, halves, how, dt, state_size_,
+                             {sources});
   }
 
  private:
@@ -171,11 +173,11 @@ inline solvers::NewtonSettings direct() {
 }
 
 /// The nodes of the block's lower end do not move.
-template <class Shape>
-void clamp(ImplicitSystem<Shape>& system) {
+template <int D>
+void clamp(ImplicitSystem<D>& system) {
   for (int k = 0; k < system.nodes().size(); ++k)
     if (system.nodes().node(k)[0] <= 0)
-      for (int d = 0; d < Shape::dimension; ++d) system.prescribe(k, d, 0);
+      for (int d = 0; d < D; ++d) system.prescribe(k, d, 0);
 }
 
 }  // namespace tushar::mpm::solid::implicit::testing

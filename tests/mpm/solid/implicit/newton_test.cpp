@@ -26,8 +26,8 @@ std::string textOf(const std::vector<double>& residuals) {
 }
 
 /// Newton's method solves a system, with the order that it is known for.
-template <class Shape>
-void expectQuadraticConvergence(ImplicitSystem<Shape>& system) {
+template <int D>
+void expectQuadraticConvergence(ImplicitSystem<D>& system) {
   std::vector<double> u = system.guess();
   const solvers::Outcome outcome = solvers::solver().solve(system.unknowns(), system, direct(), u);
   std::cout << textOf(outcome.residuals) << '\n';
@@ -45,7 +45,7 @@ double pull(bool sharesVolume) {
   model.hardeningModulus = 1e3;
   Block<LinearShape<2>> block(modelOf(model), {{4, 2, 1}});
   block.sharesVolume = sharesVolume;
-  ImplicitSystem<LinearShape<2>> system = block.system(false);
+  ImplicitSystem<2> system = block.system(false);
   for (int k = 0; k < system.nodes().size(); ++k)
     if (system.nodes().node(k)[0] == length)
       for (int d = 0; d < 2; ++d) system.prescribe(k, d, d == 0 ? 0.01 * length : 0.0);
@@ -65,7 +65,7 @@ double sinking(const Index3& cells, double gravity, bool sharesVolume) {
   Block<LinearShape<2>> block(modelOf(model), cells);
   block.method.gravity = {0, gravity, 0};
   block.sharesVolume = sharesVolume;
-  ImplicitSystem<LinearShape<2>> system = block.system(false);
+  ImplicitSystem<2> system = block.system(false);
   clamp(system);
   std::vector<double> u = system.guess();
   EXPECT_TRUE(solvers::solver().solve(system.unknowns(), system, direct(), u).converged);
@@ -79,7 +79,7 @@ double sinking(const Index3& cells, double gravity, bool sharesVolume) {
 TEST(Newton, ConvergesQuadraticallyOnACantilever) {
   Block<LinearShape<2>> block(modelOf(rubber()), {{8, 2, 1}});
   block.method.gravity = {0, -0.25, 0};
-  ImplicitSystem<LinearShape<2>> system = block.system(false);
+  ImplicitSystem<2> system = block.system(false);
   clamp(system);
 
   expectQuadraticConvergence(system);
@@ -87,7 +87,7 @@ TEST(Newton, ConvergesQuadraticallyOnACantilever) {
 
 TEST(Newton, ConvergesQuadraticallyOnCompressedRubber) {
   Block<LinearShape<3>> block(modelOf(mooneyRivlin()), {{2, 2, 2}});
-  ImplicitSystem<LinearShape<3>> system = block.system(false);
+  ImplicitSystem<3> system = block.system(false);
   for (int k = 0; k < system.nodes().size(); ++k)
     if (system.nodes().node(k)[2] == 2)
       for (int d = 0; d < 3; ++d) system.prescribe(k, d, d == 2 ? -0.4 : 0.0);
@@ -112,7 +112,7 @@ TEST(Fbar, LetsWhatFlowsKeepItsVolumeWithoutLocking) {
 TEST(Newton, GoesOnUntilOnlyRoundingIsLeftOfALoad) {
   Block<GimpShape<2>> block(modelOf(rubber()), {{4, 2, 1}});
   block.method.gravity = {0, -1e-9, 0};
-  ImplicitSystem<GimpShape<2>> system = block.system(false);
+  ImplicitSystem<2> system = block.system(false);
   clamp(system);
   std::vector<double> u = system.guess(), r(u.size());
   solvers::NewtonSettings settings = direct();
@@ -137,7 +137,7 @@ TEST(Newton, SolvesWithOneParticleInACellAtItsEdge) {
   block.method.gravity = {1, 0, 0};
   block.removeLast(3);
   block.x().back()[0] = 2 + 1e-10;
-  ImplicitSystem<LinearShape<2>> system = block.system(false);
+  ImplicitSystem<2> system = block.system(false);
   clamp(system);
   std::vector<double> u = system.guess();
 
@@ -151,7 +151,7 @@ TEST(Newton, SolvesWithACellThatHoldsAParticleAtItsEdgeOnly) {
   for (Vec<2>& x : block.x())
     if (x[0] > 2) x[0] = 2 + 1e-10 * x[0];
   block.method.gravity = {1, 0, 0};
-  ImplicitSystem<LinearShape<2>> system = block.system(false);
+  ImplicitSystem<2> system = block.system(false);
   clamp(system);
   std::vector<double> u = system.guess();
 
@@ -164,7 +164,7 @@ TEST(RigidMotions, HelpMultigridWithASolid) {
   Block<LinearShape<3>> block(modelOf(rubber()), {{16, 4, 4}});
   block.method.gravity = {0, 0, -1e-3};
   const auto iterations = [&](bool givesPositions) {
-    ImplicitSystem<LinearShape<3>> system = block.system(false);
+    ImplicitSystem<3> system = block.system(false);
     clamp(system);
     std::vector<double> u = system.guess();
     solvers::Unknowns unknowns = system.unknowns();

@@ -55,9 +55,8 @@ class Dense : public solvers::Matrix {
 };
 
 /// Greatest difference between the assembled tangent and central differences of the residual, over the greatest entry.
-template <class Shape>
-double errorOfTangent(ImplicitSystem<Shape> system, double size) {
-  constexpr int D = Shape::dimension;
+template <int D>
+double errorOfTangent(ImplicitSystem<D> system, double size) {
   const int nodes = system.nodes().size();
   std::mt19937 random(1);
   std::uniform_real_distribution<double> drawn(-size, size);
@@ -111,7 +110,7 @@ TEST(ImplicitSystem, StretchesWithTheGridByTheDisplacementOfTheNodes) {
   // Where the grid has gone along with a stretch of 1.3, u = 0.2 X adds 0.2 to it: P is that of a stretch of 1.5.
   Block<LinearShape<1>> block(modelOf(rubber()), {{1, 1, 1}}, 1.3);
   block.resetsGrid = false;
-  ImplicitSystem<LinearShape<1>> system = block.system(false);
+  ImplicitSystem<1> system = block.system(false);
   std::vector<double> u{0, 0.2}, r(2);
 
   ASSERT_TRUE(system.residual(u, r));
@@ -154,7 +153,7 @@ TEST(HoopOf, GivesTheStrainOfAnExpansionWhereverTheParticleIsAlongTheAxis) {
 
 TEST(ImplicitSystem, HasNoForceWhereNothingIsDeformed) {
   Block<GimpShape<2>> block(modelOf(rubber()), {{2, 2, 1}});
-  ImplicitSystem<GimpShape<2>> system = block.system(false);
+  ImplicitSystem<2> system = block.system(false);
   std::vector<double> u(2 * system.nodes().size(), 0.0), r(u.size());
   EXPECT_TRUE(system.residual(u, r));
   for (const double value : r) EXPECT_NEAR(value, 0, 1e-9);  // rounding of 8e5 Pa m
@@ -162,7 +161,7 @@ TEST(ImplicitSystem, HasNoForceWhereNothingIsDeformed) {
 
 TEST(ImplicitSystem, RefusesToTurnAPointInsideOut) {
   Block<LinearShape<1>> block(modelOf(rubber()), {{1, 1, 1}});
-  ImplicitSystem<LinearShape<1>> system = block.system(false);
+  ImplicitSystem<1> system = block.system(false);
   std::vector<double> u{0, -1.5}, r(2);
   EXPECT_FALSE(system.residual(u, r));
 }
@@ -171,7 +170,7 @@ TEST(ImplicitSystem, MovesFreelyUnderGravityByNewmark) {
   Block<LinearShape<2>> block(modelOf(rubber()), {{2, 2, 1}});
   block.method.gravity = {0, -10, 0};
   for (Vec<2>& v : block.velocity()) v = {3, 0};
-  ImplicitSystem<LinearShape<2>> system = block.system(true, 0.1);
+  ImplicitSystem<2> system = block.system(true, 0.1);
   std::vector<double> u = system.guess();
 
   ASSERT_TRUE(solvers::solver().solve(system.unknowns(), system, direct(), u).converged);
@@ -189,7 +188,7 @@ TEST(ImplicitSystem, BringsABarIntoEquilibriumWithItsLoad) {
   Block<LinearShape<1>> block(modelOf(rubber()), {{1, 1, 1}});
   const double load = 3e5;
   block.force().back()[0] = load;
-  ImplicitSystem<LinearShape<1>> system = block.system(false);
+  ImplicitSystem<1> system = block.system(false);
   clamp(system);
   std::vector<double> u = system.guess();
 
@@ -204,7 +203,7 @@ TEST(ImplicitSystem, BringsABarIntoEquilibriumWithItsLoad) {
 TEST(ImplicitSystem, KnowsTheForcesThatHoldWhatIsPrescribed) {
   Block<LinearShape<2>> block(modelOf(rubber()), {{2, 1, 1}});
   block.method.gravity = {-3, 0, 0};
-  ImplicitSystem<LinearShape<2>> system = block.system(false);
+  ImplicitSystem<2> system = block.system(false);
   clamp(system);
   std::vector<double> u = system.guess();
 

@@ -27,9 +27,9 @@ void setAffineFactors(const std::array<Quad, N>& s, int axis, double firstNode, 
 
 /// v_i += sum_p S_i m_p B_p D_p^(-1) (x_i - x_p) / m_i
 template <class Shape, int D = Shape::dimension>
-void addAffineVelocity(const Patch& patch, const Material& material, const Vec3& commonSize,
-                       const Placed<Shape>& particles, ParticleView<const double> mass,
-                       ParticleView<const Matrix3> moment, NodeView<NodeRecord> record) {
+void addAffineVelocity(const Patch& patch, const Material& material, const Vec3& commonSize, const Placed<D>& particles,
+                       ParticleView<const double> mass, ParticleView<const Matrix3> moment,
+                       NodeView<NodeRecord> record) {
   const Level& level = patch.level();
   const auto& x = particles.x;
   forEachStencil<Shape>(patch, x.cells(), particles, commonSize, [&](int p, auto stencil) {
@@ -49,7 +49,7 @@ void addAffineVelocity(const Patch& patch, const Material& material, const Vec3&
 /// B_p = sum_i S_i v*_i (x_i - x_p)^T, m^2/s
 template <class Shape, int D = Shape::dimension>
 void updateAffineMoment(const Patch& patch, const Material&, const Vec3& commonSize, NodeView<const NodeRecord> record,
-                        const Placed<Shape>& particles, ParticleView<Matrix3> moment) {
+                        const Placed<D>& particles, ParticleView<Matrix3> moment) {
   const Level& level = patch.level();
   forEachStencil<Shape>(patch, patch.cells(), particles, commonSize, [&](int p, const auto& stencil) {
     moment[p].setZero();

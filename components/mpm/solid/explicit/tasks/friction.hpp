@@ -10,7 +10,7 @@
 namespace tushar::mpm::solid {
 
 /// The variables that computeSurface reads and writes.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct SurfaceSources {
   ParticleView<const Vec<D>> x;
   Sizes<D> size;
@@ -21,12 +21,12 @@ struct SurfaceSources {
   NodeView<Matrix3> stress;
   NodeView<double> volume;
 
-  static SurfaceSources from(auto& take, const Keeps& keeps) {
-    return {.x = take(requiresOld(p::x<D>, Shape::reach)),
-            .size = Sizes<D>::from(take, keeps.sizes, Shape::reach),
-            .mass = take(requiresOld(p::mass, Shape::reach)),
-            .deformation = take(requiresOld(p::deformationMeasure, Shape::reach)),
-            .particleStress = take(when(keeps.stress, requiresOld(p::stress, Shape::reach))),
+  static SurfaceSources from(auto& take, int reach, const Keeps& keeps) {
+    return {.x = take(requiresOld(p::x<D>, reach)),
+            .size = Sizes<D>::from(take, keeps.sizes, reach),
+            .mass = take(requiresOld(p::mass, reach)),
+            .deformation = take(requiresOld(p::deformationMeasure, reach)),
+            .particleStress = take(when(keeps.stress, requiresOld(p::stress, reach))),
             .massGradient = take(computes(g::massGradient<D>)),
             .position = take(computes(g::massPosition<D>)),
             .stress = take(computes(g::surfaceStress)),
@@ -50,8 +50,7 @@ void mirrorSurface(const Patch& patch, const Material& material, NodeView<Vec<D>
 /// The surface of a body for friction (see ContactSurface) at every node of the patch. Where axisymmetric, the gradient
 /// is that of the density, as in Uintah: mass grows with the radius, and would tilt the normal.
 template <class Shape, int D = Shape::dimension>
-void computeSurface(const Patch& patch, const Material& material, const Vec3& commonSize,
-                    const SurfaceSources<Shape>& u) {
+void computeSurface(const Patch& patch, const Material& material, const Vec3& commonSize, const SurfaceSources<D>& u) {
   u.massGradient.fill(Vec<D>::Zero());
   u.position.fill(Vec<D>::Zero());
   u.stress.fill(Matrix3::Zero());

@@ -10,7 +10,7 @@ namespace tushar::mpm::solid {
 /// particle's field has there; Wallstedt & Guilkey, Comput. Model. Eng. Sci. 19 (2007) 223.
 template <class Shape, int D = Shape::dimension>
 void addVelocityGradient(const Patch& patch, const Material& material, const Vec3& commonSize,
-                         const Placed<Shape>& particles, ParticleView<const double> mass,
+                         const Placed<D>& particles, ParticleView<const double> mass,
                          ParticleView<const Matrix3> velocityGradient, NodeView<NodeRecord> record) {
   const Level& level = patch.level();
   const auto& x = particles.x;

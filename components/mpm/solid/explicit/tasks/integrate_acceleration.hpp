@@ -9,11 +9,11 @@ namespace tushar::mpm::solid {
 
 /// v*_i = v_i + (f_i / m_i - damping v_i + gravity) dt, or v_i where the material transmits force; afterwards the
 /// record holds v* and v.
-template <class Shape, int D = Shape::dimension>
-void computeAndIntegrateAcceleration(const Patch& patch, const Material& material, const Method& method,
+template <int D>
+void computeAndIntegrateAcceleration(const Patch& patch, const Material& material, const Method& method, int ghostNodes,
                                      ParticleView<const Vec<D>> x, double dt, NodeView<NodeRecord> record) {
   const Vec<D> gravity = patch.level().reduce<D>(method.gravity);
-  touchedRows<Shape>(x).forEachRow(record.box(), [&](const Index3& first, int end) {
+  touchedRows<D>(x, ghostNodes).forEachRow(record.box(), [&](const Index3& first, int end) {
     NodeRecord* node = record.values() + record.stored().offset(first);
     for (int k = first[0]; k < end; ++k, ++node) {
       const double mass = (*node)[lane::mass];
@@ -27,10 +27,10 @@ void computeAndIntegrateAcceleration(const Patch& patch, const Material& materia
 }
 
 /// v*_i on the sides of the grid, where particles touch them.
-template <class Shape, int D = Shape::dimension>
-void setGridBoundaryConditions(const Patch& patch, const Material& material, ParticleView<const Vec<D>> x,
-                               NodeView<NodeRecord> record) {
-  setVelocity<D>(patch, material.index, touchedRows<Shape>(x), record);
+template <int D>
+void setGridBoundaryConditions(const Patch& patch, const Material& material, int ghostNodes,
+                               ParticleView<const Vec<D>> x, NodeView<NodeRecord> record) {
+  setVelocity<D>(patch, material.index, touchedRows<D>(x, ghostNodes), record);
   if (!material.transmitsForce) setSymmetry<D>(patch, material.index, record);
 }
 

@@ -14,7 +14,7 @@
 namespace tushar::mpm::solid {
 
 /// Mass and momentum of particles, as far as shape functions reach.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct MomentumSources {
   ParticleView<const Vec<D>> x;
   Sizes<D> size;
@@ -23,17 +23,17 @@ struct MomentumSources {
   OptionalView<const Matrix3> deformation;  ///< F, where shape functions or stresses follow it
 
   /// `velocity` and `deformation` are accesses of those two.
-  static MomentumSources from(auto& take, KeptSizes keepsSizes, auto velocity, auto deformation) {
-    return {.x = take(requiresOld(p::x<D>, Shape::reach)),
-            .size = Sizes<D>::from(take, keepsSizes, Shape::reach),
-            .mass = take(requiresOld(p::mass, Shape::reach)),
+  static MomentumSources from(auto& take, int reach, KeptSizes keepsSizes, auto velocity, auto deformation) {
+    return {.x = take(requiresOld(p::x<D>, reach)),
+            .size = Sizes<D>::from(take, keepsSizes, reach),
+            .mass = take(requiresOld(p::mass, reach)),
             .velocity = take(velocity),
             .deformation = take(deformation)};
   }
 };
 
 /// The variables besides F from which the forces of particles follow.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct ForceSources {
   OptionalView<const double> volume;
   OptionalView<const Matrix3> stress;  ///< where it is not a function of F alone
@@ -41,11 +41,11 @@ struct ForceSources {
   OptionalView<const Vec<D>> externalForce;
 
   /// `stressed` reads what follows the stress: as it was at the start of the step, or as the step has it.
-  static ForceSources from(auto& take, const Keeps& keeps, auto stressed) {
-    return {.volume = take(when(keeps.stress, stressed(p::volume, Shape::reach))),
-            .stress = take(when(keeps.stress, stressed(p::stress, Shape::reach))),
-            .viscosity = take(when(keeps.viscosity, stressed(p::viscosity, Shape::reach))),
-            .externalForce = take(when(keeps.externalForce, requiresNew(p::externalForce<D>, Shape::reach)))};
+  static ForceSources from(auto& take, int reach, const Keeps& keeps, auto stressed) {
+    return {.volume = take(when(keeps.stress, stressed(p::volume, reach))),
+            .stress = take(when(keeps.stress, stressed(p::stress, reach))),
+            .viscosity = take(when(keeps.viscosity, stressed(p::viscosity, reach))),
+            .externalForce = take(when(keeps.externalForce, requiresNew(p::externalForce<D>, reach)))};
   }
 };
 
@@ -56,8 +56,8 @@ class Scatter {
  public:
   static constexpr int D = Shape::dimension;
 
-  Scatter(const Level& level, const Material& material, const Vec3& commonSize, const MomentumSources<Shape>& from,
-          const ForceSources<Shape>* forces, const NodeView<NodeRecord>& record)
+  Scatter(const Level& level, const Material& material, const Vec3& commonSize, const MomentumSources<D>& from,
+          const ForceSources<D>* forces, const NodeView<NodeRecord>& record)
       : level_(level),
         material_(material),
         extents_(level, commonSize, from.size, from.deformation),
@@ -198,7 +198,7 @@ Box cellsThatTouch(Box nodes, int ghostNodes) {
 template <class Shape, int D = Shape::dimension>
 void scatterParticles(const Patch& patch, const Material& material, bool clearsAll, ParticleView<const Vec<D>> x,
                       const Scatter<Shape>& scatter, NodeView<NodeRecord> record) {
-  const data::TouchedRows& rows = touchedRows<Shape>(x);
+  const data::TouchedRows& rows = touchedRows<D>(x, Shape::ghostNodes);
   if (clearsAll)
     record.fill(NodeRecord{});
   else
@@ -225,18 +225,18 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
 /// f_i = sum_p S_i f_p - V_p (sigma_p - q_p I) grad S_i; where axisymmetric, the hoop stress pulls inwards with S_i /
 /// r. Complete on all own nodes of the patch that are touched; what is not touched is 0 where `clearsAll`, else
 /// undefined.
-template <class Shape>
+template <class Shape, int D = Shape::dimension>
 void interpolateParticlesToGrid(const Patch& patch, const Material& material, const Vec3& commonSize, bool clearsAll,
-                                const MomentumSources<Shape>& from, const ForceSources<Shape>& forces,
+                                const MomentumSources<D>& from, const ForceSources<D>& forces,
                                 NodeView<NodeRecord> record) {
   const Scatter<Shape> scatter(patch.level(), material, commonSize, from, &forces, record);
   scatterParticles<Shape>(patch, material, clearsAll, from.x, scatter, record);
 }
 
 /// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i of any velocity of the particles, without forces.
-template <class Shape>
+template <class Shape, int D = Shape::dimension>
 void interpolateMomentum(const Patch& patch, const Material& material, const Vec3& commonSize,
-                         const MomentumSources<Shape>& from, NodeView<NodeRecord> record) {
+                         const MomentumSources<D>& from, NodeView<NodeRecord> record) {
   const Scatter<Shape> scatter(patch.level(), material, commonSize, from, nullptr, record);
   scatterParticles<Shape>(patch, material, true, from.x, scatter, record);
 }

@@ -5,15 +5,15 @@
 namespace tushar::mpm::solid {
 
 /// The variables of the task that moves particles to the end of a step.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct ParticleUpdate {
   ParticleView<Vec<D>> newX, newVelocity;
-  StateUpdate<Shape> state;
+  StateUpdate<D> state;
 
-  static ParticleUpdate from(auto& take, const Keeps& keeps) {
+  static ParticleUpdate from(auto& take, int ghostNodes, const Keeps& keeps) {
     return {.newX = take(computes(p::x<D>)),
             .newVelocity = take(computes(p::velocity<D>)),
-            .state = StateUpdate<Shape>::from(take, keeps, &g::record)};
+            .state = StateUpdate<D>::from(take, ghostNodes, keeps, &g::record)};
   }
 };
 
@@ -21,7 +21,7 @@ struct ParticleUpdate {
 /// computeParticleGradients and computeStressTensor.
 template <class Shape, int D = Shape::dimension>
 void interpolateToParticlesAndUpdate(const Patch& patch, const Material& material, const Method& method, double time,
-                                     double dt, const ParticleUpdate<Shape>& u) {
+                                     double dt, const ParticleUpdate<D>& u) {
   updateParticles<Shape, Volumes::own>(patch, material, method, time, dt, u.state, [&](int p, const Gathered<D>& sums) {
     moveParticle<D>(dt, sums, u.state.x[p], u.state.velocity[p], u.newX[p], u.newVelocity[p]);
   });

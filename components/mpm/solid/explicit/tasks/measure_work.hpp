@@ -56,9 +56,9 @@ void computeNodalWork(const Patch& patch, const Material&, const Method& method,
 }
 
 /// The variables that measureWork reads and writes.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct ParticleWork {
-  Placed<Shape> particles;
+  Placed<D> particles;
   ParticleView<const double> mass;
   OptionalView<const Vec<D>> externalForce;
   NodeView<const NodeRecord> nodes;  ///< w, and the work for a unit of mass
@@ -66,11 +66,11 @@ struct ParticleWork {
   ParticleView<p::Works> work;
 
   /// `deformation` is an access of F.
-  static ParticleWork from(auto& take, const Keeps& keeps, auto deformation) {
-    return {.particles = Placed<Shape>::from(take, keeps.sizes, 0, deformation),
+  static ParticleWork from(auto& take, const ShapeTraits& shape, const Keeps& keeps, auto deformation) {
+    return {.particles = Placed<D>::from(take, keeps.sizes, 0, deformation),
             .mass = take(requiresOld(p::mass)),
             .externalForce = take(when(keeps.externalForce, requiresNew(p::externalForce<D>))),
-            .nodes = take(requiresNew(g::workRecord, Shape::ghostNodes)),
+            .nodes = take(requiresNew(g::workRecord, shape.ghostNodes)),
             .old = take(requiresOld(p::work)),
             .work = take(computes(p::work))};
   }
@@ -78,7 +78,7 @@ struct ParticleWork {
 
 /// Accumulates the work of a step, except that of the stresses.
 template <class Shape, int D = Shape::dimension>
-void measureWork(const Patch& patch, const Material&, const Vec3& commonSize, double dt, const ParticleWork<Shape>& u) {
+void measureWork(const Patch& patch, const Material&, const Vec3& commonSize, double dt, const ParticleWork<D>& u) {
   forEachStencil<Shape>(patch, patch.cells(), u.particles, commonSize, [&](int p, const auto& stencil) {
     const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(u.nodes, stencil));
     p::Works& w = u.work[p];

@@ -8,12 +8,12 @@ namespace tushar::mpm::solid {
 
 /// v*_i = L(t) x_i on all nodes that particles touch, without acceleration: velocities of particles stay as they are,
 /// while particles move and deform with the grid, about the origin.
-template <class Shape, int D = Shape::dimension>
-void prescribeMotion(const Patch& patch, const Material&, const PrescribedDeformation* deformation, double time,
-                     ParticleView<const Vec<D>> x, NodeView<NodeRecord> record) {
+template <int D>
+void prescribeMotion(const Patch& patch, const Material&, const PrescribedDeformation* deformation, int ghostNodes,
+                     double time, ParticleView<const Vec<D>> x, NodeView<NodeRecord> record) {
   const Level& level = patch.level();
   const Matrix3 gradient = deformation->velocityGradient(time);
-  touchedRows<Shape>(x).forEachRow(record.box(), [&](const Index3& first, int end) {
+  touchedRows<D>(x, ghostNodes).forEachRow(record.box(), [&](const Index3& first, int end) {
     NodeRecord* node = record.values() + record.stored().offset(first);
     Vec<D> place;
     for (int d = 0; d < D; ++d) place[d] = level.nodePosition(d, first[d]);

@@ -10,30 +10,31 @@
 namespace tushar::mpm::solid {
 
 /// The variables of a material that separateBodies reads and writes.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct PlaneSources {
-  Placed<Shape> particles;
+  Placed<D> particles;
   OptionalView<const Vec<D>> size;  ///< at the start, in cells, where shape functions do not need it
   ParticleView<const int> surface;
   NodeView<Vec<D>> normal;
   NodeView<double> prominence;
 
   /// `ofShape` are the sizes that shape functions need.
-  static PlaneSources from(auto& take, KeptSizes ofShape, bool keepsSizes) {
-    return {.particles = Placed<Shape>::from(take, ofShape, Shape::reach),
-            .size = take(when(!Shape::hasSize && keepsSizes, requiresOld(p::size<D>, Shape::reach))),
-            .surface = take(requiresOld(p::surface, Shape::reach)),
+  static PlaneSources from(auto& take, const ShapeTraits& shape, KeptSizes ofShape, bool keepsSizes) {
+    return {.particles = Placed<D>::from(take, shape, ofShape, shape.reach),
+            .size = take(when(!shape.haveSizes && keepsSizes, requiresOld(p::size<D>, shape.reach))),
+            .surface = take(requiresOld(p::surface, shape.reach)),
             .normal = take(computes(g::separatingNormal<D>)),
             .prominence = take(computes(g::prominence))};
   }
   /// Column i: from the middle of particle p to the middle of its face that lay along axis i at the start, m.
+  template <class Shape>
   Eigen::Matrix<double, D, D> halfEdges(const Level& level, const Vec3& commonSize, int p) const {
     Eigen::Matrix<double, D, D> half = Eigen::Matrix<double, D, D>::Zero();
     const auto& each = Shape::hasSize ? particles.size.each : size;
     const Vec<D> cells = each ? (*each)[p] : level.reduce<D>(commonSize);
     for (int d = 0; d < D; ++d) half(d, d) = 0.5 * cells[d] * level.spacing(d);
     if constexpr (Shape::deforms) {
-      half = particles.extents(level, commonSize)[p].halfEdges;
+      half = Extents<Shape>(level, commonSize, particles.size, particles.deformation)[p].halfEdges;
       for (int d = 0; d < D; ++d) half.row(d) *= level.spacing(d);
     }
     return half;
@@ -113,7 +114,7 @@ struct MeetingNodes {
 
 /// Adds the particles of material m to the nodes at which they meet others.
 template <class Shape, int D = Shape::dimension>
-void gatherParticles(const Patch& patch, const Vec3& commonSize, const PlaneSources<Shape>& of, int m,
+void gatherParticles(const Patch& patch, const Vec3& commonSize, const PlaneSources<D>& of, int m,
                      MeetingNodes<D>& nodes) {
   const auto& x = of.particles.x;
   forEachStencil<Shape>(patch, x.cells(), of.particles, commonSize, [&](int p, const auto& stencil) {
@@ -148,12 +149,12 @@ Vec<D> normalAt(const Patch& patch, const MeetingNodes<D>& nodes, std::size_t k)
 /// Prominence of material m: where it leads, how far its particles reach along the normal at most; elsewhere, at least.
 template <class Shape, int D = Shape::dimension>
 void measureProminence(const Patch& patch, const Vec3& commonSize, int m, const MeetingNodes<D>& nodes,
-                       const std::vector<Vec<D>>& normals, const PlaneSources<Shape>& of) {
+                       const std::vector<Vec<D>>& normals, const PlaneSources<D>& of) {
   of.prominence.fill(noProminence);
   const auto& x = of.particles.x;
   forEachStencil<Shape>(patch, x.cells(), of.particles, commonSize, [&](int p, const auto& stencil) {
     if (of.surface[p] == 0) return;
-    const auto edges = of.halfEdges(patch.level(), commonSize, p);
+    const auto edges = of.template halfEdges<Shape>(patch.level(), commonSize, p);
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
       const int k = nodes[node];
       if (k < 0 || s <= 0) return;
@@ -172,7 +173,7 @@ void measureProminence(const Patch& patch, const Vec3& commonSize, int m, const 
 template <class Shape, int D = Shape::dimension>
 void separateBodies(const Patch& patch, const std::vector<Material>& materials, const std::vector<Contact>& contacts,
                     const Vec3& commonSize, const std::vector<NodeView<const NodeRecord>>& records,
-                    const std::vector<PlaneSources<Shape>>& of) {
+                    const std::vector<PlaneSources<D>>& of) {
   MeetingNodes<D> nodes(of.front().normal.box(), Precedence(materials, contacts), records);
   for (std::size_t m = 0; m < of.size(); ++m) {
     of[m].normal.fill(Vec<D>::Zero());
@@ -189,7 +190,7 @@ void separateBodies(const Patch& patch, const std::vector<Material>& materials, 
 
 /// The mean of p.color by mass at the nodes of a patch; 0 where there is no mass.
 template <class Shape, int D = Shape::dimension>
-void interpolateColor(const Patch& patch, const Material&, const Vec3& commonSize, const Placed<Shape>& particles,
+void interpolateColor(const Patch& patch, const Material&, const Vec3& commonSize, const Placed<D>& particles,
                       ParticleView<const double> mass, ParticleView<const double> color,
                       NodeView<const NodeRecord> record, NodeView<double> mean) {
   mean.fill(0.0);

@@ -19,8 +19,8 @@ enum class Volumes {
 /// DoPressureStabilization; as F-bar, de Souza Neto et al., Int. J. Solids Structures 33 (1996) 3277, for a cell). A
 /// particle that is turned inside out is left as it is, and out of the sums. `velocityGradient` holds L, 1/s, of the
 /// particles of `range`.
-template <class Shape>
-void shareVolume(double dt, const data::ParticleRange& range, const StateUpdate<Shape>& u, Matrix3* velocityGradient) {
+template <int D>
+void shareVolume(double dt, const data::ParticleRange& range, const StateUpdate<D>& u, Matrix3* velocityGradient) {
   const auto bears = [&](int p) { return (!u.localized || !(*u.localized)[p]) && u.deformation[p].determinant() > 0; };
   double start = 0, now = 0;
   for (const int p : range) {

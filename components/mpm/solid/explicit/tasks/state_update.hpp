@@ -7,7 +7,7 @@
 namespace tushar::mpm::solid {
 
 /// The variables with which F, the stress and internal variables reach the end of a step.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct StateUpdate {
   NodeView<const NodeRecord> record;  ///< with the velocity that F follows
 
@@ -32,8 +32,8 @@ struct StateUpdate {
 
   int stateSize = 0;  ///< numbers of a particle in `state`
 
-  static StateUpdate from(auto& take, const Keeps& keeps, const NodeLabel<NodeRecord>* record) {
-    return {.record = take(requiresNew(*record, Shape::ghostNodes)),
+  static StateUpdate from(auto& take, int ghostNodes, const Keeps& keeps, const NodeLabel<NodeRecord>* record) {
+    return {.record = take(requiresNew(*record, ghostNodes)),
             .x = take(requiresOld(p::x<D>)),
             .size = Sizes<D>::from(take, keeps.sizes),
             .velocity = take(requiresOld(p::velocity<D>)),

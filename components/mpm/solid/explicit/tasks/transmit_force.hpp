@@ -22,7 +22,7 @@ struct Pull {
 };
 
 /// The sums that move a material as a rigid body, over a patch.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct RigidMotion {
   ParticleView<const Vec<D>> x;
   ParticleView<const double> mass;
@@ -31,8 +31,8 @@ struct RigidMotion {
   std::optional<NodeView<const Vec<D>>> surrounding;  ///< the force of what surrounds it, where something does
   NodeView<NodeRecord> record;
 
-  static RigidMotion from(auto& take, bool isSurrounded) {
-    return {.x = take(requiresOld(p::x<D>, Shape::reach)),
+  static RigidMotion from(auto& take, int reach, bool isSurrounded) {
+    return {.x = take(requiresOld(p::x<D>, reach)),
             .mass = take(requiresOld(p::mass)),
             .externalForce = take(requiresNew(p::externalForce<D>)),
             .transmitted = take(requiresNew(g::transmittedForce<D>)),
@@ -42,8 +42,8 @@ struct RigidMotion {
 };
 
 /// Adds the loads on a material within a patch, and the forces that contact and what surrounds it transmit to it.
-template <class Shape, int D = Shape::dimension>
-void addPull(const Patch& patch, const RigidMotion<Shape>& u, Pull& pull) {
+template <int D>
+void addPull(const Patch& patch, const RigidMotion<D>& u, Pull& pull) {
   for (int p = 0; p < u.mass.owned(); ++p) {
     pull.mass.add(u.mass[p]);
     pull.force.add(patch.level().expandDirection<D>(u.externalForce[p]));
@@ -56,9 +56,9 @@ void addPull(const Patch& patch, const RigidMotion<Shape>& u, Pull& pull) {
 }
 
 /// v* = v + a dt at the nodes that particles touch.
-template <class Shape, int D = Shape::dimension>
-void accelerate(ParticleView<const Vec<D>> x, const Vec<D>& change, NodeView<NodeRecord> record) {
-  touchedRows<Shape>(x).forEachRow(record.box(), [&](const Index3& first, int end) {
+template <int D>
+void accelerate(ParticleView<const Vec<D>> x, int ghostNodes, const Vec<D>& change, NodeView<NodeRecord> record) {
+  touchedRows<D>(x, ghostNodes).forEachRow(record.box(), [&](const Index3& first, int end) {
     NodeRecord* node = record.values() + record.stored().offset(first);
     for (int k = first[0]; k < end; ++k, ++node)
       setLanes<D>(*node, lane::velocity, lanes<D>(*node, lane::before) + change);
@@ -67,19 +67,19 @@ void accelerate(ParticleView<const Vec<D>> x, const Vec<D>& change, NodeView<Nod
 
 /// Gives all nodes of a material that transmits force the acceleration (sum of its loads and of what is transmitted) /
 /// mass, whatever holds on the sides of the grid. `motions[patch][material]`.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 void computeGridVelocityForFTM(const RankPatches& patches, const std::vector<Material>& materials,
-                               const mpi::Communicator& ranks, double dt,
-                               const std::vector<std::vector<RigidMotion<Shape>>>& motions) {
+                               const mpi::Communicator& ranks, int ghostNodes, double dt,
+                               const std::vector<std::vector<RigidMotion<D>>>& motions) {
   for (std::size_t m = 0; m < materials.size(); ++m) {
     if (!materials[m].transmitsForce) continue;
     Pull pull;
-    for (std::size_t p = 0; p < patches.size(); ++p) addPull<Shape>(*patches[p], motions[p][m], pull);
+    for (std::size_t p = 0; p < patches.size(); ++p) addPull<D>(*patches[p], motions[p][m], pull);
     ranks.merge(pull);
     if (!(pull.mass.total() > 0)) continue;
     for (std::size_t p = 0; p < patches.size(); ++p)
-      accelerate<Shape>(motions[p][m].x, patches[p]->level().template reduce<D>(pull.acceleration() * dt),
-                        motions[p][m].record);
+      accelerate<D>(motions[p][m].x, ghostNodes, patches[p]->level().template reduce<D>(pull.acceleration() * dt),
+                    motions[p][m].record);
   }
 }
 

@@ -9,17 +9,17 @@ namespace tushar::mpm::solid {
 // the step, or last with velocities that went to the grid once more.
 
 /// The variables with which x and v reach the end of a step.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct MotionUpdate {
   NodeView<const NodeRecord> record;
-  Placed<Shape> particles;
+  Placed<D> particles;
   ParticleView<const Vec<D>> velocity;
   ParticleView<Vec<D>> newX, newVelocity;
 
   /// `deformation` is an access of F.
-  static MotionUpdate from(auto& take, KeptSizes keepsSizes, auto deformation) {
-    return {.record = take(requiresNew(g::record, Shape::ghostNodes)),
-            .particles = Placed<Shape>::from(take, keepsSizes, 0, deformation),
+  static MotionUpdate from(auto& take, int ghostNodes, KeptSizes keepsSizes, auto deformation) {
+    return {.record = take(requiresNew(g::record, ghostNodes)),
+            .particles = Placed<D>::from(take, keepsSizes, 0, deformation),
             .velocity = take(requiresOld(p::velocity<D>)),
             .newX = take(computes(p::x<D>)),
             .newVelocity = take(computes(p::velocity<D>))};
@@ -28,8 +28,7 @@ struct MotionUpdate {
 
 /// x_p and v_p at the end of the step.
 template <class Shape, int D = Shape::dimension>
-void moveParticles(const Patch& patch, const Material&, const Vec3& commonSize, double dt,
-                   const MotionUpdate<Shape>& u) {
+void moveParticles(const Patch& patch, const Material&, const Vec3& commonSize, double dt, const MotionUpdate<D>& u) {
   forEachStencil<Shape>(patch, patch.cells(), u.particles, commonSize, [&](int p, const auto& stencil) {
     const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(u.record, stencil));
     moveParticle<D>(dt, sums, u.particles.x[p], u.velocity[p], u.newX[p], u.newVelocity[p]);
@@ -39,7 +38,7 @@ void moveParticles(const Patch& patch, const Material&, const Vec3& commonSize, 
 /// L_p, F_p and the stress with the velocity that the records hold: Uintah's computeStressTensor.
 template <class Shape, Volumes volumes = Volumes::own, int D = Shape::dimension>
 void computeStressTensor(const Patch& patch, const Material& material, const Method& method, double time, double dt,
-                         const StateUpdate<Shape>& u) {
+                         const StateUpdate<D>& u) {
   updateParticles<Shape, volumes>(patch, material, method, time, dt, u, [](int, const Gathered<D>&) {});
 }
 

@@ -55,7 +55,7 @@ template <int D>
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt,
                                                   const Gathered<D>& sums, const Erosion& erosion,
-                                                  const StateUpdate<Shape>& u, int p, Matrix3& velocityGradient) {
+                                                  const StateUpdate<D>& u, int p, Matrix3& velocityGradient) {
   if constexpr (D < 3) velocityGradient.setZero();
   if constexpr (Shape::axisymmetric) velocityGradient(2, 2) = sums.hoop[lane::velocity];
   Quad squares = sums.hoop * sums.hoop;
@@ -83,8 +83,8 @@ struct StressResults {
 };
 
 /// The positions, masses and the time of particles from `first` on, for a model that reads them.
-template <class Shape, int D = Shape::dimension>
-void placePoints(const Level& level, const StateUpdate<Shape>& u, double time, int first,
+template <int D>
+void placePoints(const Level& level, const StateUpdate<D>& u, double time, int first,
                  std::array<Vec3, stressGroup>& positions, StressPoints& points) {
   for (int k = 0; k < points.count; ++k) positions[k] = level.expandPoint<D>(u.x[first + k]);
   points.position = positions.data();
@@ -93,8 +93,8 @@ void placePoints(const Level& level, const StateUpdate<Shape>& u, double time, i
 }
 
 /// Particles `first` and those after it as a constitutive model takes them. `velocityGradient` is that of the first.
-template <class Shape>
-StressPoints stressPoints(const StateUpdate<Shape>& u, double dt, const Matrix3* velocityGradient, int first, int count,
+template <int D>
+StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* velocityGradient, int first, int count,
                           StressResults& results) {
   const auto of = [&](const auto& view) { return view ? valuesOf(view) + first : nullptr; };
   return {.count = count,
@@ -114,8 +114,8 @@ StressPoints stressPoints(const StateUpdate<Shape>& u, double dt, const Matrix3*
 }
 
 /// The artificial viscosity's work on a volume per mass that grows by so much, m^3/kg.
-template <class Shape>
-void heatByViscosity(const Material& material, double growth, const StateUpdate<Shape>& u, int p) {
+template <int D>
+void heatByViscosity(const Material& material, double growth, const StateUpdate<D>& u, int p) {
   const double heat = -(*u.viscosity)[p] * growth;
   if (u.temperatureChange) {
     const double temperature = u.temperature ? (*u.temperature)[p] : 0.0;
@@ -127,8 +127,8 @@ void heatByViscosity(const Material& material, double growth, const StateUpdate<
 
 /// The artificial viscosity of particles from `first` on, and its heat; their velocity gradients and the speeds of
 /// their bulk waves (m/s) start at the first.
-template <class Shape>
-void updateViscosity(const Material& material, const Method& method, double dt, const StateUpdate<Shape>& u,
+template <int D>
+void updateViscosity(const Material& material, const Method& method, double dt, const StateUpdate<D>& u,
                      const Matrix3* velocityGradient, const double* bulkSpeed, int first, int count) {
   const ArtificialViscosity own =
       material.model->ownViscosity().value_or(method.viscosity.value_or(ArtificialViscosity{}));
@@ -146,8 +146,8 @@ void updateViscosity(const Material& material, const Method& method, double dt, 
 
 /// Strain energy of particles from `first` on, from its density (J/m^3 of the volume at F = I): none is left in
 /// what has failed.
-template <class Shape>
-void updateStrainEnergy(const Material& material, const StateUpdate<Shape>& u, const double* density, int first,
+template <int D>
+void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const double* density, int first,
                         int count) {
   const double undeformed = material.undeformedDensity();
   double* const energy = valuesOf(u.strainEnergy);
@@ -161,9 +161,9 @@ void updateStrainEnergy(const Material& material, const StateUpdate<Shape>& u, c
 
 /// Stress, artificial viscosity and strain energy of particles of a cell, where a scene keeps them; adds their waves to
 /// `rate`.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 void updateStress(const Level& level, const Material& material, const Method& method, double time, double dt,
-                  const StateUpdate<Shape>& u, const Matrix3* velocityGradient, int first, int count,
+                  const StateUpdate<D>& u, const Matrix3* velocityGradient, int first, int count,
                   CrossingRate<D>& rate) {
   if (u.state)
     std::copy_n(valuesOf(u.oldState) + first * u.stateSize, count * u.stateSize,
@@ -171,7 +171,7 @@ void updateStress(const Level& level, const Material& material, const Method& me
   StressResults results;
   StressPoints points = stressPoints(u, dt, velocityGradient, first, count, results);
   std::array<Vec3, stressGroup> positions;
-  if (material.model->usesPlaceAndTime()) placePoints<Shape>(level, u, time, first, positions, points);
+  if (material.model->usesPlaceAndTime()) placePoints<D>(level, u, time, first, positions, points);
   material.model->updateStress(material.density, points);
   for (int k = 0; k < count; ++k) rate.add(results.waveSpeed[k], u.velocity[first + k]);
   if (u.viscosity) updateViscosity(material, method, dt, u, velocityGradient, results.bulkSpeed.data(), first, count);
@@ -179,8 +179,8 @@ void updateStress(const Level& level, const Material& material, const Method& me
 }
 
 /// The error for the first particle of a cell that has no wave speed: it moves at no number or is turned inside out.
-template <class Shape, int D = Shape::dimension>
-NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<Shape>& u, const Index<D>& cell,
+template <int D>
+NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
                                 const data::ParticleRange& range) {
   const auto isSound = [&](int p) { return u.velocity[p].allFinite() && u.deformation[p].determinant() > 0; };
   int p = range.first;
@@ -198,7 +198,7 @@ NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<Shape>& u,
 /// wave has no speed. The step starts at `time`, s.
 template <class Shape, Volumes volumes, class Move, int D = Shape::dimension>
 void updateParticles(const Patch& patch, const Material& material, const Method& method, double time, double dt,
-                     const StateUpdate<Shape>& u, Move&& move) {
+                     const StateUpdate<D>& u, Move&& move) {
   const Level& level = patch.level();
   const Extents<Shape> extents(level, method.commonSize, u.size, u.oldDeformation);
   const CrossingRate<D> none(level);
@@ -220,12 +220,12 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
         move(p, sums);
         deformParticle<Shape>(level, method, dt, sums, material.erosion, u, p, velocityGradient[k]);
       }
-      if constexpr (volumes == Volumes::shared) shareVolume<Shape>(dt, range, u, velocityGradient);
+      if constexpr (volumes == Volumes::shared) shareVolume<D>(dt, range, u, velocityGradient);
       for (int k = 0; k < count; k += stressGroup)
-        updateStress<Shape>(level, material, method, time, dt, u, velocityGradient + k, first + k,
-                            std::min(stressGroup, count - k), rate);
+        updateStress<D>(level, material, method, time, dt, u, velocityGradient + k, first + k,
+                        std::min(stressGroup, count - k), rate);
     }
-    if (!rate.isKnown()) throw withoutWaveSpeed<Shape>(level, u, cell, range);
+    if (!rate.isKnown()) throw withoutWaveSpeed<D>(level, u, cell, range);
     u.stableTimeStep[cell] = rate.time();
   });
 }

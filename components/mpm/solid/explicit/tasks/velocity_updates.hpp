@@ -12,7 +12,7 @@ namespace tushar::mpm::solid {
 /// v_p = (1 - a) v_p^FLIP + a sum_i S_i v*_i: the PIC of Harlow, Meth. Comput. Phys. 3 (1964) 319, where a = 1.
 template <class Shape, int D = Shape::dimension>
 void blendVelocity(const Patch& patch, const Material&, const Method& method, NodeView<const NodeRecord> record,
-                   const Placed<Shape>& particles, ParticleView<Vec<D>> velocity) {
+                   const Placed<D>& particles, ParticleView<Vec<D>> velocity) {
   const double a = method.picFraction;
   forEachStencil<Shape>(patch, patch.cells(), particles, method.commonSize, [&](int p, const auto& stencil) {
     const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(record, stencil));
@@ -23,7 +23,7 @@ void blendVelocity(const Patch& patch, const Material&, const Method& method, No
 /// v+_p = sum_i S_i v_i, the velocity at the start of the step seen through the grid.
 template <class Shape, int D = Shape::dimension>
 void computeSSPlusVp(const Patch& patch, const Material&, const Vec3& commonSize, NodeView<const NodeRecord> record,
-                     const Placed<Shape>& particles, ParticleView<Vec<D>> smooth) {
+                     const Placed<D>& particles, ParticleView<Vec<D>> smooth) {
   forEachStencil<Shape>(patch, patch.cells(), particles, commonSize, [&](int p, const auto& stencil) {
     const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(record, stencil));
     smooth[p] = lanes<D>(sums.value, lane::before);
@@ -41,17 +41,17 @@ void limitVelocity(const Patch&, const Material&, double greatest, ParticleView<
 }
 
 /// The correction by XPIC for particles that have moved by FLIP.
-template <class Shape, int D = Shape::dimension>
+template <int D>
 struct XpicUpdate {
   NodeView<const NodeRecord> smoothRecord;
-  Placed<Shape> particles;
+  Placed<D> particles;
   ParticleView<const Vec<D>> oldVelocity, smooth;
   ParticleView<Vec<D>> newX, velocity;
 
   /// `deformation` is an access of F.
-  static XpicUpdate from(auto& take, KeptSizes keepsSizes, auto deformation) {
-    return {.smoothRecord = take(requiresNew(g::smoothRecord, Shape::ghostNodes)),
-            .particles = Placed<Shape>::from(take, keepsSizes, 0, deformation),
+  static XpicUpdate from(auto& take, int ghostNodes, KeptSizes keepsSizes, auto deformation) {
+    return {.smoothRecord = take(requiresNew(g::smoothRecord, ghostNodes)),
+            .particles = Placed<D>::from(take, keepsSizes, 0, deformation),
             .oldVelocity = take(requiresOld(p::velocity<D>)),
             .smooth = take(requiresNew(p::smoothVelocity<D>)),
             .newX = take(modifies(p::x<D>)),
@@ -64,7 +64,7 @@ struct XpicUpdate {
 /// particles have moved by FLIP before; as in Uintah those of a rigid material stay with it.
 template <class Shape, int D = Shape::dimension>
 void applyXpic(const Patch& patch, const Material& material, const Vec3& commonSize, double dt,
-               const XpicUpdate<Shape>& u) {
+               const XpicUpdate<D>& u) {
   if (material.isRigid) return;
   forEachStencil<Shape>(patch, patch.cells(), u.particles, commonSize, [&](int p, const auto& stencil) {
     const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(u.smoothRecord, stencil));

@@ -1,7 +1,5 @@
-#pragma once
-
-#include "components/mpm/solid/implicit/conduct_heat.hpp"
 #include "components/mpm/solid/implicit/implicit_mpm.hpp"
+#include "components/mpm/solid/implicit/conduct_heat.hpp"
 #include "components/mpm/solid/implicit/system_assembly.hpp"
 #include "components/mpm/solid/implicit/system_stiffness.hpp"
 #include "components/mpm/solid/implicit/update.hpp"
@@ -10,24 +8,21 @@
 #include "components/mpm/solid/tasks/damage.hpp"
 #include "components/mpm/solid/tasks/diagnose.hpp"
 #include "components/mpm/solid/tasks/displacement.hpp"
-#include "components/mpm/solid/tasks/heat.hpp"
-#include "components/mpm/solid/tasks/show_grid.hpp"
-
-// The schedule of ImplicitMpm: included by the files that instantiate it, one for each kind of shape function.
 
 namespace tushar::mpm::solid::implicit {
 
-template <class Shape>
-ImplicitMpm<Shape>::ImplicitMpm(Problem problem, ImplicitMethod how)
+template <int D>
+ImplicitMpm<D>::ImplicitMpm(Problem problem, const ImplicitShapes<D>& shapes, ImplicitMethod how)
     : Solids(std::move(problem), 1),
+      shapes_(&shapes),
       how_(std::move(how)),
       heats_(std::any_of(problem_.materials.begin(), problem_.materials.end(),
                          [](const Material& material) { return material.model->changesTemperature(); })),
       is_damageable_(std::any_of(problem_.materials.begin(), problem_.materials.end(),
                                  [](const Material& material) { return material.isDamageable(); })) {}
 
-template <class Shape>
-void ImplicitMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
+template <int D>
+void ImplicitMpm<D>::scheduleInitialize(TaskList& tasks) const {
   scheduleActuallyInitialize<D>(tasks, problem_.materials, problem_.start);
   scheduleInitialStress(tasks, problem_.materials, state_);
   if (is_damageable_) scheduleInitialDamage(tasks, problem_.materials);
@@ -36,8 +31,8 @@ void ImplicitMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
       "impm::allowAnyTimeStep", [](const Patch&, Minimum&) {}, computes(total::nextTimeStep));
 }
 
-template <class Shape>
-void ImplicitMpm<Shape>::scheduleStartingAcceleration(TaskList& tasks) const {
+template <int D>
+void ImplicitMpm<D>::scheduleStartingAcceleration(TaskList& tasks) const {
   if (!how_.dynamic) {
     tasks.perMaterial("impm::startAtRest", startAtRest<D>, problem_.materials, requiresNew(p::mass),
                       computes(p::acceleration<D>));
@@ -46,16 +41,16 @@ void ImplicitMpm<Shape>::scheduleStartingAcceleration(TaskList& tasks) const {
   tasks.perMaterial("mpm::applyExternalLoads", applyExternalLoads<D>, problem_.materials, with(problem_.start.loads),
                     startTime(), requiresNew(p::x<D>), requiresNew(p::mass), requiresNew(p::loadCurves),
                     when(false, requiresNew(p::deformationMeasure)), modifies(p::externalForce<D>));
-  tasks.perRankAcrossMaterials("impm::accelerateAtStart", accelerateAtStart<Shape>, problem_.materials,
-                               togetherOnRanks(), with(setup()), startTime(),
-                               all<SolidParticles<Shape>>(AtStart(), &state_), computes(g::newAcceleration<D>));
-  tasks.perMaterial("impm::startInMotion", startInMotion<Shape>, problem_.materials, with(problem_.method.commonSize),
-                    requiresNew(g::newAcceleration<D>, Shape::ghostNodes), requiresNew(p::x<D>),
+  tasks.perRankAcrossMaterials("impm::accelerateAtStart", accelerateAtStart<D>, problem_.materials, togetherOnRanks(),
+                               with(setup()), startTime(), all<SolidParticles<D>>(AtStart(), &state_),
+                               computes(g::newAcceleration<D>));
+  tasks.perMaterial("impm::startInMotion", startInMotion<D>, problem_.materials, with(setup()),
+                    requiresNew(g::newAcceleration<D>, shapes_->shaped.shape.ghostNodes), requiresNew(p::x<D>),
                     requiresNew(p::size<D>), computes(p::acceleration<D>));
 }
 
-template <class Shape>
-void ImplicitMpm<Shape>::scheduleComputeStableTimeStep(TaskList& tasks) const {
+template <int D>
+void ImplicitMpm<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   tasks.perPatch(
       "impm::limitTimeStep", [](const Patch&, double allowed, Minimum& dt) { dt.add(allowed, "Newton's iterations"); },
       requiresOld(total::nextTimeStep), computes(delT));
@@ -64,13 +59,13 @@ void ImplicitMpm<Shape>::scheduleComputeStableTimeStep(TaskList& tasks) const {
                       computes(delT));
 }
 
-template <class Shape>
-void ImplicitMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
+template <int D>
+void ImplicitMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
   tasks.perMaterial("mpm::applyExternalLoads", applyLoadsAtEnd<D>, problem_.materials, with(problem_.start.loads),
                     startTime(), requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::mass),
                     requiresOld(p::loadCurves), computes(p::externalForce<D>));
-  tasks.perRankAcrossMaterials("impm::solve", solveStep<Shape>, problem_.materials, togetherOnRanks(), with(setup()),
-                               startTime(), requiresOld(delT), all<SolidParticles<Shape>>(InStep(), &state_),
+  tasks.perRankAcrossMaterials("impm::solve", solveStep<D>, problem_.materials, togetherOnRanks(), with(setup()),
+                               startTime(), requiresOld(delT), all<SolidParticles<D>>(InStep(), &state_),
                                all<NodalMotion<D>>(), totals<SolveTotals>());
   scheduleMovement(tasks);
   if (is_damageable_) scheduleDamage(tasks, problem_.materials, state_);
@@ -83,18 +78,18 @@ void ImplicitMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
 }
 
 /// Moves and deforms the particles with the nodes.
-template <class Shape>
-void ImplicitMpm<Shape>::scheduleMovement(TaskList& tasks) const {
-  tasks.perMaterial(how_.resetsGrid ? "impm::moveAndStress" : "impm::stressInPlace", moveAndStress<Shape>,
+template <int D>
+void ImplicitMpm<D>::scheduleMovement(TaskList& tasks) const {
+  tasks.perMaterial(how_.resetsGrid ? "impm::moveAndStress" : "impm::stressInPlace", moveAndStress<D>,
                     problem_.materials, with(setup()), requiresOld(delT),
-                    all<Movement<Shape>>(how_.resetsGrid, heats_, &state_));
+                    all<Movement<D>>(shapes_->shaped.shape.ghostNodes, how_.resetsGrid, heats_, &state_));
 }
 
-template <class Shape>
-void ImplicitMpm<Shape>::scheduleVelocity(TaskList& tasks) const {
+template <int D>
+void ImplicitMpm<D>::scheduleVelocity(TaskList& tasks) const {
   if (how_.dynamic)
-    tasks.perMaterial("impm::advanceVelocity", advanceVelocity<Shape>, problem_.materials,
-                      with(problem_.method.commonSize), requiresOld(delT), all<NewmarkUpdate<Shape>>());
+    tasks.perMaterial("impm::advanceVelocity", advanceVelocity<D>, problem_.materials, with(setup()), requiresOld(delT),
+                      all<NewmarkUpdate<D>>(shapes_->shaped.shape.ghostNodes));
   else {
     const auto& place = how_.resetsGrid ? p::x<D> : p::displacement<D>;
     tasks.perMaterial("impm::meanVelocity", meanVelocity<D>, problem_.materials, requiresOld(delT), requiresOld(place),
@@ -103,31 +98,39 @@ void ImplicitMpm<Shape>::scheduleVelocity(TaskList& tasks) const {
 }
 
 /// The temperature on the nodes, which a scene may save, conduction, and the heat of the step's work.
-template <class Shape>
-void ImplicitMpm<Shape>::scheduleHeat(TaskList& tasks) const {
+template <int D>
+void ImplicitMpm<D>::scheduleHeat(TaskList& tasks) const {
   const Vec3& commonSize = problem_.method.commonSize;
-  scheduleNodalTemperature<Shape>(tasks, problem_.materials, commonSize, keepsSizes);
+  scheduleNodalTemperature(tasks, shapes_->shaped, problem_.materials, commonSize, keepsSizes);
   if (how_.conductsHeat) {
-    tasks.perRankAcrossMaterials("impm::conductHeat", conductHeat<Shape>, problem_.materials, togetherOnRanks(),
-                                 with(setup()), requiresOld(delT), all<HeatedParticles<Shape>>(),
+    tasks.perRankAcrossMaterials("impm::conductHeat", conductHeat<D>, problem_.materials, togetherOnRanks(),
+                                 with(setup()), requiresOld(delT), all<HeatedParticles<D>>(),
                                  computes(g::temperatureRate));
-    scheduleTemperatureUpdate<Shape>(tasks, problem_.materials, commonSize, keepsSizes);
+    scheduleTemperatureUpdate(tasks, shapes_->shaped, problem_.materials, commonSize, keepsSizes);
   }
   if (heats_) scheduleHeatOfWork(tasks, problem_.materials, how_.conductsHeat);
 }
 
-template <class Shape>
-void ImplicitMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
+template <int D>
+void ImplicitMpm<D>::scheduleDiagnostics(TaskList& tasks) const {
   scheduleTotals<D>(tasks, problem_.materials, problem_.method, keepsSizes);
   tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, requiresOld(p::volume),
                     computes(total::volume));
   tasks.perMaterial("impm::findDeformedPosition", findDeformedPosition<D>, problem_.materials, requiresOld(p::x<D>),
                     when(!how_.resetsGrid, requiresOld(p::displacement<D>)), computes(p::deformedPosition<D>));
   for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);
-  scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize, keepsSizes,
-                            requiresOld(p::volume, Shape::reach), requiresOld(p::stress, Shape::reach));
+  const int reach = shapes_->shaped.shape.reach;
+  scheduleShowOnGrid(tasks, shapes_->shaped, problem_.materials, problem_.method.commonSize, keepsSizes,
+                     requiresOld(p::volume, reach), requiresOld(p::stress, reach));
   scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, requiresOld(p::volume),
                             requiresOld(p::stress));
 }
+
+template class ImplicitSystem<1>;
+template class ImplicitSystem<2>;
+template class ImplicitSystem<3>;
+template class ImplicitMpm<1>;
+template class ImplicitMpm<2>;
+template class ImplicitMpm<3>;
 
 }  // namespace tushar::mpm::solid::implicit

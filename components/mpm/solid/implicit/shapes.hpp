@@ -1,0 +1,82 @@
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "components/mpm/solid/implicit/method.hpp"
+#include "components/mpm/solid/tasks/shaped_tasks.hpp"
+
+// Shape functions as implicit steps use them: the solves see the nodes that a particle touches, and are compiled once
+// for each dimension.
+
+namespace tushar::mpm::solid::implicit {
+
+/// A node that a particle touches.
+template <int D>
+struct Touch {
+  Index<D> node;
+  double s, hoop;   ///< S_i and, if axisymmetric, S_i / r (1/m)
+  Vec<D> gradient;  ///< of S_i, 1/m
+};
+/// What is called with a particle and the nodes that it touches, as many for each.
+template <int D>
+using VisitTouches = std::function<void(int p, std::span<const Touch<D>> touched)>;
+
+/// The most nodes that a particle touches: three along each axis.
+template <int D>
+inline constexpr std::size_t mostTouches = D == 1   ? 3
+                                           : D == 2 ? 9
+                                                    : 27;
+
+/// Calls `visit` for each particle of a patch, cell by cell and by id.
+template <class Shape, int D = Shape::dimension>
+void forEachTouched(const Patch& patch, const Placed<D>& placed, const Vec3& commonSize, const VisitTouches<D>& visit) {
+  static_assert(!Shape::deforms, "implicit steps have no shape functions that follow F");
+  std::array<Touch<D>, mostTouches<D>> touched;
+  forEachStencil<Shape>(patch, patch.cells(), placed, commonSize, [&](int p, const auto& stencil) {
+    std::size_t count = 0;
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
+      touched[count++] = {node, s, hoopOf(stencil, node), gradient};
+    });
+    visit(p, std::span(touched).first(count));
+  });
+}
+
+/// One kind of shape functions in D dimensions.
+template <int D>
+struct ImplicitShapes {
+  ShapedTasks<D> shaped;
+  int nodes;  ///< along each axis, that a particle touches
+  void (*forEachTouched)(const Patch& patch, const Placed<D>& placed, const Vec3& commonSize,
+                         const VisitTouches<D>& visit);
+
+  int touches() const {
+    int count = 1;
+    for (int d = 0; d < D; ++d) count *= nodes;
+    return count;
+  }
+};
+template <class Shape>
+inline constexpr ImplicitShapes<Shape::dimension> shapesOf{
+    .shaped = shapedTasks<Shape>(), .nodes = Shape::Stencil::nodes, .forEachTouched = forEachTouched<Shape>};
+
+/// The settings that all steps of a run share.
+template <int D>
+struct ImplicitSetup {
+  const Problem* problem = nullptr;
+  const ImplicitShapes<D>* shapes = nullptr;
+  ImplicitMethod how;
+  int stateSize = 1;  ///< internal variables of a particle
+
+  /// The contact that makes a material a rigid body, or null.
+  const Contact* rigidContact(int material) const {
+    for (const Contact& contact : problem->contacts)
+      if (contact.type == Contact::Type::specified && contact.master == material) return &contact;
+    return nullptr;
+  }
+  void forEachTouched(const Patch& patch, const Placed<D>& placed, const VisitTouches<D>& visit) const {
+    shapes->forEachTouched(patch, placed, problem->method.commonSize, visit);
+  }
+};
+
+}  // namespace tushar::mpm::solid::implicit

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "components/mpm/shapes/tensor_shape.hpp"
+#include "components/mpm/solid/tasks/heat.hpp"
+#include "components/mpm/solid/tasks/show_grid.hpp"
+
+namespace tushar::mpm::solid {
+
+/// The bodies of tasks that work with shape functions, of one kind of them in D dimensions; those of explicit and
+/// implicit time steps alike. Their parameters depend on D alone, so that one schedule fits all kinds: it takes the
+/// bodies from here, and is compiled once for each D.
+template <int D>
+struct ShapedTasks {
+  ShapeTraits shape;
+  decltype(&solid::interpolateTemperatureToGrid<LinearShape<D>>) interpolateTemperatureToGrid;
+  decltype(&solid::updateTemperature<LinearShape<D>>) updateTemperature;
+  decltype(&solid::showOnGrid<LinearShape<D>>) showOnGrid;
+};
+template <class Shape, int D = Shape::dimension>
+constexpr ShapedTasks<D> shapedTasks() {
+  return {.shape = traitsOf<Shape>,
+          .interpolateTemperatureToGrid = interpolateTemperatureToGrid<Shape>,
+          .updateTemperature = updateTemperature<Shape>,
+          .showOnGrid = showOnGrid<Shape>};
+}
+
+template <int D>
+void scheduleNodalTemperature(TaskList& tasks, const ShapedTasks<D>& shaped, const std::vector<Material>& materials,
+                              const Vec3& commonSize, KeptSizes keepsSizes) {
+  tasks.perMaterial("mpm::interpolateTemperatureToGrid", shaped.interpolateTemperatureToGrid, materials,
+                    with(commonSize), all<HeatToNodes<D>>(shaped.shape.reach, keepsSizes));
+}
+
+template <int D>
+void scheduleTemperatureUpdate(TaskList& tasks, const ShapedTasks<D>& shaped, const std::vector<Material>& materials,
+                               const Vec3& commonSize, KeptSizes keepsSizes) {
+  tasks.perMaterial("mpm::updateTemperature", shaped.updateTemperature, materials, with(commonSize),
+                    all<HeatToParticles<D>>(shaped.shape.ghostNodes, keepsSizes), requiresOld(delT));
+}
+
+/// `volume` and `stress` read those of particles, with the ghost cells that shape functions reach.
+template <int D, class Volume, class Stress>
+void scheduleShowOnGrid(TaskList& tasks, const ShapedTasks<D>& shaped, const std::vector<Material>& materials,
+                        const Vec3& commonSize, KeptSizes keepsSizes, Volume volume, Stress stress) {
+  tasks.perMaterial("mpm::showOnGrid", shaped.showOnGrid, materials, with(commonSize),
+                    all<GridPicture<D>>(shaped.shape.reach, keepsSizes, volume, stress));
+}
+
+}  // namespace tushar::mpm::solid
