@@ -28,11 +28,24 @@ void prescribeByLaw(const Place& place, const Gas& gas, std::optional<double> de
   }
 }
 
+/// How a side that lets waves out relaxes; not at all where it does not.
+Relaxation relaxationAt(const Place& place, const Gas& gas) {
+  const auto given = givenAt(place, gas, boundary::waves);
+  if (!given) return {};
+  return {.farPressure = (*given)[0],
+          .sigma = (*given)[1],
+          .thickness = 1.0 / place.level.cells().extent(place.axis),
+          .axis = place.axis,
+          .outwards = place.side == 0 ? -1 : 1};
+}
+
 template <int D>
 GhostRule<D> ghostRule(const Place& place, const Gas& gas) {
   GhostRule<D> rule;
   rule.factor.fill(1);
   rule.value.fill(0);
+  rule.relaxes = relaxationAt(place, gas);
+  if (rule.relaxes.acts()) rule.gas = &gas;
   if (isWall<D>(place, gas)) {
     rule.mirrored = true;
     rule.factor[kVelocity(place.axis)] = -1;
@@ -156,6 +169,9 @@ int sourceOf(int cell, int cells, bool mirrored) {
   return std::clamp(inside, 0, cells - 1);
 }
 
+/// How many cells a cell beyond the ends of an axis of `cells` cells is away from them.
+int depthOf(int cell, int cells) { return cell < 0 ? -cell : cell - cells + 1; }
+
 /// The cell of the grid that a cell beyond its sides is made from along axes before `axis`.
 template <int D>
 Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, int axis) {
@@ -167,15 +183,29 @@ Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, i
   return cell;
 }
 
-/// The state beyond a side, by a rule and the state of the cell that it is made from.
+/// Takes from the incoming wave of a state what a side that lets waves out takes from it in so many cells, at the same
+/// entropy.
 template <int D, std::size_t N>
-std::array<double, N> beyondSide(const GhostRule<D>& rule, std::array<double, N> w) {
+void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
+  const Relaxation& side = rule.relaxes;
+  double& speed = w[kVelocity(side.axis)];
+  const double squared = rule.gas->soundSpeedSquared(w[kDensity], w[kPressure<D>]), sound = std::sqrt(squared);
+  const double half = 0.5 * cells * side.loss(w[kPressure<D>], side.outwards * speed, sound);
+  speed += side.outwards * half / (w[kDensity] * sound);
+  w[kDensity] -= half / squared;
+  w[kPressure<D>] -= half;
+}
+
+/// The state so many cells beyond a side, by a rule and the state of the cell that it is made from.
+template <int D, std::size_t N>
+std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array<double, N> w) {
   for (std::size_t k = 0; k < rule.factor.size(); ++k) w[k] = rule.factor[k] * w[k] + rule.value[k];
   if (rule.densityOfPressure > 0) w[kDensity] = rule.densityOfPressure * (w[kPressure<D>] + rule.pInfinity);
   if (rule.temperature > 0 && rule.gas->isBarotropic())
     w[kPressure<D>] = rule.gas->lastAt(w[kDensity], rule.temperature);
   else if (rule.temperature > 0)
     w[kDensity] = rule.gas->densityAt(w[kPressure<D>], rule.temperature);
+  if (rule.relaxes.acts()) relax<D>(rule, cells, w);
   return w;
 }
 
@@ -188,7 +218,7 @@ void fillByPlace(const Level& level, const GhostRules<D>& rules, const Box& beyo
     const GhostRule<D> rule = ruleAt<D>(level, rules, axis, side, inGrid<D>(level, rules, cell, axis));
     Index<D> source = cell;
     source[axis] = sourceOf(cell[axis], cells, rule.mirrored);
-    store<D>(rows.at(cell), 0, beyondSide<D>(rule, load<D>(rows.at(source), 0)));
+    store<D>(rows.at(cell), 0, beyondSide<D>(rule, depthOf(cell[axis], cells), load<D>(rows.at(source), 0)));
   });
 }
 
@@ -251,7 +281,7 @@ void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& 
       forEach<D>(beyond, [&](const Index<D>& cell) {
         Index<D> source = cell;
         source[d] = sourceOf(cell[d], grid.upper[d], rule.mirrored);
-        store<D>(rows.at(cell), 0, beyondSide<D>(rule, load<D>(rows.at(source), 0)));
+        store<D>(rows.at(cell), 0, beyondSide<D>(rule, depthOf(cell[d], grid.upper[d]), load<D>(rows.at(source), 0)));
       });
     }
     known.lower[d] = rows.box().lower[d];

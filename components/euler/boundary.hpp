@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -10,6 +11,27 @@
 
 namespace tushar::euler {
 
+/// A side that lets waves out, and slowly takes the gas to a pressure far away: the incoming characteristic, p - rho c
+/// u_n with n outwards, changes at the rate -K (p - p_far), K = sigma (1 - M²) c / L, L the length of the grid across
+/// the side; so beyond it that is less by (p - p_far) sigma (1 + M) h / L.
+/// Source: T. Poinsot & S. K. Lele, J. Comput. Phys. 101 (1992) 104; D. H. Rudy & J. C. Strikwerda, J. Comput. Phys. 36
+/// (1980) 55, for K.
+struct Relaxation {
+  double farPressure = 0;  ///< Pa; 0: none
+  double sigma = 0;
+  double thickness = 0;  ///< h / L
+  int axis = 0, outwards = 0;
+
+  bool acts() const { return farPressure > 0; }
+  /// What the incoming characteristic of a state loses across the side, Pa, at a velocity u_n [m/s] outwards, where it
+  /// needs `crossings` times the time that sound takes through a cell.
+  double loss(double pressure, double speed, double sound, double crossings = 1) const {
+    const double mach = std::clamp(speed / sound, -1.0, 1.0);
+    const double share = sigma * thickness * std::max(1 + mach, crossings * (1 - mach * mach));
+    return mach < 1 ? (pressure - farPressure) * std::min(share, 1.0) : 0.0;
+  }
+};
+
 /// The state beyond a side of the grid: W = factor * (the mirrored or the nearest cell) + value.
 template <int D>
 struct GhostRule {
@@ -19,6 +41,7 @@ struct GhostRule {
   double pInfinity = 0;          ///< Pa
   double temperature = 0;        ///< where above 0, that of a gas with a law of its own, K
   const Gas* gas = nullptr;      ///< that gas
+  Relaxation relaxes = {};       ///< what comes in of a side that lets waves out
 };
 
 /// The rules of a side: of what is outside of its parts, and of each part.

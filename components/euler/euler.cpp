@@ -72,7 +72,7 @@ std::vector<reference::GasLaw> Euler<D>::gases() const {
 
 /// Two gases that part have equal densities and pressures at first: the velocity must be compared, too.
 template <int D>
-std::vector<simulation::Criterion> Euler<D>::criteria() const {
+std::vector<simulation::Criterion> criteria() {
   std::vector<simulation::Criterion> criteria(3);
   criteria[0].variable = c::density.name;
   criteria[1].variable = c::pressure.name;
@@ -92,6 +92,9 @@ void Euler<D>::scheduleMeasureError(TaskList& tasks, const reference::GasReferen
                  all<reference::ErrorNorms>(&reference::cellError));
 }
 
+template std::vector<simulation::Criterion> criteria<1>();
+template std::vector<simulation::Criterion> criteria<2>();
+template std::vector<simulation::Criterion> criteria<3>();
 template void scheduleTotals<1>(TaskList&);
 template void scheduleTotals<2>(TaskList&);
 template void scheduleTotals<3>(TaskList&);

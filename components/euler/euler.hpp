@@ -6,6 +6,10 @@
 
 namespace tushar::euler {
 
+/// What shows where a gas needs finer cells.
+template <int D>
+std::vector<simulation::Criterion> criteria();
+
 /// Godunov's method for the Euler equations of gas dynamics in D dimensions: dU/dt + sum_d dF_d(U)/dx_d = 0,
 /// U = (rho, rho v, E).
 ///
@@ -22,7 +26,7 @@ class Euler : public Component, public reference::GasSolution {
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
   void scheduleRefine(TaskList& tasks) const override;
-  std::vector<simulation::Criterion> criteria() const override;
+  std::vector<simulation::Criterion> criteria() const override { return euler::criteria<D>(); }
   std::string advice() const override {
     return "a smaller Euler/cfl, Euler/limiter minmod, or Euler/reconstruction first_order";
   }

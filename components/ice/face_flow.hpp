@@ -101,6 +101,11 @@ class GasBefore {
   }
 
  protected:
+  /// How a side relaxes that a face lies in.
+  euler::Relaxation relaxationOf(const Index<D>& face, int axis) const {
+    const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
+    return rule ? rule->relaxes : euler::Relaxation();
+  }
   static double mean(const euler::Rows<D>& of, const Index<D>& face, int axis, std::size_t number) {
     return 0.5 * (of.number(face - Index<D>::unit(axis), number) + of.number(face, number));
   }
@@ -138,7 +143,9 @@ class GasBefore {
 /// without a Pressure are open: no wave comes in through them. With n outwards, p_o = p + rho g_n h / 2 in the middle
 /// of the side, and the cell c beside it,
 ///
-///   u_n = v_n,c + (p'_f - p_o) / (rho_f c) = u*_n,c - dt / (rho_f h / 2) (p'_f - p'_c).
+///   u_n = v_n,c + (p'_f - p_o + r) / (rho_f c) = u*_n,c - dt / (rho_f h / 2) (p'_f - p'_c),
+///
+/// r what the incoming wave loses where the side relaxes to a pressure far away; else 0.
 ///
 /// All that p' counts by is its change from p, so that where the gas is at rest no rounding of p pushes it.
 /// Source: F. H. Harlow & A. A. Amsden, J. Comput. Phys. 8 (1971) 197; N. Kwatra, J. Su, J. T. Gretarsson & R. Fedkiw,
@@ -168,7 +175,8 @@ class FaceFlow : public GasBefore<D> {
     if (const auto given = this->givenVelocity(face, axis)) return *given;
     if (this->isFree(face, axis)) {
       const OpenSide side = openSide(face, axis);
-      return side.normal * (side.speed + side.lightness * side.carried / (side.push + side.lightness));
+      return side.normal *
+             (side.speed + side.lightness * (side.carried + side.push * side.relaxed) / (side.push + side.lightness));
     }
     const std::size_t p = euler::kPressure<D>;
     const double rise = this->old().number(face, p) - this->old().number(face - Index<D>::unit(axis), p);
@@ -185,7 +193,8 @@ class FaceFlow : public GasBefore<D> {
   /// p' [Pa] in an open side, where that of the cell beside it has changed by `change` [Pa].
   double openPressure(const Index<D>& face, int axis, double change) const {
     const OpenSide side = openSide(face, axis);
-    return side.pressure + (side.carried + side.push * change) / (side.push + side.lightness);
+    return side.pressure +
+           (side.carried + side.push * change - side.lightness * side.relaxed) / (side.push + side.lightness);
   }
 
  private:
@@ -197,6 +206,7 @@ class FaceFlow : public GasBefore<D> {
     double pressure;   ///< p_o, Pa
     double lightness;  ///< 1 / (rho c), m/(s Pa)
     double push;       ///< dt / (rho h / 2), m/(s Pa)
+    double relaxed;    ///< what the incoming wave loses where the side relaxes, Pa
   };
   OpenSide openSide(const Index<D>& face, int axis) const {
     const bool isLower = face[axis] == 0;
@@ -204,12 +214,15 @@ class FaceFlow : public GasBefore<D> {
     const std::size_t v = euler::kVelocity(axis);
     const double rho = this->density(face, axis), h = this->level().spacing(axis), normal = isLower ? -1 : 1;
     const double pressure = this->old().number(cell, euler::kPressure<D>), speed = this->old().number(cell, v);
+    const double sound = std::sqrt(this->gas().soundSpeedSquared(rho, pressure));
+    const euler::Relaxation relaxes = this->relaxationOf(face, axis);
     return {.normal = normal,
             .speed = normal * speed,
             .carried = normal * (ahead_.number(cell, v) - speed),
             .pressure = pressure + 0.5 * rho * h * normal * this->gravity()[axis],
-            .lightness = 1 / (rho * std::sqrt(this->gas().soundSpeedSquared(rho, pressure))),
-            .push = 2 * dt_ / (rho * h)};
+            .lightness = 1 / (rho * sound),
+            .push = 2 * dt_ / (rho * h),
+            .relaxed = relaxes.acts() ? relaxes.loss(pressure, normal * speed, sound, sound * dt_ / h) : 0};
   }
   /// The velocities of cells become v - dt (v . grad) v.
   void carryVelocities(const Box& cells) {

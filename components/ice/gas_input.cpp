@@ -147,10 +147,19 @@ void checkShares(const GasMaterial& material, Diagnostics& diagnostics) {
                         fmt::format("found '{}', expected 1: the gas fills the region", body.share->text()));
 }
 
+/// The diffusion of a gas, with the eddies of the scene.
+euler::VaryingDiffusion varyingOf(const GasMaterial& material, const GasScene& scene) {
+  euler::VaryingDiffusion varying = material.varying;
+  varying.uniform = {material.viscosity, material.conductivity};
+  varying.smagorinsky = scene.varying.smagorinsky;
+  return varying;
+}
+
 void readOneGas(const GasMaterial& material, const Element& element, GasScene& scene, Diagnostics& diagnostics) {
   scene.specificHeat = material.specificHeat;
   scene.viscosity = material.viscosity;
   scene.conductivity = material.conductivity;
+  scene.varying = varyingOf(material, scene);
   readMaterial(material, element, scene.gas, diagnostics);
   checkShares(material, diagnostics);
   if (scene.implicit && scene.gas.gas.isBarotropic())
@@ -169,6 +178,7 @@ void readGases(const std::vector<GasMaterial>& materials, const Element& root, G
     readMaterial(materials[k], elements[k], settings, diagnostics);
     if (settings.name.empty()) settings.name = fmt::format("gas{}", k);
     scene.mixture.push_back(settings);
+    scene.diffusions.push_back({materials[k].viscosity, materials[k].conductivity});
   }
   checkMixture(materials, root, scene, diagnostics);
 }
@@ -202,6 +212,28 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
   return read;
 }
 
+/// What a gas can have that it cannot have beside bodies.
+void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
+  const Element tag = *root.child("CFD")->child("ICE");
+  const char* sentence = "is not available beside bodies: take it out, or keep only the gas";
+  if (ice.push) diagnostics.error(*tag.child("fixedPressureGradient"), sentence);
+  if (ice.eddies) diagnostics.error(*tag.child("turbulence"), sentence);
+  for (const Element& material : root.child("MaterialProperties")->child("ICE")->children("material"))
+    if (const auto models = material.child("dynamicViscosityModels")) diagnostics.error(*models, sentence);
+}
+
+/// The middle of the first Level's Box less its lower corner, m: where Uintah's <counterflow> has its middle.
+Vec3 middleOf(const Element& root) {
+  const auto grid = root.child("Grid");
+  const auto level = grid ? grid->child("Level") : std::nullopt;
+  const auto box = level ? level->child("Box") : std::nullopt;
+  const auto corner = [&](const char* name) {
+    const auto tag = box ? box->child(name) : std::nullopt;
+    return tag ? input::parse<Vec3>(tag->text()).value.value_or(Vec3::Zero()) : Vec3::Zero();
+  };
+  return 0.5 * (corner("upper") - corner("lower"));
+}
+
 }  // namespace
 
 GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
@@ -223,18 +255,28 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   scene.gas.gas.material = solids;
   scene.thinWalls = cfd.ice.thinWalls;
   scene.scalars = std::move(models.scalars);
+  scene.massExchanges = std::move(models.massExchanges);
   scene.gravity = constants.gravity;
   scene.referencePressure = constants.referencePressure;
   if (isImplicit(cfd.ice)) scene.implicit = implicitPressureOf(cfd.ice);
-  if (cfd.ice.start)
-    scene.gas.disturb = [start = *cfd.ice.start](const Vec3& point, double rho, Vec3& velocity, double& temperature) {
-      start.apply(point, rho, velocity, temperature);
+  if (cfd.ice.push) scene.push = Vec3(cfd.ice.push->x, cfd.ice.push->y, cfd.ice.push->z);
+  if (cfd.ice.eddies) scene.varying.smagorinsky = cfd.ice.eddies->constant;
+  if (cfd.ice.start) {
+    const double gasConstant = (materials.front().gamma - 1) * materials.front().specificHeat;
+    scene.gas.disturb = [start = *cfd.ice.start, gasConstant, middle = middleOf(root)](
+                            const Vec3& point, double rho, Vec3& velocity, double& temperature) {
+      start.apply(point, {rho, gasConstant, middle}, velocity, temperature);
     };
+  }
   if (properties.exchange) scene.exchange = properties.exchange->coefficients;
+  if (solids > 0) refuseBesideBodies(root, cfd.ice, diagnostics);
   if (materials.size() > 1) {
     readGases(materials, root, scene, diagnostics);
     return scene;
   }
+  if (!scene.massExchanges.empty())
+    diagnostics.error(scene.massExchanges.front().where, "Models/Model",
+                      "there is one gas, which cannot become another");
   readOneGas(materials.front(), *root.child("MaterialProperties")->child("ICE")->child("material"), scene, diagnostics);
   checkInflows(root, scene.gas.gas, diagnostics);
   return scene;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "components/euler/settings.hpp"
+#include "components/euler/varying_diffusion.hpp"
 #include "components/ice/scalar.hpp"
 #include "core/input/diagnostics.hpp"
 #include "core/simulation/catalogue.hpp"
@@ -16,6 +17,14 @@ struct Exchange {
   Location where;                ///< in the scene
   std::vector<double> momentum;  ///< kg/(m³ s)
   std::vector<double> heat;      ///< W/(m³ K)
+};
+
+/// `<Model type="Test">`: one gas becomes another one.
+struct MassExchange {
+  Location where;  ///< in the scene
+  std::string from, to;
+  double rate = 0;       ///< part of it per time, 1/s
+  double startTime = 0;  ///< s
 };
 
 /// How the pressure is solved for, where sound is not to limit the steps.
@@ -32,6 +41,8 @@ struct GasScene {
   double specificHeat = 0;                ///< c_v, J/(kg K)
   double referencePressure = 0;           ///< Pa
   Vec3 gravity = Vec3::Zero();            ///< m/s²
+  Vec3 push = Vec3::Zero();               ///< force per volume, in place of a gradient of pressure, N/m³
+  euler::VaryingDiffusion varying = {};   ///< the viscosity, if it is not the same everywhere
   double viscosity = 0;                   ///< Pa s
   double conductivity = 0;                ///< W/(m K)
   std::optional<bool> thinWalls = {};     ///< whether bodies thinner than a cell hold the gas back
@@ -40,6 +51,8 @@ struct GasScene {
   std::vector<ScalarSettings> scalars = {};  ///< that the gas carries along
   /// Where there are several gases: each of them, with its state at the start; the gas above is the first.
   std::vector<euler::Settings> mixture = {};
+  std::vector<euler::Diffusion> diffusions = {};  ///< of each of several gases
+  std::vector<MassExchange> massExchanges = {};   ///< between them
 };
 
 /// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> except its MPM, and the conditions at the sides of the grid.
@@ -52,6 +65,8 @@ std::vector<simulation::SectionForm> gasForms();
 std::vector<std::string> gasSections();
 /// The variables for which the sides of the grid may have conditions.
 std::vector<grid::BoundaryVariable> gasBoundaryLabels();
+/// The words of their conditions for a gas without bodies.
+simulation::ConditionWords gasConditionWords();
 /// The manual of the sections.
 void describeGas(std::ostream& out);
 

@@ -91,6 +91,29 @@ const Schema<ImplicitSection>& implicitSchema() {
   return schema;
 }
 
+const Schema<PushSection>& pushSchema() {
+  static const Schema<PushSection> schema =
+      Schema<PushSection>("fixedPressureGradient",
+                          "A force per volume, the same everywhere: how much the pressure falls along each axis.")
+          .value("x_dir", &PushSection::x, 0, "N/m^3", "along x")
+          .value("y_dir", &PushSection::y, 0, "N/m^3", "along y")
+          .value("z_dir", &PushSection::z, 0, "N/m^3", "along z");
+  return schema;
+}
+
+const Schema<EddiesSection>& eddiesSchema() {
+  static const Schema<EddiesSection> schema =
+      Schema<EddiesSection>("turbulence", "Viscosity of eddies smaller than cells.")
+          .location(&EddiesSection::where)
+          .requiredChoiceAttribute("model", &EddiesSection::model, {{"Smagorinsky", "Smagorinsky"}},
+                                   "mu grows by rho (C d)^2 sqrt(2 S:S), d the cubic root of a cell's volume, S the "
+                                   "symmetric part of the gradient of the velocity")
+          .required("model_constant", &EddiesSection::constant, "1", "C, .1 to .2", input::nonNegative())
+          .ignored("filter_width", "it is the cubic root of a cell's volume, as in Uintah")
+          .ignored("turb_Pr", "eddies do not mix heat, as in Uintah");
+  return schema;
+}
+
 const Schema<IceSection>& iceSchema() {
   static const Schema<IceSection> schema = [] {
     Schema<IceSection> tags("ICE", "The method.");
@@ -107,8 +130,8 @@ const Schema<IceSection>& iceSchema() {
     input::noteTag(tags, "max_iteration_equilibration", "the pressure follows from density and energy");
     input::noteTag(tags, "ClampSpecificVolume", "the specific volume is that of the density");
     tags.section("customInitialization", &IceSection::start, customStartSchema(), "the state at the start by formulas");
-    input::refuseTag(tags, "fixedPressureGradient", "a <gravity> of the gradient over the density drives a flow, too");
-    input::refuseTag(tags, "turbulence", "the viscosity is <dynamic_viscosity>");
+    tags.section("fixedPressureGradient", &IceSection::push, pushSchema(), "a force that drives a flow")
+        .section("turbulence", &IceSection::eddies, eddiesSchema(), "viscosity of eddies smaller than cells");
     input::refuseTag(tags, "wallShearStress", "at a wall with a Velocity the gas sticks");
     input::refuseTag(tags, "ADD_HEAT", "give <temperature> a formula at the start");
     input::refuseSwitch(tags, "applyHydrostaticPressure", "give <density> a formula at the start");
@@ -167,7 +190,14 @@ const Schema<GasMaterial>& materialSchema() {
         .ignored("tiny_rho", "nothing depends on it");
     input::refuseSwitch(tags, "includeFlowWork", "the total energy is conserved, with all work in it");
     input::refuseTag(tags, "SpecificHeatModel", "c_v is the <specific_heat> at all temperatures");
-    input::refuseTag(tags, "dynamicViscosityModels", "the viscosity is <dynamic_viscosity> everywhere");
+    tags.custom(
+            "dynamicViscosityModels",
+            [](GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
+              readViscosityModels(material.varying, element, diagnostics);
+            },
+            {"dynamicViscosityModels"}, "in place of <dynamic_viscosity>; of several that hold, the last one counts",
+            describeViscosityModels)
+        .forms({{.tags = {"dynamicViscosityModels"}, .repeats = false}});
     return tags;
   }();
   return schema;

@@ -36,6 +36,18 @@ struct ImplicitSection {
   std::optional<solvers::LinearSettings> solver;
 };
 
+/// `CFD/ICE/fixedPressureGradient`.
+struct PushSection {
+  double x = 0, y = 0, z = 0;  ///< N/m³
+};
+
+/// `CFD/ICE/turbulence`.
+struct EddiesSection {
+  Location where;  ///< in the scene
+  std::string model;
+  double constant = 0;
+};
+
 /// `CFD/ICE`.
 struct IceSection {
   AdvectionSection advection;
@@ -44,6 +56,8 @@ struct IceSection {
   std::optional<ImplicitSection> implicit;
   std::optional<bool> thinWalls;
   std::optional<CustomStart> start;
+  std::optional<PushSection> push;
+  std::optional<EddiesSection> eddies;
 };
 
 /// `CFD`.
@@ -71,6 +85,7 @@ struct GasMaterial {
   double specificHeat = 0;  ///< c_v, J/(kg K)
   double viscosity = 0;     ///< Pa s
   double conductivity = 0;  ///< W/(m K)
+  euler::VaryingDiffusion varying;
   std::vector<GasBody> bodies;
 };
 
@@ -98,9 +113,16 @@ const input::Schema<CfdSection>& cfdSchema();
 const input::Schema<PropertiesSection>& propertiesSchema();
 const input::Schema<ConstantsSection>& constantsSchema();
 
+/// Reads `dynamicViscosityModels` of a material.
+void readViscosityModels(euler::VaryingDiffusion& varying, const input::Element& material,
+                         input::Diagnostics& diagnostics);
+/// Its manual.
+void describeViscosityModels(std::ostream& out, int indent);
+
 /// `Models`.
 struct ModelsSection {
   std::vector<ScalarSettings> scalars;
+  std::vector<MassExchange> massExchanges;
 };
 const input::Schema<ModelsSection>& modelsSchema();
 

@@ -2,6 +2,7 @@
 
 #include "components/euler/tasks/add_diffusion.hpp"
 #include "components/euler/tasks/add_gravity.hpp"
+#include "components/euler/tasks/add_varying_diffusion.hpp"
 #include "components/ice/diagnose.hpp"
 #include "components/ice/mixture/mixture_ice.hpp"
 #include "components/ice/tasks/advance_implicitly.hpp"
@@ -13,18 +14,29 @@
 
 namespace tushar::ice {
 
-namespace {
-
-/// Viscosity and conduction, behind the step of the gas.
 template <int D>
-void scheduleDiffusion(TaskList& tasks, const euler::Gas& gas, const euler::Diffusion& diffusion) {
-  if (!diffusion.acts()) return;
-  tasks.perPatch("euler::addDiffusion", euler::addDiffusion<D>, with(gas), with(diffusion), all<euler::OldState<D>>(1),
-                 startTime(), requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy),
-                 all<euler::DiffusionRims<D>>());
+void Ice<D>::scheduleDiffusion(TaskList& tasks) const {
+  const auto schedule = [&](auto body, const auto& how) {
+    tasks.perPatch("euler::addDiffusion", body, with(this->settings().gas), with(how), all<euler::OldState<D>>(1),
+                   startTime(), requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy),
+                   all<euler::DiffusionRims<D>>());
+  };
+  if (varying_.varies())
+    schedule(euler::addVaryingDiffusion<D>, varying_);
+  else if (acting_.diffusion.acts())
+    schedule(euler::addDiffusion<D>, acting_.diffusion);
+  if (!push_.isZero(0))
+    tasks.perPatch("euler::addForce", euler::addForce<D>, with(push_), requiresNew(euler::c::density),
+                   requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
 }
 
-}  // namespace
+template <int D>
+void Ice<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
+  if (!varying_.varies()) return;
+  tasks.perPatch("euler::limitDiffusion", euler::limitVaryingDiffusion<D>, with(this->settings().gas), with(varying_),
+                 with(this->settings().cfl), with(soundSpeedKnob), all<euler::OldState<D>>(1), startTime(),
+                 computes(delT));
+}
 
 template <int D>
 void Ice<D>::scheduleInitialize(TaskList& tasks) const {
@@ -59,6 +71,7 @@ template <int D>
 void Ice<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   euler::Euler<D>::scheduleComputeStableTimeStep(tasks);
   scheduleStepsOfScalars(tasks);
+  scheduleStepsOfDiffusion(tasks, 1);
   if (acting_.diffusion.acts())
     tasks.perPatch("euler::limitDiffusion", euler::limitDiffusion<D>, with(this->settings().gas),
                    with(acting_.diffusion), with(this->settings().cfl), requiresOld(euler::c::density),
@@ -69,7 +82,7 @@ template <int D>
 void Ice<D>::scheduleTimeAdvance(TaskList& tasks) const {
   euler::Euler<D>::scheduleTimeAdvance(tasks);
   scheduleScalars(tasks);
-  scheduleDiffusion<D>(tasks, this->settings().gas, acting_.diffusion);
+  scheduleDiffusion(tasks);
   if (!acting_.gravity.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(acting_.gravity), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
@@ -129,6 +142,7 @@ void ImplicitIce<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   tasks.perPatch("ice::limitImplicitStep", limitImplicitStep<D>, with(this->settings()), with(this->acting()),
                  all<euler::OldState<D>>(2), startTime(), requiresOld(c::pressureAtEnd, 2), computes(delT));
   this->scheduleStepsOfScalars(tasks);
+  this->scheduleStepsOfDiffusion(tasks, this->acting().soundSpeedKnob);
 }
 
 template <int D>
@@ -140,7 +154,7 @@ void ImplicitIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
                  all<euler::OldState<D>>(2), startTime(), requiresOld(delT), requiresNew(c::pressureChange, 2),
                  all<euler::NewState<D>>(), all<euler::FaceMasses<D>>(this->keepsFaceMasses()));
   this->scheduleScalars(tasks);
-  scheduleDiffusion<D>(tasks, this->settings().gas, this->acting().diffusion);
+  this->scheduleDiffusion(tasks);
 }
 
 template class ImplicitIce<1>;
@@ -160,6 +174,7 @@ simulation::ComponentKind kind() {
   kind.takesFormulasAtSides = true;
   kind.amrSections = {"ICE"};
   kind.boundaryLabels = gasBoundaryLabels();
+  kind.conditionWords = gasConditionWords();
   kind.describe = describeGas;
   kind.forms = [] { return std::vector<std::vector<simulation::SectionForm>>{gasForms()}; };
   kind.read = [](const input::Element& root, input::Diagnostics& diagnostics) -> simulation::MakeComponent {
@@ -173,7 +188,9 @@ simulation::ComponentKind kind() {
       diagnostics.note(scene.exchange->where, exchangePath, "does nothing: there is one material");
     if (diagnostics.size() > before) return {};
     if (!scene.mixture.empty())
-      return [scene](const Level& level) { return simulation::makeByDimension<MixtureIce>(level, scene); };
+      return [scene](const Level& level) {
+        return simulation::makeByDimension<MixtureIce>(level, scene, level.domain().refinement.levels > 1);
+      };
     return [scene](const Level& level) {
       return scene.implicit ? simulation::makeByDimension<ImplicitIce>(level, scene)
                             : simulation::makeByDimension<Ice>(level, scene);

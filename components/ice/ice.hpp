@@ -15,7 +15,10 @@ class Ice : public euler::Euler<D> {
  public:
   explicit Ice(const GasScene& scene)
       : euler::Euler<D>(scene.gas),
-        acting_{.diffusion = {scene.viscosity, scene.conductivity}, .gravity = scene.gravity} {
+        acting_{.diffusion = {scene.viscosity, scene.conductivity}, .gravity = scene.gravity},
+        varying_(scene.varying),
+        push_(scene.push) {
+    if (varying_.varies()) acting_.diffusion = {};
     for (const ScalarSettings& one : scene.scalars) scalars_.push_back(std::make_shared<const CarriedScalar>(one));
     if (!scene.implicit) return;
     acting_.soundSpeedKnob = scene.implicit->soundSpeedKnob;
@@ -38,10 +41,16 @@ class Ice : public euler::Euler<D> {
   void scheduleScalars(TaskList& tasks) const;
   /// The limits that it has for the steps.
   void scheduleStepsOfScalars(TaskList& tasks) const;
+  /// Viscosity and conduction, behind the step of the gas, and a force that pushes it.
+  void scheduleDiffusion(TaskList& tasks) const;
+  /// The limit of a viscosity that varies, beside this part of the speed of sound.
+  void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
 
  private:
   CarriedScalars scalars_;
-  IceSettings acting_;
+  IceSettings acting_;  ///< its diffusion is the uniform one, none where that varies
+  euler::VaryingDiffusion varying_;
+  Vec3 push_;  ///< N/m³
 };
 
 /// The same in steps that sound does not limit: the pressure at the end of a step is the solution of a linear system,

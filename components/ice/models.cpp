@@ -109,11 +109,29 @@ const Schema<PassiveScalarSection>& passiveScalarSchema() {
   return schema;
 }
 
+const Schema<MassExchange>& massExchangeSchema() {
+  static const Schema<MassExchange> schema =
+      Schema<MassExchange>("Test", "One gas becomes another one.")
+          .location(&MassExchange::where)
+          .required("fromMaterial", &MassExchange::from, "1", "the gas that becomes less")
+          .required("toMaterial", &MassExchange::to, "1", "the gas that it becomes")
+          .required("rate", &MassExchange::rate, "1/s", "part of it in a time", input::nonNegative())
+          .value("startTime", &MassExchange::startTime, 0, "s", "when that begins");
+  return schema;
+}
+
+void readExchange(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
+  const auto given = model.child("Test");
+  if (!given) return diagnostics.error(model, "missing tag <Test> in <Model>");
+  models.massExchanges.push_back(massExchangeSchema().read(*given, diagnostics));
+}
+
 void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
   const std::string type = model.attribute("type").value_or("");
+  if (type == "Test") return readExchange(model, models, diagnostics);
   if (type != "PassiveScalar")
-    return diagnostics.error(model, fmt::format("of type '{}' is not available; take it out: PassiveScalar is the only "
-                                                "type",
+    return diagnostics.error(model, fmt::format("of type '{}' is not available; take it out: there are PassiveScalar "
+                                                "and Test",
                                                 type));
   const auto given = model.child("PassiveScalar");
   if (!given) return diagnostics.error(model, "missing tag <PassiveScalar> in <Model>");
@@ -150,9 +168,14 @@ const Schema<ModelsSection>& modelsSchema() {
               [](ModelsSection& models, const Element& section, Diagnostics& diagnostics) {
                 for (const Element& model : section.children("Model")) readModel(model, models, diagnostics);
               },
-              {"Model"}, "type=\"PassiveScalar\": a number per mass that the gas carries along",
-              [](std::ostream& out, int indent) { passiveScalarSchema().describe(out, indent); })
-          .forms({{.tags = {"Model"}, .demands = {{"type", {"PassiveScalar"}}}}});
+              {"Model"},
+              "type=\"PassiveScalar\": a number per mass that the gas carries along; type=\"Test\": one gas becomes "
+              "another one",
+              [](std::ostream& out, int indent) {
+                passiveScalarSchema().describe(out, indent);
+                massExchangeSchema().describe(out, indent);
+              })
+          .forms({{.tags = {"Model"}, .demands = {{"type", {"PassiveScalar", "Test"}}}}});
   return schema;
 }
 

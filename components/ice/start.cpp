@@ -1,6 +1,7 @@
 #include "components/ice/start.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "core/input/refuse.hpp"
 
@@ -36,6 +37,27 @@ const Schema<GaussianTemperature>& temperatureSchema() {
   return schema;
 }
 
+constexpr const char *windOfVortices = "mms_1", *taylorGreen = "mms_3";
+
+const Schema<Counterflow>& counterflowSchema() {
+  static const Schema<Counterflow> schema =
+      Schema<Counterflow>("counterflow", "Gas comes in along x and leaves along y.")
+          .required("strainRate", &Counterflow::strainRate, "1/s", "a in v_x = -a (x - m), m half the grid's length")
+          .ignored("referenceCell", "the pressure follows from density and temperature");
+  return schema;
+}
+
+const Schema<Manufactured>& manufacturedSchema() {
+  static const Schema<Manufactured> schema =
+      Schema<Manufactured>("manufacturedSolution", "Flows with known solutions without compression.")
+          .requiredChoiceAttribute("type", &Manufactured::type,
+                                   {{windOfVortices, windOfVortices}, {taylorGreen, taylorGreen}},
+                                   "vortices in a wind, or Taylor's and Green's vortex")
+          .value("A", &Manufactured::amplitude, 1, "m/s", "of mms_1: amplitude of the vortices")
+          .value("angle", &Manufactured::angle, 0, "1", "of mms_3: how the velocity is divided among the axes");
+  return schema;
+}
+
 void addVortex(const Vortex& vortex, const Vec3& point, double rho, Vec3& velocity) {
   const int j = vortex.axis == 0 ? 1 : 0, k = vortex.axis == 2 ? 1 : 2;
   const double y = point[j] - vortex.origin[j], z = point[k] - vortex.origin[k];
@@ -46,11 +68,37 @@ void addVortex(const Vortex& vortex, const Vec3& point, double rho, Vec3& veloci
   velocity[k] += turn * y;
 }
 
+void setWindOfVortices(double amplitude, const Vec3& x, Vec3& velocity) {
+  velocity[0] = 1 - amplitude * std::cos(x[0]) * std::sin(x[1]);
+  velocity[1] = 1 + amplitude * std::sin(x[0]) * std::cos(x[1]);
+}
+/// Pa, where the density is 1 kg/m³, as Uintah has it.
+double pressureOfWind(double amplitude, const Vec3& x) {
+  return 101325 - amplitude * amplitude / 4 * (std::cos(2 * x[0]) + std::cos(2 * x[1]));
+}
+
+void setTaylorGreen(double angle, const Vec3& x, Vec3& velocity) {
+  const double size = 2 / std::sqrt(3.0), third = 2 * std::numbers::pi / 3;
+  velocity[0] = size * std::sin(angle + third) * std::sin(x[0]) * std::cos(x[1]) * std::cos(x[2]);
+  velocity[1] = size * std::sin(angle - third) * std::cos(x[0]) * std::sin(x[1]) * std::cos(x[2]);
+  velocity[2] = size * std::sin(angle) * std::cos(x[0]) * std::cos(x[1]) * std::sin(x[2]);
+}
+
 }  // namespace
 
-void CustomStart::apply(const Vec3& point, double rho, Vec3& velocity, double& temperatureThere) const {
+void CustomStart::apply(const Vec3& point, const StartPlace& place, Vec3& velocity, double& temperatureThere) const {
   if (vortices)
-    for (const Vortex& vortex : vortices->list) addVortex(vortex, point, rho, velocity);
+    for (const Vortex& vortex : vortices->list) addVortex(vortex, point, place.density, velocity);
+  if (counterflow) {
+    velocity[0] = -counterflow->strainRate * (point[0] - place.middle[0]);
+    velocity[1] = counterflow->strainRate * (point[1] - place.middle[1]);
+  }
+  if (manufactured && manufactured->type == windOfVortices) {
+    setWindOfVortices(manufactured->amplitude, point, velocity);
+    temperatureThere = pressureOfWind(manufactured->amplitude, point) / (place.density * place.gasConstant);
+  } else if (manufactured) {
+    setTaylorGreen(manufactured->angle, point, velocity);
+  }
   if (!temperature) return;
   const double x = (point[0] - temperature->origin[0]) / temperature->spreadX;
   const double y = (point[1] - temperature->origin[1]) / temperature->spreadY;
@@ -63,9 +111,11 @@ const Schema<CustomStart>& customStartSchema() {
                              "The state at the start by formulas; the pressure follows from it.");
     tags.section("vortices", &CustomStart::vortices, vorticesSchema(), "vortices, added to the velocity")
         .section("gaussianTemperature", &CustomStart::temperature, temperatureSchema(),
-                 "the temperature, in place of that of the regions");
-    for (const char* tag : {"vortexPairs", "manufacturedSolution", "counterflow", "logLawProfile", "powerLawProfile",
-                            "powerLawProfile2", "DNS_Moser"})
+                 "the temperature, in place of that of the regions")
+        .section("counterflow", &CustomStart::counterflow, counterflowSchema(), "two streams that meet")
+        .section("manufacturedSolution", &CustomStart::manufactured, manufacturedSchema(),
+                 "flows with known solutions without compression");
+    for (const char* tag : {"vortexPairs", "logLawProfile", "powerLawProfile", "powerLawProfile2", "DNS_Moser"})
       input::refuseTag(tags, tag, "give <velocity> or <temperature> a formula in x, y, z");
     return tags;
   }();

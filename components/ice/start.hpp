@@ -30,13 +30,37 @@ struct GaussianTemperature {
   double spreadX = 0, spreadY = 0;  ///< m
 };
 
+/// `<counterflow>`: v_x = -a (x - m_x), v_y = a (y - m_y), m half the lengths of the grid.
+/// Source: C. S. Yoo, Y. Wang, A. Trouvé & H. G. Im, Combust. Theory Model. 9 (2005) 617.
+struct Counterflow {
+  double strainRate = 0;  ///< a, 1/s
+};
+
+/// `<manufacturedSolution>`: mms_1 is a row of vortices in a wind of 1 m/s along x and y, of amplitude A, with the
+/// pressure p_0 - A²/4 (cos 2x + cos 2y), p_0 = 101325 Pa (R. McDermott); mms_3 the start of Taylor's and Green's
+/// vortex, of an angle (M. E. Brachet & al., J. Fluid Mech. 130 (1983) 411).
+struct Manufactured {
+  std::string type;
+  double amplitude = 1;  ///< A, m/s
+  double angle = 0;
+};
+
+/// The place of a start.
+struct StartPlace {
+  double density = 0;          ///< kg/m³
+  double gasConstant = 0;      ///< R, J/(kg K)
+  Vec3 middle = Vec3::Zero();  ///< half the lengths of the grid, m
+};
+
 /// `<customInitialization>`.
 struct CustomStart {
   std::optional<VortexList> vortices;
   std::optional<GaussianTemperature> temperature;
+  std::optional<Counterflow> counterflow;
+  std::optional<Manufactured> manufactured;
 
-  /// Changes the velocity [m/s] and the temperature [K] at a point [m] where the density is rho [kg/m^3].
-  void apply(const Vec3& point, double rho, Vec3& velocity, double& temperatureThere) const;
+  /// Changes the velocity [m/s] and the temperature [K] at a point [m].
+  void apply(const Vec3& point, const StartPlace& place, Vec3& velocity, double& temperatureThere) const;
 };
 
 const input::Schema<CustomStart>& customStartSchema();

@@ -149,7 +149,8 @@ bool TreeBuilder::isCycle(const std::string& path, const Location& where) {
 /// above.
 std::string findIncluded(const std::filesystem::path& beside, const std::string& href) {
   std::error_code ignored;
-  const std::filesystem::path here = std::filesystem::absolute(beside, ignored);
+  const std::filesystem::path here =
+      beside.empty() ? std::filesystem::current_path(ignored) : std::filesystem::absolute(beside, ignored);
   if (!std::filesystem::exists(here / href, ignored))
     for (std::filesystem::path above = here; above.has_relative_path();) {
       above = above.parent_path();

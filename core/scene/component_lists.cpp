@@ -16,7 +16,7 @@ std::map<std::string, std::vector<std::string>> cellVariables(const simulation::
         if (access.writes() && access.label->centring == data::Centring::cell &&
             access.label->number == data::Number::real)
           for (std::vector<std::string>& materials = found[std::string(access.label->name)];
-               const std::string& material : task.materials)
+               const std::string& material : access.ofNone ? std::vector<std::string>() : task.materials)
             if (std::find(materials.begin(), materials.end(), material) == materials.end())
               materials.push_back(material);
   return found;

@@ -298,7 +298,7 @@ void readSharedSections(const Element& root, Problem& problem, Diagnostics& diag
 grid::Domain readGridFor(const ComponentKind* kind, const Element& section, const AmrSettings& amr,
                          const grid::Workers& workers, Diagnostics& diagnostics) {
   SideWords words{{}, true, true};
-  if (kind) words = {kind->boundaryLabels, kind->takesPartsOfSides, kind->takesFormulasAtSides};
+  if (kind) words = {kind->boundaryLabels, kind->takesPartsOfSides, kind->takesFormulasAtSides, kind->conditionWords};
   grid::Domain domain = readGrid(section, words, workers, amr, diagnostics);
   if (kind && domain.refinement.levels > 1) checkTakesLevels(*kind, section, amr, diagnostics);
   return domain;

@@ -49,6 +49,7 @@ struct SideWords {
   std::vector<grid::BoundaryVariable> labels = {};
   bool takesParts = false;     ///< parts of a side with conditions of their own
   bool takesFormulas = false;  ///< for Dirichlet values
+  simulation::ConditionWords own = {};
 };
 /// The `Grid` section.
 grid::Domain readGrid(const input::Element& section, const SideWords& words, const grid::Workers& workers,
@@ -59,13 +60,13 @@ void describeArchive(std::ostream& out);
 void describeGrid(std::ostream& out);
 void describeAmr(std::ostream& out, const simulation::Catalogue& catalogue);
 
-/// How the shared sections are read, for the schemas of editors; Grid with the boundary labels of a component, AMR with
-/// its name.
+/// How the shared sections are read, for the schemas of editors; Grid with the boundary labels and words of a
+/// component, AMR with its name.
 const input::SchemaBase& metaForm();
 const input::SchemaBase& timeForm();
 const input::SchemaBase& archiveForm();
 const input::SchemaBase& amrForm(const simulation::ComponentKind& kind);
-const input::SchemaBase& gridForm(const std::vector<grid::BoundaryVariable>& boundaryLabels);
+const input::SchemaBase& gridForm(const simulation::ComponentKind& kind);
 /// The tag SimulationComponent; its `type` says which component.
 const input::SchemaBase& componentForm();
 

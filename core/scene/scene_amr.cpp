@@ -129,7 +129,7 @@ const Schema<CriteriaSection>& criteriaSchema() {
   static const Schema<CriteriaSection> schema =
       Schema<CriteriaSection>("Refinement_Criteria_Thresholds",
                               "Where finer cells are needed; of several reasons, the one for the finest cells decides.")
-          .list("Variable", &CriteriaSection::variables, variableSchema(), "a reason for finer cells", 1);
+          .list("Variable", &CriteriaSection::variables, variableSchema(), "a reason for finer cells");
   return schema;
 }
 
@@ -182,7 +182,9 @@ const Schema<RegridderSection>& regridderSchema() {
                   "at least 2",
                   input::between(1, 16))
         .optional("cell_refinement_ratio", &RegridderSection::ratios, "1",
-                  "2 along each axis that the grid uses, for all levels", input::atLeast(1))
+                  "of each level, the last one of further ones; 2, 4, 8 … along all axes that the grid uses. "
+                  "4 makes two levels of each",
+                  input::atLeast(1))
         .optional("min_patch_size", &RegridderSection::blocks, "1",
                   "cells of a block, which is refined as a whole: an even number from 4 on that divides the "
                   "resolution, the same for all levels; without it the greatest up to 8, in one dimension 16",
@@ -285,18 +287,20 @@ void checkBlocks(const Element& amr, const std::optional<std::vector<Index3>>& b
             input::toText(*blocks)));
 }
 
-/// What is wrong with the variable of a criterion, or nothing. `materials`: those that it belongs to.
+/// Checks which of the materials that have its variable a criterion is for; from its number follows the name.
 void checkMaterial(Criterion& criterion, const std::vector<std::string>& materials, Diagnostics& diagnostics) {
-  if (!materials.empty())
-    diagnostics.error(
-        criterion.where, criterion.path,
-        fmt::format(
-            "'{}' belongs to materials; the grid is refined by variables that belong to none, and by 'particles'",
-            criterion.variable));
-  if (!materials.empty() || criterion.material.empty()) return;
-  diagnostics.note(criterion.where, criterion.path,
-                   fmt::format("matl does nothing: '{}' belongs to no material", criterion.variable));
-  criterion.material.clear();
+  std::string& given = criterion.material;
+  if (given.empty()) return;
+  if (materials.empty()) {
+    diagnostics.note(criterion.where, criterion.path,
+                     fmt::format("matl does nothing: '{}' belongs to no material", criterion.variable));
+    given.clear();
+    return;
+  }
+  const auto number = input::parse<int>(given).value;
+  if (number && *number >= 0 && *number < std::ssize(materials)) given = materials[*number];
+  if (const std::string problem = input::choiceProblem(given, materials); !problem.empty())
+    diagnostics.error(criterion.where, criterion.path, "matl: " + problem);
 }
 
 }  // namespace
@@ -349,8 +353,7 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
   const auto variables = cellVariables(component);
   std::vector<std::string> names;
   if (followsParticles) names.emplace_back(cellsWithParticles);
-  for (const auto& [name, materials] : variables)
-    if (materials.empty()) names.push_back(name);
+  for (const auto& [name, materials] : variables) names.push_back(name);
   for (Criterion& criterion : criteria)
     if (const auto found = variables.find(criterion.variable); found != variables.end())
       checkMaterial(criterion, found->second, diagnostics);

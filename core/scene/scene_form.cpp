@@ -93,7 +93,7 @@ TagForm sceneForm(const Catalogue& catalogue) {
   std::vector<const SchemaBase*> roots;
   const SchemaBase& analyses = analysisForm(catalogue, *schemas);
   for (const ComponentKind* kind : catalogue.components()) {
-    const SchemaBase& grid = gridForm(kind->boundaryLabels);
+    const SchemaBase& grid = gridForm(*kind);
     for (const std::vector<SectionForm>& sections : waysToWrite(*kind)) {
       Schema<Unread>& root = schemas->emplace_back("Uintah_specification", kind->sentence + ".");
       addShared(root, *kind, grid, analyses);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <list>
+#include <map>
 
 #include "core/grid/choose_patches.hpp"
 #include "core/input/schema.hpp"
@@ -13,6 +14,7 @@ namespace tushar::scene {
 using input::Diagnostics;
 using input::Element;
 using input::Schema;
+using simulation::namesOf;
 
 namespace {
 
@@ -21,13 +23,27 @@ struct GridSection {
   std::vector<LevelSection> levels;
 };
 
+/// <BoundaryConditions>, with the sections of a component's own.
+Schema<FacesSection> facesTag(const Schema<FaceSection>& face, const std::vector<simulation::SectionForm>& own) {
+  Schema<FacesSection> tags("BoundaryConditions",
+                            "What happens at the sides of the grid; a side that is not named is free.");
+  tags.list("Face", &FacesSection::faces, face, "a side, or a part of one");
+  for (const simulation::SectionForm& section : own)
+    tags.custom(
+            section.name, [](FacesSection&, const Element&, Diagnostics&) {}, {section.name},
+            "what conditions of this kind need",
+            [schema = section.schema](std::ostream& out, int indent) { schema->describeContents(out, indent); })
+        .forms({input::onceForm(section.name, [schema = section.schema] {
+          return std::vector<input::Alternative>{{schema, {}}};
+        })});
+  return tags;
+}
+
 /// The tags of <Grid> around those of conditions, which must outlive it.
 struct GridTags {
-  explicit GridTags(const Schema<ConditionSection>& condition)
+  explicit GridTags(const Schema<ConditionSection>& condition, const std::vector<simulation::SectionForm>& own)
       : face(faceTag(condition)),
-        faces(Schema<FacesSection>("BoundaryConditions",
-                                   "What happens at the sides of the grid; a side that is not named is free.")
-                  .list("Face", &FacesSection::faces, face, "a side, or a part of one")),
+        faces(facesTag(face, own)),
         grid(Schema<GridSection>("Grid", "The grid and what happens at its sides.")
                  .ignoredAttribute("doAMR", "a grid is refined where it has several levels")
                  .section("BoundaryConditions", &GridSection::boundaries, faces)
@@ -41,15 +57,17 @@ struct GridTags {
   Schema<GridSection> grid;
 };
 
-const Schema<GridSection>& gridSchema() {
-  static const GridTags tags(conditionSchema());
-  return tags.grid;
+/// <Grid> as it is read, for components with these sections of their own.
+const Schema<GridSection>& gridSchema(const std::vector<simulation::SectionForm>& own = {}) {
+  static std::map<std::vector<std::string>, GridTags> all;
+  return all.try_emplace(namesOf(own), conditionSchema(), own).first->second.grid;
 }
 
-/// A Grid section with the labels of one component.
+/// A Grid section with the labels and words of one component.
 struct GridFor {
-  explicit GridFor(const std::vector<grid::BoundaryVariable>& labels)
-      : condition(conditionFor(labels)), tags(condition) {}
+  explicit GridFor(const simulation::ComponentKind& kind)
+      : condition(conditionFor(kind.boundaryLabels, kind.conditionWords.vars)),
+        tags(condition, kind.conditionWords.sections) {}
 
   Schema<ConditionSection> condition;
   GridTags tags;
@@ -111,7 +129,7 @@ grid::Domain readGrid(const Element& section, const SideWords& words, const grid
                       const AmrSettings& amr, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   grid::Domain domain;
-  const GridSection read = gridSchema().read(section, diagnostics);
+  const GridSection read = gridSchema(words.own.sections).read(section, diagnostics);
   const std::vector<GivenPart> parts = readFaces(section, read.boundaries, words, domain.boundaries, diagnostics);
   if (diagnostics.size() > before) return domain;
   const std::vector<Element> boxes = section.children("Level").front().children("Box");
@@ -136,9 +154,9 @@ grid::Domain readGrid(const Element& section, const SideWords& words, const grid
   return domain;
 }
 
-const input::SchemaBase& gridForm(const std::vector<grid::BoundaryVariable>& boundaryLabels) {
+const input::SchemaBase& gridForm(const simulation::ComponentKind& kind) {
   static std::list<GridFor> all;
-  return all.emplace_back(boundaryLabels).tags.grid;
+  return all.emplace_back(kind).tags.grid;
 }
 
 void describeGrid(std::ostream& out) { gridSchema().describe(out); }

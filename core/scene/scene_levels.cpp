@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace tushar::scene {
@@ -208,29 +209,46 @@ class Refiner {
   void checkRatios() {
     if (!amr_.ratios) return;
     for (const Index3& ratio : *amr_.ratios)
-      for (int d = 0; d < coarsest_.dimension(); ++d)
-        if (const int axis = coarsest_.axis(d); ratio[axis] != 2) {
-          diagnostics_.error(tagOr(amr_, "cell_refinement_ratio", elements_.front()),
-                             fmt::format("found {} along {}, expected 2 along each axis that the grid uses; give one "
-                                         "more level instead",
-                                         ratio[axis], "xyz"[axis]));
-          return;
-        }
+      for (int d = 0; d < coarsest_.dimension(); ++d) {
+        const int axis = coarsest_.axis(d), wanted = ratio[coarsest_.axis(0)];
+        if (ratio[axis] == wanted && wanted >= 2 && std::has_single_bit(static_cast<unsigned>(wanted))) continue;
+        diagnostics_.error(tagOr(amr_, "cell_refinement_ratio", elements_.front()),
+                           fmt::format("found {} along {}, expected 2, 4, 8 or another power of two, the same along "
+                                       "each axis that the grid uses",
+                                       ratio[axis], "xyz"[axis]));
+        return;
+      }
+  }
+
+  /// The levels of twos in `levels` levels of the ratios that the scene gives.
+  int levelsOfTwos(int levels) {
+    if (!amr_.ratios || amr_.ratios->empty()) return levels;
+    int twos = 1;
+    for (int k = 0; k + 1 < levels; ++k) {
+      const Index3& ratio = (*amr_.ratios)[std::min<std::size_t>(k, amr_.ratios->size() - 1)];
+      twos += std::countr_zero(static_cast<unsigned>(ratio[coarsest_.axis(0)]));
+    }
+    return twos;
   }
 
   /// The levels that the run may have, from what the scene says of them.
   int countLevels() {
     const int given = finest_ + 1;
     const bool isAdaptive = amr_.regrid.adaptive;
-    const int asked = amr_.maxLevels.value_or(isAdaptive ? std::max(2, given) : given);
     const Element place = tagOr(amr_, "max_levels", elements_.front());
+    const int said = amr_.maxLevels.value_or(isAdaptive ? 2 : 1);
+    const int asked = amr_.maxLevels ? levelsOfTwos(said) : std::max(levelsOfTwos(said), given);
     if (asked < given)
       diagnostics_.error(place, fmt::format("found {}, but the Levels of <Grid> make {}", asked, given));
     else if (isAdaptive && asked < 2)
       diagnostics_.error(place, "found 1, expected at least 2, since the grid is <adaptive>");
     else if (!isAdaptive && asked > given)
       diagnostics_.note(place, "does nothing: where the grid is not <adaptive>, its Levels say what is refined");
-    return isAdaptive ? asked : given;
+    if (asked > mostLevels)
+      diagnostics_.error(place, fmt::format("found {}, which by <cell_refinement_ratio> are {} levels of ratio 2; the "
+                                            "most is {}",
+                                            said, asked, mostLevels));
+    return isAdaptive ? std::min(asked, mostLevels) : given;
   }
 
   void chooseBlock(int axis) {
@@ -238,9 +256,10 @@ class Refiner {
     const int wanted = coarsest_.dimension() == 1 ? 16 : 8;
     const std::vector<int> sizes = blockSizes(cells);
     if (amr_.block) return checkBlock(axis, cells, sizes);
+    const int most = wanted + 2;  // rather than none, where a grid has 10 cells
     const auto above = std::upper_bound(sizes.begin(), sizes.end(), wanted);
-    if (above != sizes.begin()) {
-      refinement_.blockCells[axis] = *(above - 1);
+    if (above != sizes.begin() || (!sizes.empty() && sizes.front() <= most)) {
+      refinement_.blockCells[axis] = above != sizes.begin() ? *(above - 1) : sizes.front();
       return;
     }
     const std::string instead = sizes.empty() ? "choose another <resolution>"
@@ -250,7 +269,7 @@ class Refiner {
         elements_.front().children("Box").front(),
         fmt::format("its {} along {} cannot be cut into blocks of an even number of cells from {} to {}; "
                     "{}",
-                    counted(cells, "cell"), "xyz"[axis], fewestCellsOfBlock, wanted, instead));
+                    counted(cells, "cell"), "xyz"[axis], fewestCellsOfBlock, most, instead));
   }
 
   void checkBlock(int axis, int cells, const std::vector<int>& sizes) {

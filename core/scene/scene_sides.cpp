@@ -42,9 +42,17 @@ Schema<ConditionSection> conditionTag() {
       .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material that it holds for, or all");
 }
 
+/// The words that `var` may have: those of all components, and further ones.
+std::vector<std::string> varsWith(const std::vector<std::string>& further) {
+  std::vector<std::string> vars = conditionKinds;
+  vars.insert(vars.end(), further.begin(), further.end());
+  return vars;
+}
+
 /// `var`, and the value that it may need.
-void checkKind(const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
-  if (const std::string problem = input::choiceProblem(condition.var, conditionKinds); !problem.empty())
+void checkKind(const ConditionSection& condition, const Element& element, const std::vector<std::string>& furtherVars,
+               Diagnostics& diagnostics) {
+  if (const std::string problem = input::choiceProblem(condition.var, varsWith(furtherVars)); !problem.empty())
     errorOf("var", element, problem, diagnostics);
   else if (!isSymmetry(condition.var) && !condition.value)
     diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
@@ -67,7 +75,6 @@ const Schema<ConditionSection>& conditionSchema() {
           .optional("value", &ConditionSection::value, "SI unit of the variable",
                     "a number or a vector; for some components also formulas")
           .check([](const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
-            if (!isOfFlow(condition.label)) checkKind(condition, element, diagnostics);
             if (const auto number = input::parse<int>(condition.id); condition.id != "all" && !(number && *number >= 0))
               errorOf("id", element, "found '" + condition.id + "', expected 'all' or the number of a material",
                       diagnostics);
@@ -75,9 +82,10 @@ const Schema<ConditionSection>& conditionSchema() {
   return schema;
 }
 
-Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>& labels) {
+Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>& labels,
+                                      const std::vector<std::string>& furtherVars) {
   Schema<ConditionSection> tag = conditionTag();
-  std::vector<std::string> names = namesOf(labels), kinds(conditionKinds.begin(), conditionKinds.end());
+  std::vector<std::string> names = namesOf(labels), kinds = varsWith(furtherVars);
   for (const std::string& label : labelsOfFlow)
     if (std::find(names.begin(), names.end(), label) == names.end()) names.push_back(label);
   kinds.emplace_back("computeFromDensity");  // of SpecificVol
@@ -197,10 +205,27 @@ std::optional<Location> givenBefore(const ConditionSection& given, const Locatio
 /// What is read of a face.
 struct ReadFace {
   const SideWords& words;
+  const Element& sides;                              ///< all of them
   int axis;                                          ///< across it
   std::vector<grid::BoundaryCondition>& conditions;  ///< of it, and of the same part read before
   SeenConditions& seen;                              ///< where each of them was given
 };
+
+void noteSeen(const ConditionSection& given, const Element& tag, const ReadFace& face, Diagnostics& diagnostics) {
+  if (const auto first = givenBefore(given, tag.where(), face.seen))
+    diagnostics.error(
+        tag, fmt::format("{} already has a condition on this face, at {}; keep one", given.label, first->text()));
+}
+
+/// Adds what a condition in words of the component's own means.
+void readOwnCondition(const ConditionSection& given, const Element& tag, const ReadFace& face,
+                      Diagnostics& diagnostics) {
+  noteSeen(given, tag, face, diagnostics);
+  for (grid::BoundaryCondition& condition : face.words.own.read(face.sides, tag, diagnostics)) {
+    condition.material = input::parse<int>(given.id).value.value_or(-1);
+    face.conditions.push_back(std::move(condition));
+  }
+}
 
 /// Adds the condition of a tag, unless its label is none that has an effect.
 void readCondition(const ConditionSection& given, const Element& tag, bool onPlane, const ReadFace& face,
@@ -216,7 +241,10 @@ void readCondition(const ConditionSection& given, const Element& tag, bool onPla
     diagnostics.note(tag, given.label + " is for components of flow: nothing here depends on it");
   else if (!label && !labels.empty())
     errorOf("label", tag, input::choiceProblem(given.label, namesOf(labels)), diagnostics);
-  if (label && isOfFlow(given.label)) checkKind(given, tag, diagnostics);
+  const auto& further = face.words.own.vars;
+  const bool isOwn = std::find(further.begin(), further.end(), given.var) != further.end();
+  if (!isOwn && (label || !isOfFlow(given.label))) checkKind(given, tag, further, diagnostics);
+  if (label && isOwn) return readOwnCondition(given, tag, face, diagnostics);
   if (!label || !input::choiceProblem(given.var, conditionKinds).empty()) return;
   const bool isPlane = isSymmetry(given.var);
   if (isPlane && given.value) diagnostics.note(tag, "<value> does nothing on a plane of symmetry");
@@ -227,9 +255,7 @@ void readCondition(const ConditionSection& given, const Element& tag, bool onPla
   const bool onOddPlane = onPlane && !fitsPlane(*label, condition, face.axis);
   if (const std::string problem = contradiction(condition, onOddPlane); !problem.empty())
     diagnostics.error(placeOf({&tag.whereOf("var"), &tag.whereOf("label")}, tag.where()), tag.path(), problem);
-  if (const auto first = givenBefore(given, tag.where(), face.seen))
-    diagnostics.error(
-        tag, fmt::format("{} already has a condition on this face, at {}; keep one", label->name, first->text()));
+  noteSeen(given, tag, face, diagnostics);
   face.conditions.push_back(std::move(condition));
 }
 
@@ -266,7 +292,7 @@ std::vector<GivenPart> readFaces(const Element& section, const FacesSection& fac
     if (!checkFaceWords(elements[f], diagnostics)) continue;
     if (const auto side = elements[f].attribute("side")) {
       SeenConditions seen;
-      readConditions(given, elements[f], {words, face / 2, boundaries.faces[face], seen}, diagnostics);
+      readConditions(given, elements[f], {words, *group, face / 2, boundaries.faces[face], seen}, diagnostics);
       if (const auto [first, isNew] = sides.emplace(*side, elements[f].where()); !isNew)
         diagnostics.error(elements[f],
                           fmt::format("side {} is given twice, the first time at {}", *side, first->second.text()));
@@ -277,7 +303,8 @@ std::vector<GivenPart> readFaces(const Element& section, const FacesSection& fac
     if (!shape) continue;
     const std::size_t part = partWith(*shape, boundaries.parts[face]);
     readConditions(given, elements[f],
-                   {words, face / 2, boundaries.parts[face][part].conditions, seenOnParts[{face, part}]}, diagnostics);
+                   {words, *group, face / 2, boundaries.parts[face][part].conditions, seenOnParts[{face, part}]},
+                   diagnostics);
     parts.push_back({elements[f], face, part});
   }
   return parts;

@@ -41,8 +41,9 @@ struct FacesSection {
 };
 
 const input::Schema<ConditionSection>& conditionSchema();
-/// The conditions of a component as an editor is to see them: of its labels.
-input::Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>& labels);
+/// The conditions of a component as an editor is to see them: of its labels, with its further `var`s.
+input::Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>& labels,
+                                             const std::vector<std::string>& furtherVars);
 /// The tag `Face`, with a tag for conditions, which must outlive it.
 input::Schema<FaceSection> faceTag(const input::Schema<ConditionSection>& condition);
 

@@ -126,8 +126,8 @@ const Schema<CheckpointSettings>& checkpointSchema() {
                        "intervals, and at the end.")
           .attributeValue("cycle", &Settings::cycle, 2, "1", "how many are kept", input::atLeast(1))
           .optionalAttribute("interval", &Settings::interval, "s", "simulated time between them", input::positive())
-          .optionalAttribute("timestepInterval", &Settings::timestepInterval, "1", "steps between them",
-                             input::positive())
+          .optionalAttribute("timestepInterval", &Settings::timestepInterval, "1",
+                             "steps between them; 0: only the start and the end", input::nonNegative())
           .optionalAttribute("walltimeInterval", &Settings::walltimeInterval, "s", "wall time between them",
                              input::positive())
           .optionalAttribute("walltimeStart", &Settings::walltimeStart, "s",

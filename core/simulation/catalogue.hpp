@@ -27,12 +27,24 @@ struct SectionForm {
   std::vector<input::Demand> demands = {};  ///< what else must hold for the schema to apply
 };
 
+/// Conditions at sides of the grid in words of a component's own.
+struct ConditionWords {
+  std::vector<std::string> vars = {};  ///< further `var`s of a BCType
+  /// Tags of BoundaryConditions with what such conditions need.
+  std::vector<SectionForm> sections = {};
+  /// What a BCType with one of these words means; `sides` is its BoundaryConditions. Problems go to the diagnostics.
+  std::function<std::vector<grid::BoundaryCondition>(const input::Element& sides, const input::Element& condition,
+                                                     input::Diagnostics&)>
+      read = {};
+};
+
 /// The description of a component that sus can run.
 struct ComponentKind {
   std::string name;                                    ///< the `type` of SimulationComponent
   std::string sentence;                                ///< what it is
   std::vector<std::string> sections;                   ///< tags below the root that it reads
   std::vector<grid::BoundaryVariable> boundaryLabels;  ///< that its conditions are for
+  ConditionWords conditionWords;                       ///< of its own, for conditions
   /// Reads its sections from the root of the scene; every problem goes to the diagnostics.
   std::function<MakeComponent(const input::Element& root, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;  ///< its manual

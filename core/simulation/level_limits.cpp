@@ -31,9 +31,6 @@ std::string accessProblem(const tasks::Task& task, const tasks::Access& access, 
   if (centring == Centring::node && access.ghost > 0 && !task.perMaterial())
     return fmt::format("task {} reads {} of nodes beyond a patch, which needs a grid of one level", task.name,
                        access.label->name);
-  if (access.keeps && task.perMaterial())
-    return fmt::format("task {} keeps the flux of {} of materials, which needs a grid of one level", task.name,
-                       access.keeps->name);
   return "";
 }
 

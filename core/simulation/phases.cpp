@@ -31,6 +31,15 @@ const data::Label* findProduced(const std::vector<tasks::Task>& tasks, std::stri
   return nullptr;
 }
 
+/// The materials that have a variable; none if it belongs to none.
+std::vector<std::string> materialsOf(const std::vector<tasks::Task>& tasks, const data::Label& label) {
+  for (const tasks::Task& task : tasks)
+    for (const tasks::Access& access : task.accesses)
+      if (access.writes() && access.label->name == label.name)
+        return task.perMaterial(access) ? task.materials : std::vector<std::string>();
+  return {};
+}
+
 Names united(Names a, const Names& b) {
   a.insert(b.begin(), b.end());
   return a;
@@ -255,10 +264,14 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
   std::vector<InputProblem> problems;
   for (const Criterion& one : regrid.criteria) {
     const data::Label* label = nullptr;
-    for (const auto* tasks : {&lists_.diagnostics, &lists_.timeAdvance, &lists_.initialize})
-      if (!label) label = findProduced(tasks->tasks(), one.variable);
+    std::vector<std::string> materials;
+    for (const auto* tasks : {&lists_.diagnostics, &lists_.timeAdvance, &lists_.initialize}) {
+      if (label) continue;
+      label = findProduced(tasks->tasks(), one.variable);
+      if (label) materials = materialsOf(tasks->tasks(), *label);
+    }
     if (label && label->centring == data::Centring::cell && label->number == data::Number::real)
-      criteria.push_back({one, label, diagnosed.contains(one.variable)});
+      criteria.push_back({one, label, diagnosed.contains(one.variable), std::move(materials)});
     else
       problems.push_back({one.where, one.path,
                           fmt::format("'{}' is not a cell variable that this component computes{}; available: {}",

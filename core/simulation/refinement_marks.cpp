@@ -131,8 +131,15 @@ void raiseMarks(const grid::Patch& patch, const BoundCriterion& bound, const dat
 void findMarks(const tasks::TaskContext& context, const std::vector<BoundCriterion>& criteria) {
   const data::Variable marks = context.variable(static_cast<int>(criteria.size()));
   std::fill_n(reinterpret_cast<int*>(marks.values), marks.stored.size(), 0);
-  for (std::size_t k = 0; k < criteria.size(); ++k)
-    raiseMarks(context.patch(), criteria[k], context.variable(static_cast<int>(k)), marks);
+  for (std::size_t k = 0; k < criteria.size(); ++k) {
+    const auto raise = [&](const tasks::TaskContext& of) {
+      raiseMarks(context.patch(), criteria[k], of.variable(static_cast<int>(k)), marks);
+    };
+    const BoundCriterion& one = criteria[k];
+    if (one.materials.empty()) raise(context);
+    for (std::size_t m = 0; m < one.materials.size(); ++m)
+      if (one.criterion.material.empty() || one.criterion.material == one.materials[m]) raise(context.ofMaterials()[m]);
+  }
 }
 
 }  // namespace
@@ -159,9 +166,15 @@ tasks::Task markTask(std::vector<BoundCriterion> criteria) {
   tasks::Task task;
   task.name = "findRefinementMarks";
   for (const BoundCriterion& one : criteria)
-    task.accesses.push_back(
-        {one.label, one.isDiagnosed ? tasks::AccessKind::requiresNew : tasks::AccessKind::requiresOld, 1});
-  task.accesses.push_back({&tasks::refinementMark, tasks::AccessKind::computes});
+    if (!one.materials.empty()) task.materials = one.materials;
+  task.acrossMaterials = !task.materials.empty();
+  for (const BoundCriterion& one : criteria)
+    task.accesses.push_back({.label = one.label,
+                             .kind = one.isDiagnosed ? tasks::AccessKind::requiresNew : tasks::AccessKind::requiresOld,
+                             .ghost = 1,
+                             .ofNone = task.acrossMaterials && one.materials.empty()});
+  task.accesses.push_back(
+      {.label = &tasks::refinementMark, .kind = tasks::AccessKind::computes, .ofNone = task.acrossMaterials});
   task.body = [criteria = std::move(criteria)](const tasks::TaskContext& context) { findMarks(context, criteria); };
   return task;
 }

@@ -14,6 +14,7 @@ struct BoundCriterion {
   Criterion criterion;
   const data::Label* label;
   bool isDiagnosed;
+  std::vector<std::string> materials = {};  ///< those that have the variable; none if it belongs to none
 };
 
 /// The numbers of a cell's variable and those of its two neighbours along an axis; null where there is none.
@@ -28,7 +29,8 @@ struct Neighbours {
 double indicatorOf(Criterion::Indicator indicator, std::span<const Neighbours> axes, std::span<const double> spacing,
                    int components);
 
-/// The task that computes tasks::refinementMark by all criteria; 0 where there are none.
+/// The task that computes tasks::refinementMark by all criteria; 0 where there are none. Those of materials must have
+/// the same.
 tasks::Task markTask(std::vector<BoundCriterion> criteria);
 
 }  // namespace tushar::simulation

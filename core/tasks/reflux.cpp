@@ -29,9 +29,11 @@ void reflux(const TaskContext& context, int components) {
   }
 }
 
-Task refluxTask(const data::Label& label) {
+/// `materials`: those that have the variable; none if it belongs to none.
+Task refluxTask(const data::Label& label, const std::vector<std::string>& materials) {
   Task task;
   task.name = "reflux " + std::string(label.name);
+  task.materials = materials;
   task.accesses = {{&data::rimLabelOf(label), AccessKind::requiresNew, 1},
                    {&label, AccessKind::modifies},
                    {&data::delT, AccessKind::requiresOld}};
@@ -54,7 +56,8 @@ TaskList withRefluxing(const TaskList& list) {
       if (access.keeps && !begun.insert(access.label->name).second) access.kind = AccessKind::modifies;
     with.add(task);
     for (const Access& access : task.accesses)
-      if (access.keeps && last[access.label->name] == static_cast<int>(t)) with.add(refluxTask(*access.keeps));
+      if (access.keeps && last[access.label->name] == static_cast<int>(t))
+        with.add(refluxTask(*access.keeps, task.perMaterial(access) ? task.materials : std::vector<std::string>()));
   }
   return with;
 }

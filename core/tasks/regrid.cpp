@@ -124,6 +124,7 @@ class Luggage {
       if (centring != Centring::node && warehouse.isHeld(Generation::old, number))
         (centring == Centring::cell ? cells_ : particles_).push_back(number);
     }
+    if (particles_.empty()) materials_ = 0;  // such as gases that share cells: none has sets of particles
   }
 
   /// Room for the values of cells on all patches.

@@ -21,10 +21,11 @@ void copyCells(const TaskContext& context, std::size_t bytes) {
   });
 }
 
-Task takeOver(const Task& reader, const data::Label& label) {
+Task takeOver(const Task& reader, const Access& access) {
+  const data::Label& label = *access.label;
   Task task;
   task.name = "take over " + std::string(label.name);
-  task.materials = reader.materials;
+  if (reader.perMaterial(access)) task.materials = reader.materials;
   task.accesses = {{&label, AccessKind::requiresOld}, {&label, AccessKind::computes}};
   task.body = [bytes = label.bytes](const TaskContext& context) { copyCells(context, bytes); };
   return task;
@@ -39,7 +40,7 @@ TaskList takingOver(const TaskList& list) {
     for (const Access& access : task.accesses) {
       const bool isNew = access.writes() && computed.emplace(access.label->name).second;
       if (isNew && access.kind == AccessKind::modifies && access.label->centring == data::Centring::cell)
-        with.add(takeOver(task, *access.label));
+        with.add(takeOver(task, access));
     }
     with.add(task);
   }

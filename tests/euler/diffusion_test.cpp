@@ -4,6 +4,7 @@
 
 #include "components/euler/tasks/add_diffusion.hpp"
 #include "components/euler/tasks/add_gravity.hpp"
+#include "components/euler/tasks/add_varying_diffusion.hpp"
 #include "tests/euler/gas_box.hpp"
 
 // What viscosity, conduction and gravity change in a step, by the bodies of the tasks alone.
@@ -38,6 +39,25 @@ class StillBox : public GasBox<D> {
                       {{view<const double>(density, patch, 1), view<const Vec<D>>(oldMomentum, patch, 1),
                         view<const double>(oldEnergy, patch, 1)}},
                       0, dt, view<Vec<D>>(momentum, patch, 0), view<double>(energy, patch, 0), {});
+  }
+  /// The same by the task of viscosities that vary.
+  void diffuse(const VaryingDiffusion& varying, double dt) {
+    const auto oldMomentum = momentum;
+    const auto oldEnergy = energy;
+    for (const Patch& patch : grid.patches())
+      addVaryingDiffusion<D>(patch, this->gas, varying,
+                             {{view<const double>(density, patch, 1), view<const Vec<D>>(oldMomentum, patch, 1),
+                               view<const double>(oldEnergy, patch, 1)}},
+                             0, dt, view<Vec<D>>(momentum, patch, 0), view<double>(energy, patch, 0), {});
+  }
+  double stableDiffusion(const VaryingDiffusion& varying, double cfl) {
+    Minimum dt;
+    for (const Patch& patch : grid.patches())
+      limitVaryingDiffusion<D>(patch, this->gas, varying, cfl, 1,
+                               {{view<const double>(density, patch, 1), view<const Vec<D>>(momentum, patch, 1),
+                                 view<const double>(energy, patch, 1)}},
+                               0, dt);
+    return dt.value;
   }
   double stableDiffusion(double cfl) {
     Minimum dt;
@@ -154,6 +174,90 @@ TEST(Diffusion, LimitsTheStep) {
   // h = 1/8, sound speed 1, v = .5, greatest diffusivity k / (rho c_v) = .4: 1 / dt = (1.5 / h + 2 .4 / h²) / cfl.
   StillBox<1> box(closedBox(1, 8), [](const Vec<1>&) { return gasAt(1, 0.5, 1 / 1.4); }, {0.1, 1});
   EXPECT_NEAR(box.stableDiffusion(0.5), 0.5 / (1.5 * 8 + 2 * 0.4 * 64), 1e-15);
+}
+
+TEST(VaryingDiffusion, IsDiffusionWhereNothingVaries) {
+  StillBox<3> box(closedBox(3, 6), roughGas<3>, {0.1, 0.3}), varying(closedBox(3, 6), roughGas<3>, {});
+  box.diffuse(1e-3);
+  varying.diffuse(VaryingDiffusion{.uniform = {0.1, 0.3}}, 1e-3);
+  for (std::size_t i = 0; i < box.energy.size(); ++i) {
+    EXPECT_NEAR((varying.momentum[i] - box.momentum[i]).norm(), 0, 1e-15);
+    EXPECT_NEAR(varying.energy[i], box.energy[i], 1e-14);
+  }
+  StillBox<1> line(closedBox(1, 8), [](const Vec<1>&) { return gasAt(1, 0.5, 1 / 1.4); }, {0.1, 1});
+  EXPECT_NEAR(line.stableDiffusion(VaryingDiffusion{.uniform = {0.1, 1}}, 0.5), line.stableDiffusion(0.5), 1e-15);
+}
+
+TEST(VaryingDiffusion, HasTheViscosityOfAirBySutherland) {
+  // Tables of air: 1.716e-5 Pa s at 273.15 K, 2.286e-5 at 400 K.
+  const VaryingDiffusion air{.sutherland = Sutherland{1.458e-6, 110.4}};
+  EXPECT_NEAR(air.at(Vec3::Zero(), 273.15).viscosity, 1.716e-5, 2e-8);
+  EXPECT_NEAR(air.at(Vec3::Zero(), 400).viscosity, 2.286e-5, 2e-8);
+}
+
+TEST(VaryingDiffusion, TakesTheLastSpongeLayer) {
+  VaryingDiffusion how{.uniform = {1, 2}, .sutherland = Sutherland{}};
+  how.sponges = {{Vec3(0, 0, 0), Vec3(0.5, 1, 1), 7}, {Vec3(0.25, 0, 0), Vec3(0.5, 1, 1), 9}};
+  EXPECT_EQ(how.at(Vec3(0.1, 0, 0), 1).viscosity, 7);
+  EXPECT_EQ(how.at(Vec3(0.3, 0, 0), 1).viscosity, 9);
+  EXPECT_EQ(how.at(Vec3(0.6, 0, 0), 1).viscosity, 0);
+  EXPECT_EQ(how.at(Vec3(0.6, 0, 0), 1).conductivity, 2);
+}
+
+TEST(VaryingDiffusion, HasOneStressAcrossLayersOfTwoViscosities) {
+  // Between walls at 0 and 1 m/s the stress is U / (sum of thickness / mu): mu 1 below y = 1/2 and 3 above it, where
+  // the face between them has their mean, which moves that place by a quarter of a cell in each layer's favour.
+  grid::Domain domain = closedBox(2, 16);
+  domain.resolution[0] = 2;
+  for (int side = 0; side < 2; ++side) {
+    domain.boundaries.face(0, side).clear();
+    auto& face = domain.boundaries.face(1, side);
+    face.clear();
+    face.push_back({boundary::velocity, BoundaryKind::dirichlet, Vec3(side, 0, 0)});
+  }
+  const auto rest = [](const Vec<2>&) { return State<2>{1, 0, 0, 1}; };
+  StillBox<2> box(domain, rest, {});
+  const VaryingDiffusion how{.uniform = {1, 0}, .sponges = {{Vec3(-1, 0.5, -1), Vec3(2, 2, 2), 3}}};
+  for (int n = 0; n < 8000; ++n) box.diffuse(how, 5e-4);
+  const auto u = [&](int i) { return box.momentum[box.level.cellNumber<2>(Index<2>{{0, i}})][0]; };
+  const double h = 1.0 / 16, stress = (u(3) - u(2)) / h;
+  EXPECT_NEAR(3 * (u(12) - u(11)) / h, stress, 1e-10);
+  EXPECT_NEAR(2 * (u(8) - u(7)) / h, stress, 1e-10);
+  EXPECT_NEAR(1 / stress, 7.5 * h + h / 2 + 7.5 * h / 3, 1e-10);
+}
+
+TEST(VaryingDiffusion, OfEddiesInAShear) {
+  // v_x = s y: sqrt(2 S : S) = s, so that mu + rho (C Delta)² s, Delta the cubic root of a cell's volume.
+  grid::Domain domain = openBox(3, 4);
+  const auto shear = [](const Vec<3>& x) { return State<3>{2, 3 * x[1], 0, 0, 1}; };
+  StillBox<3> box(domain, shear, {});
+  const Patch& patch = box.grid.patches().front();
+  const GhostRules<3> rules = diffusionRules<3>(box.level, box.gas, 0);
+  const double constant = 0.2, delta = 0.25;
+  Diffuser<3> diffuser(box.level, patch.cells(), rules, constant);
+  diffuser.hold(patch.cells(), [&](const Index<3>& cell) {
+    DiffusingCell<3> one;
+    one.w[kTemperature] = 1;
+    one.w[kVelocity(0)] = 3 * box.level.cellCentre<3>(cell)[1];
+    one.how = {0.1, 0};
+    one.density = 2;
+    return one;
+  });
+  const double exact = 0.1 + 2 * constant * constant * delta * delta * 3;
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(diffuser.atFace(Index<3>{{2, 2, 2}}, axis).viscosity, exact, 1e-14) << axis;
+}
+
+TEST(Force, PushesAllGasAlike) {
+  StillBox<2> box(closedBox(2, 4), roughGas<2>, {});
+  const auto before = box.momentum;
+  const double temperature = box.temperature(5);
+  const Patch& patch = box.grid.patches().front();
+  addForce<2>(patch, {3, 0, 0}, {box.density.data(), box.level.cells(), patch.cells()}, 0.1,
+              {box.momentum.data(), box.level.cells(), patch.cells()},
+              {box.energy.data(), box.level.cells(), patch.cells()});
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(box.momentum[i][0], before[i][0] + 0.3, 1e-15);
+  EXPECT_NEAR(box.temperature(5), temperature, 1e-13);
 }
 
 TEST(Gravity, ChangesTheKineticEnergyAlone) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "components/euler/mixture.hpp"
+#include "components/ice/mixture/exchange_mass.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace tushar::ice {
@@ -142,8 +143,9 @@ TEST(IceMixture, RefusesWhatItHasNot) {
                                    "<ICE><advection type=\"SecondOrder\"/><ImplicitSolver/>")),
             "is not available with several gases: take it out, or run with --set CFD/ICE/explicit=true");
   EXPECT_EQ(problemOf(changedScene(tube, "<specific_heat>1.5</specific_heat>",
-                                   "<specific_heat>1.5</specific_heat><dynamic_viscosity>1</dynamic_viscosity>")),
-            "is not available beside a second gas: set it to 0, or keep one gas");
+                                   "<specific_heat>1.5</specific_heat><dynamicViscosityModels><Model "
+                                   "name=\"Sutherland\"><a>1</a><b>1</b></Model></dynamicViscosityModels>")),
+            "is not available beside a second gas: give <dynamic_viscosity>, or keep one gas");
   EXPECT_EQ(problemOf(changedScene(tube, "<material name=\"helium\">", "<material name=\"air\">")),
             "the name 'air' is given twice");
 }
@@ -169,6 +171,113 @@ TEST(IceMixture, RefusesFourGases) {
       <temperature>1</temperature></geom_object></material>)";
   const std::string end = "    </ICE>\n    <exchange";
   EXPECT_EQ(problemOf(changedScene(three, end, more + end)), "more than 3 gases are not available");
+}
+
+namespace {
+
+/// A scene of gases with finer cells where their shares differ.
+std::string refined(const std::string& scene, const std::string& ratio = "[[2,2,2]]") {
+  return changedScene(scene, "</Uintah_specification>",
+                      "<AMR><ICE><Refinement_Criteria_Thresholds><Variable name=\"vol_frac_CC\" type=\"gradient\" "
+                      "value=\"0.5\" matl=\"all\"/></Refinement_Criteria_Thresholds></ICE><Regridder><max_levels>2"
+                      "</max_levels><cell_refinement_ratio>" +
+                          ratio + "</cell_refinement_ratio></Regridder></AMR></Uintah_specification>");
+}
+
+/// A test model of the scene: air becomes helium.
+std::string withTransfer(const std::string& rate) {
+  return changedScene(tube, "</Uintah_specification>",
+                      "<Models><Model type=\"Test\"><Test><fromMaterial>air</fromMaterial><toMaterial>helium"
+                      "</toMaterial><rate>" +
+                          rate + "</rate></Test></Model></Models></Uintah_specification>");
+}
+
+}  // namespace
+
+TEST(IceMixtureLevels, KeepMassMomentumAndEnergy) {
+  for (const char* ratio : {"[[2,2,2]]", "[[4,4,4]]"}) {
+    const report::Report report =
+        test::runScene(refined(three, ratio), {"Time/maxTime=0.1", "Grid/Level/Box/resolution=[16,16,1]"});
+    for (const char* name : {"mass", "momentum", "energy"}) EXPECT_NEAR(driftOf(report, name), 0, 1e-14) << name;
+  }
+}
+
+TEST(IceMixtureLevels, KeepContactsQuiet) {
+  const auto with = [](const std::string& variable, const std::string& value) {
+    return test::runScene(
+               changedScene(refined(three), "<label>c.density</label>", variable),
+               {"Time/maxTime=0.1", "Grid/Level/Box/resolution=[16,16,1]", "DataAnalysis/Module/value=" + value})
+        .errors.at(0)
+        .norms.at("max");
+  };
+  EXPECT_LT(with("<label>c.pressure</label>", "1"), 1e-12);
+  EXPECT_LT(with("<label>c.velocity</label><component>y</component>", "1"), 1e-12);
+}
+
+TEST(IceMixtureLevels, AreAsGoodAsFineCellsInATube) {
+  const std::string scene = refined(tube);
+  const double levels = meanError(scene, {"Grid/Level/Box/resolution=[100,1,1]"}),
+               coarse = meanError(tube, {"Grid/Level/Box/resolution=[100,1,1]"});
+  EXPECT_LT(levels, 0.9 * coarse);
+}
+
+TEST(IceMixtureLevels, HaveOneFingerprintOnAnyPatches) {
+  const std::string scene = refined(three);
+  const Overrides shortened{"Time/maxTime=0.05", "Grid/Level/Box/resolution=[16,16,1]"};
+  const std::string whole = test::runScene(scene, shortened).fingerprint;
+  simulation::Problem problem =
+      scene::readScene(scene, shortened, catalogue(), grid::Workers{.layout = Index3{{1, 1, 1}}});
+  problem.archive.saves.clear();
+  simulation::RunOptions options;
+  options.quiet = true;
+  EXPECT_EQ(simulation::Simulation(std::move(problem), options, std::chrono::steady_clock::now()).run().fingerprint,
+            whole);
+}
+
+TEST(IceMixture, BecomesAnotherGas) {
+  // With a rate beyond what a step takes all of it goes in the first one.
+  const report::Report report = test::runScene(withTransfer("1e9"), {});
+  EXPECT_NEAR(driftOf(report, "mass"), 0, 1e-14);
+  EXPECT_NEAR(driftOf(report, "energy"), 0, 1e-14);
+  EXPECT_EQ(problemOf(withTransfer("-1")), "found '-1', expected a value of at least 0 1/s");
+}
+
+TEST(IceMixture, TransfersAPartOfAGas) {
+  double massOf[] = {3, 1}, shareOf[] = {0.75, 0.25};
+  const Box cell{{}, Index3::filled(1)};
+  std::vector<euler::ChangedGas> held;
+  for (int k = 0; k < 2; ++k) held.push_back({{&massOf[k], cell, cell}, {&shareOf[k], cell, cell}});
+  const grid::Grid grid{grid::Domain{}};
+  transferMass<1>(grid.patches().front(), {}, {0, 1, 2, 0.5}, 0.4, 0.1, held);
+  EXPECT_EQ(massOf[0], 3);
+  transferMass<1>(grid.patches().front(), {}, {0, 1, 2, 0.5}, 0.5, 0.1, held);
+  EXPECT_NEAR(massOf[0], 2.4, 1e-15);
+  EXPECT_NEAR(massOf[1], 1.6, 1e-15);
+  EXPECT_NEAR(shareOf[0], 0.6, 1e-15);
+  EXPECT_NEAR(shareOf[1], 0.4, 1e-15);
+}
+
+TEST(IceMixture, OfOneGasTwiceHasItsViscosity) {
+  // The channel's gas as two materials, each in half of it.
+  const std::string box = "<box label=\"all\"><min>[0,0,0]</min><max>[1,1,1]</max></box>";
+  const std::string half = "<volumeFraction>0.5</volumeFraction>";
+  const std::string material = R"(<material name="other"><EOS type="ideal_gas"/><gamma>1.4</gamma>
+      <specific_heat>2.5</specific_heat><dynamic_viscosity>0.1</dynamic_viscosity>
+      <thermal_conductivity>0.35</thermal_conductivity><geom_object><box label="other"><min>[0,0,0]</min>
+      <max>[1,1,1]</max></box><density>1</density><temperature>1</temperature>)" +
+                               half + "</geom_object></material>";
+  const Overrides coarse{"Grid/Level/Box/resolution=[2,16,1]"};
+  const std::string channel = "ups/ice/channel.ups";
+  const double alone = test::runScene(channel, coarse).errors.at(0).norms.at("max");
+  std::string both = changedScene(channel, box, box + half);
+  both = changedScene(both, "    </ICE>\n  </Mat", material + "    </ICE>\n  </Mat");
+  std::stringstream text;
+  text << std::ifstream(both).rdbuf();
+  std::string all = text.str();
+  for (std::size_t at = all.find("BCType id=\"0\""); at != std::string::npos; at = all.find("BCType id=\"0\""))
+    all.replace(at, 13, "BCType id=\"all\"");
+  std::ofstream(both) << all;
+  EXPECT_NEAR(test::runScene(both, coarse).errors.at(0).norms.at("max"), alone, 1e-9);
 }
 
 }  // namespace tushar::ice

@@ -224,7 +224,7 @@ TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
 
 TEST(IceScene, RefusesModels) {
   EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"Steady_Burn\"/></Models>\n  <CFD>")),
-            "of type 'Steady_Burn' is not available; take it out: PassiveScalar is the only type");
+            "of type 'Steady_Burn' is not available; take it out: there are PassiveScalar and Test");
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {

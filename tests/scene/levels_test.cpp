@@ -198,6 +198,7 @@ TEST(Blocks, AreTheGreatestThatDivideTheResolution) {
   EXPECT_EQ(sizes("1,1,0", "60,64,1")[1], 8);
   EXPECT_EQ(sizes("1,1,1", "24,20,12")[1], 4);
   EXPECT_EQ(sizes("1,1,1", "24,20,12")[2], 6);
+  EXPECT_EQ(sizes("1,1,0", "10,64,1")[0], 10);
 }
 
 TEST(Blocks, ThatCannotBeGetASentence) {
@@ -209,11 +210,11 @@ TEST(Blocks, ThatCannotBeGetASentence) {
   EXPECT_EQ(
       refused(along("22"), ""),
       (Strings{"Grid/Level/Box: its 22 cells along x cannot be cut into blocks of an even number of cells from 4 to "
-               "16; choose another <resolution>, or give <min_patch_size> 22"}));
+               "18; choose another <resolution>, or give <min_patch_size> 22"}));
   EXPECT_EQ(
       refused(along("25"), ""),
       (Strings{"Grid/Level/Box: its 25 cells along x cannot be cut into blocks of an even number of cells from 4 to "
-               "16; choose another <resolution>"}));
+               "18; choose another <resolution>"}));
   EXPECT_EQ(
       refused(along("25"), "<min_patch_size>[[8,1,1]]</min_patch_size>"),
       (Strings{"AMR/Regridder/min_patch_size: blocks of 8 cells do not divide the 25 cells of the grid along x; no "
@@ -267,13 +268,39 @@ TEST(Regridder, SaysHowManyLevelsThereMayBe) {
             (Strings{"AMR/Regridder/max_levels: found '17', expected a value from 1 to 16"}));
 }
 
-TEST(Regridder, RefinesByTwo) {
-  const std::string sentence =
-      "AMR/Regridder/cell_refinement_ratio: found 4 along x, expected 2 along each axis that the grid uses; give one "
-      "more level instead";
+TEST(Regridder, TakesARatioOfFourAsTwoLevels) {
+  const auto levels = [](const std::string& most, const std::string& ratios) {
+    const Read found = read(square, amr(adaptive + "<max_levels>" + most + "</max_levels><cell_refinement_ratio>" +
+                                            ratios + "</cell_refinement_ratio>",
+                                        criteria));
+    EXPECT_EQ(found.problems, Strings{});
+    return found.refinement().levels;
+  };
+  EXPECT_EQ(levels("3", "[[2,2,1]]"), 3);
+  EXPECT_EQ(levels("2", "[[4,4,1]]"), 3);
+  EXPECT_EQ(levels("3", "[[4,4,1]]"), 5);
+  EXPECT_EQ(levels("4", "[[4,4,1],[2,2,1]]"), 5);
+  EXPECT_EQ(read(square, amr(adaptive + "<cell_refinement_ratio>[[4,4,1]]</cell_refinement_ratio>", criteria))
+                .refinement()
+                .levels,
+            3);
+}
 
-  EXPECT_EQ(read(square, amr("<cell_refinement_ratio>[[4,4,1]]</cell_refinement_ratio>")).problems, Strings{sentence});
-  EXPECT_EQ(read(square, amr("<cell_refinement_ratio>[2,2,4]</cell_refinement_ratio>")).problems, Strings{});
+TEST(Regridder, RefusesOtherRatios) {
+  const auto refused = [](const std::string& ratio, const std::string& further = "") {
+    return read(square, amr("<cell_refinement_ratio>" + ratio + "</cell_refinement_ratio>" + further)).problems;
+  };
+  const std::string power = "expected 2, 4, 8 or another power of two, the same along each axis that the grid uses";
+  EXPECT_EQ(refused("[2,2,4]"), Strings{});
+  EXPECT_EQ(refused("[[3,3,1]]"), Strings{"AMR/Regridder/cell_refinement_ratio: found 3 along x, " + power});
+  EXPECT_EQ(refused("[[4,2,1]]"), Strings{"AMR/Regridder/cell_refinement_ratio: found 2 along y, " + power});
+  EXPECT_EQ(refused("[[1,1,1]]"), Strings{"AMR/Regridder/cell_refinement_ratio: found 1 along x, " + power});
+  EXPECT_EQ(read(square, amr(adaptive + "<max_levels>12</max_levels><cell_refinement_ratio>[[4,4,1]]"
+                                        "</cell_refinement_ratio>",
+                             criteria))
+                .problems,
+            (Strings{"AMR/Regridder/max_levels: found 12, which by <cell_refinement_ratio> are 23 levels of ratio 2; "
+                     "the most is 16"}));
   EXPECT_EQ(read(square, amr("<simple_refinement_ratio>4</simple_refinement_ratio>")).problems,
             (Strings{"AMR/Regridder/simple_refinement_ratio: found '4', expected 2: give one more level instead"}));
 }

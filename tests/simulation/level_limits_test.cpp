@@ -85,7 +85,7 @@ TEST(LevelLimits, RefuseGhostsOfNodesButAroundParticles) {
   EXPECT_EQ(problemsOf(beyond, 1), "");
 }
 
-TEST(LevelLimits, RefuseTasksThatSeeAllPatchesOfMaterialsAndFluxesOfMaterials) {
+TEST(LevelLimits, RefuseTasksThatSeeAllPatchesOfMaterials) {
   TaskList solve, solveFar, solveGas, ofNone, ofGas;
   solve.perRank("solve", readAll, requiresOld(value));
   solveFar.perRank("solve", readAll, requiresOld(value, 3));
@@ -95,9 +95,7 @@ TEST(LevelLimits, RefuseTasksThatSeeAllPatchesOfMaterialsAndFluxesOfMaterials) {
   EXPECT_EQ(problemsOf(solve), "");
   EXPECT_TRUE(problemsOf(solveFar).starts_with("a.ups:7:3: task solve reads c.value up to 3 cells beyond a patch"));
   EXPECT_EQ(problemsOf(solveGas), "a.ups:7:3: task solve sees all patches at once, which needs a grid of one level\n");
-  EXPECT_EQ(problemsOf(ofNone), "");
-  EXPECT_EQ(problemsOf(ofGas),
-            "a.ups:7:3: task flow keeps the flux of c.value of materials, which needs a grid of one level\n");
+  EXPECT_EQ(problemsOf(ofNone) + problemsOf(ofGas), "");
   EXPECT_EQ(problemsOf(solveGas, 1) + problemsOf(ofGas, 1), "");
 }
 

@@ -23,4 +23,14 @@ void addGravity(const Patch& patch, const Vec3& gravity, CellView<const double> 
              [&](const Index<D>& cell) { fall<D>(g, density[cell], dt, momentum[cell], totalEnergy[cell]); });
 }
 
+/// Adds a force per volume [N/m³], the same in all cells.
+template <int D>
+void addForce(const Patch& patch, const Vec3& force, CellView<const double> density, double dt,
+              CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
+  const Vec<D> push = patch.level().template reduce<D>(force);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    fall<D>(push / density[cell], density[cell], dt, momentum[cell], totalEnergy[cell]);
+  });
+}
+
 }  // namespace tushar::euler

@@ -6,6 +6,15 @@
 
 namespace tushar::euler {
 
+/// The fluxes of one of several gases through the rim of the level: of its mass, kg/(m² s), and its share, m/s.
+struct GasRims {
+  RimFlux<double> mass, share;
+
+  static GasRims from(auto& take) {
+    return {.mass = take(keepsFlux(c::gasMass)), .share = take(keepsFlux(c::gasShare))};
+  }
+};
+
 /// The fluxes of the state through the rim of the level, kg/(m² s), Pa and W/m², and those of mass through all faces.
 template <int D>
 struct RimFluxes {
@@ -13,6 +22,7 @@ struct RimFluxes {
   RimFlux<Vec<D>> momentum;
   RimFlux<double> energy;
   FaceMasses<D> masses = {};
+  std::vector<GasRims> gases = {};
 
   static RimFluxes from(auto& take, bool keepsMasses) {
     return {.mass = take(keepsFlux(c::density)),

@@ -1,24 +1,36 @@
 #include "components/euler/tasks/advance_mixture.hpp"
 
 #include "components/euler/tasks/advance_patch.hpp"
+#include "components/euler/tasks/mend_new_cells.hpp"
 
 namespace tushar::euler {
 
 namespace {
+
+/// A single gas that has the pressure and the speed of sound of a mixture.
+Gas alike(const MixedGas& mixed) {
+  Gas gas;
+  gas.gamma = 1 + 1 / mixed.softness;
+  gas.pInfinity = mixed.leastPressure();
+  return gas;
+}
+
+/// Whether gases in a cell can have its state.
+template <int D, class Held, class T>
+bool isPossible(const std::vector<Settings>& gases, const std::vector<Held>& held, const StateViews<D, T>& state,
+                const Index<D>& cell) {
+  const MixedGas mixed = mixedAt(gases, held, cell);
+  return mixed.softness > 0 &&
+         canBe<D>(alike(mixed), &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1);
+}
 
 /// Throws NumericalError for the first cell of the patch with an impossible state, if there is one.
 template <int D, class Held, class T>
 void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Held>& held,
                          const StateViews<D, T>& state) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const MixedGas mixed = mixedAt(gases, held, cell);
-    Gas alike;
-    alike.gamma = 1 + 1 / mixed.softness;
-    alike.pInfinity = mixed.leastPressure();
-    if (mixed.softness > 0 &&
-        canBe<D>(alike, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1))
-      return;
-    refuseState<D, T>(patch.level(), alike, cell, state, nullptr);
+    if (isPossible<D>(gases, held, state, cell)) return;
+    refuseState<D, T>(patch.level(), alike(mixedAt(gases, held, cell)), cell, state, nullptr);
   });
 }
 
@@ -47,15 +59,18 @@ MixtureViews<D, T> viewsOf(const StateViews<D, T>& all, const std::vector<Held>&
 template <int D, class Shape, int K>
 void advanceMixture(const Patch& patch, const std::vector<Settings>& gases, const OldState<D>& old,
                     const std::vector<OldGas>& oldGases, double time, double dt, const NewState<D>& fresh,
-                    const std::vector<NewGas>& newGases) {
+                    const std::vector<NewGas>& newGases, const RimFluxes<D>& rims,
+                    const std::vector<GasRims>& gasRims) {
   const Level& level = patch.level();
+  RimFluxes<D> allRims = rims;
+  allRims.gases = gasRims;
   const GhostRules<D> rules = ghostRules<D>(level, gases.front().gas, time);
   const Mixture<K> mixture = mixtureOf<K>(gases);
   const auto before = viewsOf<const double, D>(old, oldGases);
   const auto after = viewsOf<double, D>(fresh, newGases);
   Work<D, K> work(patch.cells(), Shape::reach);
   forEachBlock<D>(patch.cells(), [&](const Box& block) {
-    advanceBlock<D, Hllc, Shape>(mixture, level, rules, block, dt, before, work, after, {});
+    advanceBlock<D, Hllc, Shape>(mixture, level, rules, block, dt, before, work, after, allRims);
   });
   refuseBrokenMixture<D>(patch, gases, newGases, fresh);
 }
@@ -74,6 +89,43 @@ AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases) 
 }
 
 template <int D>
+void closeShares(const Patch& patch, const std::vector<Settings>&, const std::vector<CellView<double>>& shares) {
+  constexpr double roundOff = 1e-12;
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    double sum = 0;
+    for (const CellView<double>& share : shares) sum += share[cell];
+    if (std::abs(sum - 1) > roundOff)
+      for (const CellView<double>& share : shares) share[cell] /= sum;
+  });
+}
+
+template <int D>
+void mendNewMixture(const Patch&, const std::vector<Settings>& gases, const std::vector<Box>& newCells,
+                    const ChangedState<D>& state, const std::vector<ChangedGas>& held) {
+  const auto isFine = [&](const Index<D>& cell) {
+    for (const ChangedGas& one : held)
+      if (one.mass[cell] < 0 || one.share[cell] < 0) return false;
+    return isPossible<D, ChangedGas, double>(gases, held, state, cell);
+  };
+  const auto close = [&](const Index<D>& cell) {
+    double shares = 0, masses = 0;
+    for (const ChangedGas& one : held) shares += one.share[cell], masses += one.mass[cell];
+    for (const ChangedGas& one : held) one.share[cell] /= shares;
+    state.density[cell] = masses;
+  };
+  for (const Box& box : newCells)
+    forEach<D>(box.coarsened(D), [&](const Index<D>& parent) {
+      const Children<D> children(parent);
+      children.forEach(close);
+      if (children.areAll(isFine)) return;
+      children.setToMean(state.density);
+      children.setToMean(state.momentum);
+      children.setToMean(state.totalEnergy);
+      for (const ChangedGas& one : held) children.setToMean(one.mass), children.setToMean(one.share);
+    });
+}
+
+template <int D>
 void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, double cfl, const OldState<D>& old,
                       const std::vector<OldGas>& held, Minimum& dt) {
   refuseBrokenMixture<D, OldGas, const double>(patch, gases, held, old);
@@ -89,14 +141,15 @@ void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, do
   if (greatest > 0) dt.add(cfl / greatest, "CFL");
 }
 
-template AdvanceMixture<1> chooseAdvanceMixture<1>(const Method&, std::size_t);
-template AdvanceMixture<2> chooseAdvanceMixture<2>(const Method&, std::size_t);
-template AdvanceMixture<3> chooseAdvanceMixture<3>(const Method&, std::size_t);
-template void limitMixtureStep<1>(const Patch&, const std::vector<Settings>&, double, const OldState<1>&,
-                                  const std::vector<OldGas>&, Minimum&);
-template void limitMixtureStep<2>(const Patch&, const std::vector<Settings>&, double, const OldState<2>&,
-                                  const std::vector<OldGas>&, Minimum&);
-template void limitMixtureStep<3>(const Patch&, const std::vector<Settings>&, double, const OldState<3>&,
-                                  const std::vector<OldGas>&, Minimum&);
+#define TUSHAR_MIXTURE(D)                                                                                         \
+  template AdvanceMixture<D> chooseAdvanceMixture<D>(const Method&, std::size_t);                                 \
+  template void closeShares<D>(const Patch&, const std::vector<Settings>&, const std::vector<CellView<double>>&); \
+  template void mendNewMixture<D>(const Patch&, const std::vector<Settings>&, const std::vector<Box>&,            \
+                                  const ChangedState<D>&, const std::vector<ChangedGas>&);                        \
+  template void limitMixtureStep<D>(const Patch&, const std::vector<Settings>&, double, const OldState<D>&,       \
+                                    const std::vector<OldGas>&, Minimum&);
+TUSHAR_MIXTURE(1)
+TUSHAR_MIXTURE(2)
+TUSHAR_MIXTURE(3)
 
 }  // namespace tushar::euler

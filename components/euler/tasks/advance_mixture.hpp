@@ -37,7 +37,8 @@ MixedGas mixedAt(const std::vector<Settings>& gases, const std::vector<Held>& he
 template <int D>
 using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>& gases, const OldState<D>& old,
                                 const std::vector<OldGas>& oldGases, double time, double dt, const NewState<D>& fresh,
-                                const std::vector<NewGas>& newGases);
+                                const std::vector<NewGas>& newGases, const RimFluxes<D>& rims,
+                                const std::vector<GasRims>& gasRims);
 
 /// The greatest number of gases.
 inline constexpr int kMostGases = 3;
@@ -45,6 +46,26 @@ inline constexpr int kMostGases = 3;
 /// The body for a method and a number of gases: HLLC's flux, van Leer's slopes or none.
 template <int D>
 AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
+
+/// Where fluxes through the rim of a level were corrected, shares no longer add up to 1: it is as if the cell had got
+/// wider. Divides them by their sum, which is what the flux of volume is corrected by. Others stay as they are.
+template <int D>
+void closeShares(const Patch& patch, const std::vector<Settings>& gases, const std::vector<CellView<double>>& shares);
+
+/// What a regridding changes of each of several gases.
+struct ChangedGas {
+  CellView<double> mass, share;
+
+  static ChangedGas from(auto& take) {
+    return {.mass = take(modifies(c::gasMass)), .share = take(modifies(c::gasShare))};
+  }
+};
+/// As mendNewCells for several gases: the numbers of new cells are interpolated each by itself, so that the density is
+/// to be the sum of the masses again, and the shares are to be 1 together. Where that makes no gas, all children of a
+/// cell get their means.
+template <int D>
+void mendNewMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& newCells,
+                    const ChangedState<D>& state, const std::vector<ChangedGas>& held);
 
 /// dt = cfl / max(sum_d (|v_d| + c) / h_d), with rho c² = (p (1 + G) + S) / G.
 /// Throws NumericalError where a state is impossible.

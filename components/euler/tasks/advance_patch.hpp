@@ -146,6 +146,13 @@ void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D, K>&
   });
   rims.energy.template forEachFaceIn<D>(
       faces, axis, [&](const Index<D>& face, double& through) { through += at(face, kPressure<D>); });
+  if constexpr (K > 1)
+    for (int k = 0; k < K; ++k) {
+      rims.gases[k].mass.template forEachFaceIn<D>(
+          faces, axis, [&](const Index<D>& face, double& through) { through += at(face, kMass<D>(k)); });
+      rims.gases[k].share.template forEachFaceIn<D>(
+          faces, axis, [&](const Index<D>& face, double& through) { through += at(face, kShare<D, K>(k)); });
+    }
 }
 
 template <int D, class Flux, class Shape, int Axis, class G>

@@ -6,33 +6,57 @@
 
 namespace tushar::euler {
 
+/// The children of a cell that has become finer.
+template <int D>
+class Children {
+ public:
+  explicit Children(const Index<D>& parent) : parent_(parent) {}
+
+  template <class Visit>
+  void forEach(Visit&& visit) const {
+    for (int k = 0; k < number; ++k) visit(at(k));
+  }
+  template <class Test>
+  bool areAll(Test&& test) const {
+    bool all = true;
+    forEach([&](const Index<D>& cell) { all = all && test(cell); });
+    return all;
+  }
+  /// Gives all their mean, which is the value of the parent.
+  template <class View>
+  void setToMean(const View& values) const {
+    auto sum = values[at(0)];
+    for (int k = 1; k < number; ++k) sum += values[at(k)];
+    for (int k = 0; k < number; ++k) values[at(k)] = sum / number;
+  }
+
+ private:
+  static constexpr int number = 1 << D;
+
+  Index<D> at(int k) const {
+    Index<D> cell;
+    for (int d = 0; d < D; ++d) cell[d] = 2 * parent_[d] + ((k >> d) & 1);
+    return cell;
+  }
+
+  Index<D> parent_;
+};
+
 /// Density, momentum and energy of new cells are interpolated each by itself, so that beside a jump the pressure of
 /// one could be below -p_inf, though that of its parent is not. There all children of the parent get their mean, which
 /// is its state: nothing is lost. `newCells`: boxes of whole parents.
 template <int D>
 void mendNewCells(const Patch&, const Gas& gas, const std::vector<Box>& newCells, const ChangedState<D>& state) {
-  constexpr int children = 1 << D;
+  const auto isFine = [&](const Index<D>& cell) {
+    return canBe<D>(gas, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1);
+  };
   for (const Box& box : newCells)
     forEach<D>(box.coarsened(D), [&](const Index<D>& parent) {
-      const auto child = [&](int k) {
-        Index<D> cell;
-        for (int d = 0; d < D; ++d) cell[d] = 2 * parent[d] + ((k >> d) & 1);
-        return cell;
-      };
-      const auto isFine = [&](const Index<D>& cell) {
-        return canBe<D>(gas, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1);
-      };
-      bool areFine = true;
-      for (int k = 0; k < children; ++k) areFine = areFine && isFine(child(k));
-      if (areFine) return;
-      const auto setToMean = [&](const auto& values) {
-        auto sum = values[child(0)];
-        for (int k = 1; k < children; ++k) sum += values[child(k)];
-        for (int k = 0; k < children; ++k) values[child(k)] = sum / children;
-      };
-      setToMean(state.density);
-      setToMean(state.momentum);
-      setToMean(state.totalEnergy);
+      const Children<D> children(parent);
+      if (children.areAll(isFine)) return;
+      children.setToMean(state.density);
+      children.setToMean(state.momentum);
+      children.setToMean(state.totalEnergy);
     });
 }
 

@@ -22,10 +22,9 @@ void checkSubstance(const GasMaterial& material, const Element& element, Diagnos
   if (kind != EquationOfState::Kind::ideal && kind != EquationOfState::Kind::stiffened)
     diagnostics.error(*element.child("EOS"),
                       "is not available beside a second gas: several gases are of type ideal_gas or stiffened_gas");
-  for (const auto& [tag, value] :
-       {std::pair("dynamic_viscosity", material.viscosity), std::pair("thermal_conductivity", material.conductivity)})
-    if (value > 0)
-      diagnostics.error(*element.child(tag), "is not available beside a second gas: set it to 0, or keep one gas");
+  if (material.varying.varies())
+    diagnostics.error(*element.child("dynamicViscosityModels"),
+                      "is not available beside a second gas: give <dynamic_viscosity>, or keep one gas");
 }
 
 /// Each pair of gases has one velocity; heat flows between them at once, or not at all.
@@ -46,19 +45,58 @@ void checkExchange(const GasScene& scene, const Element& root, Diagnostics& diag
   check(scene.exchange->heat, "heat", true, "it is 1e9 or more, or 0");
 }
 
-/// Sides have the conditions of all gases: a velocity and a pressure, but no composition.
+/// The Dirichlet value of a variable at a face, if it has one.
+std::optional<std::string> givenAt(const Element& face, const grid::BoundaryVariable& label) {
+  for (const Element& condition : face.children("BCType"))
+    if (condition.attribute("label") == label.name && condition.attribute("var") == nameOf(BoundaryKind::dirichlet))
+      if (const auto value = condition.child("value")) return value->text();
+  return {};
+}
+
+/// Whether no gas flows through a face: a velocity in it, and nothing else, is given.
+bool isWall(const Element& face) {
+  const auto given = givenAt(face, euler::boundary::velocity);
+  if (!given || givenAt(face, euler::boundary::pressure) || givenAt(face, euler::boundary::density)) return false;
+  const auto velocity = input::parse<Vec3>(*given).value;
+  for (const char* shape : {"side", "circle", "annulus", "ellipse", "rectangle", "rectangulus"})
+    if (const auto side = face.attribute(shape); side && velocity)
+      return (*velocity)[std::string("xyz").find(side->front())] == 0;
+  return false;
+}
+
+void checkSide(const Element& face, const Element& condition, Diagnostics& diagnostics) {
+  const std::string label = condition.attribute("label").value_or(""), id = condition.attribute("id").value_or("all");
+  const std::string var = condition.attribute("var").value_or("");
+  const bool isGiven = var == nameOf(BoundaryKind::dirichlet);
+  const bool saysWhat =
+      label == euler::boundary::density.name || (label == euler::boundary::temperature.name && !isWall(face));
+  if (var == euler::boundary::waves.name)
+    diagnostics.error(condition.whereOf("var"), condition.path(),
+                      "LODI is not available where there are several gases: give Neumann, or a Pressure");
+  else if (isGiven && saysWhat)
+    diagnostics.error(condition,
+                      "Dirichlet is not available where there are several gases: what flows in is the gas beside "
+                      "the side; give a Velocity or a Pressure, or Neumann");
+  else if ((isGiven || var == nameOf(BoundaryKind::symmetry)) && id != "all" && label != euler::boundary::pressure.name)
+    diagnostics.error(condition.whereOf("id"), condition.path(),
+                      fmt::format("found '{}', expected all: several gases have one velocity", id));
+}
+
+/// Sides have the conditions of all gases: a velocity and a pressure, and walls a temperature, but no composition.
 void checkSides(const Element& root, Diagnostics& diagnostics) {
-  for (const Element& condition : simulation::boundaryConditions(root)) {
-    const std::string label = condition.attribute("label").value_or(""), id = condition.attribute("id").value_or("all");
-    const bool isGiven = condition.attribute("var") == nameOf(BoundaryKind::dirichlet);
-    if (isGiven && (label == euler::boundary::density.name || label == euler::boundary::temperature.name))
-      diagnostics.error(condition,
-                        "Dirichlet is not available where there are several gases: what flows in is the gas beside "
-                        "the side; give a Velocity or a Pressure, or Neumann");
-    else if ((isGiven || condition.attribute("var") == "symmetry") && id != "all" &&
-             label != euler::boundary::pressure.name)
-      diagnostics.error(condition.whereOf("id"), condition.path(),
-                        fmt::format("found '{}', expected all: several gases have one velocity", id));
+  const auto group = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
+  for (const Element& face : group ? group->children("Face") : std::vector<Element>())
+    for (const Element& condition : face.children("BCType")) checkSide(face, condition, diagnostics);
+}
+
+void checkExchangesOfMass(const GasScene& scene, Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const euler::Settings& gas : scene.mixture) names.push_back(gas.name);
+  for (const MassExchange& one : scene.massExchanges) {
+    for (const std::string& name : {one.from, one.to})
+      if (const std::string problem = input::choiceProblem(name, names); !problem.empty())
+        diagnostics.error(one.where, "Models/Model/Test", problem);
+    if (one.from == one.to) diagnostics.error(one.where, "Models/Model/Test", "a gas cannot become itself");
   }
 }
 
@@ -80,6 +118,7 @@ void checkMixture(const std::vector<GasMaterial>& materials, const Element& root
     diagnostics.error(scene.scalars.front().where, "Models/Model",
                       "is not available with several gases; take it out, or keep one gas");
   checkExchange(scene, root, diagnostics);
+  checkExchangesOfMass(scene, diagnostics);
   checkSides(root, diagnostics);
 }
 

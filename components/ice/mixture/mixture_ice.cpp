@@ -1,15 +1,38 @@
 #include "components/ice/mixture/mixture_ice.hpp"
 
-#include "components/euler/euler.hpp"
 #include "components/euler/tasks/add_gravity.hpp"
 #include "components/ice/diagnose.hpp"
 #include "components/ice/uintah_words.hpp"
 
 namespace tushar::ice {
 
+namespace {
+
+/// The gases that a scene names for exchanges of mass, by their numbers.
+std::vector<Transfer> transfersOf(const GasScene& scene) {
+  const auto numberOf = [&](const std::string& name) {
+    const auto isIt = [&](const euler::Settings& gas) { return gas.name == name; };
+    return static_cast<std::size_t>(std::find_if(scene.mixture.begin(), scene.mixture.end(), isIt) -
+                                    scene.mixture.begin());
+  };
+  std::vector<Transfer> transfers;
+  for (const MassExchange& one : scene.massExchanges)
+    transfers.push_back({numberOf(one.from), numberOf(one.to), one.rate, one.startTime});
+  return transfers;
+}
+
+}  // namespace
+
 template <int D>
-MixtureIce<D>::MixtureIce(const GasScene& scene)
-    : method_(scene.gas.method), cfl_(scene.gas.cfl), gravity_(scene.gravity), gases_(scene.mixture) {
+MixtureIce<D>::MixtureIce(const GasScene& scene, bool hasLevels)
+    : method_(scene.gas.method),
+      cfl_(scene.gas.cfl),
+      gravity_(scene.gravity),
+      push_(scene.push),
+      gases_(scene.mixture),
+      diffusion_{scene.diffusions, scene.varying.smagorinsky},
+      transfers_(transfersOf(scene)),
+      hasLevels_(hasLevels) {
   for (const euler::Settings& gas : gases_) totals_.push_back(std::make_shared<const GasTotal>(gas.name));
 }
 
@@ -23,6 +46,10 @@ template <int D>
 void MixtureIce<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   tasks.acrossMaterials("ice::limitMixtureStep", euler::limitMixtureStep<D>, gases_, with(cfl_),
                         withoutMaterial(all<euler::OldState<D>>(0)), all<euler::OldGas>(0), computes(delT));
+  if (diffusion_.acts())
+    tasks.acrossMaterials("ice::limitMixtureDiffusion", limitMixtureDiffusion<D>, gases_, with(diffusion_), with(cfl_),
+                          withoutMaterial(all<euler::OldState<D>>(1)), all<euler::OldGas>(1), startTime(),
+                          computes(delT));
 }
 
 template <int D>
@@ -30,10 +57,31 @@ void MixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
   const int ghost = euler::reach(method_);
   tasks.acrossMaterials("ice::advanceMixture", euler::chooseAdvanceMixture<D>(method_, gases_.size()), gases_,
                         withoutMaterial(all<euler::OldState<D>>(ghost)), all<euler::OldGas>(ghost), startTime(),
-                        requiresOld(delT), withoutMaterial(all<euler::NewState<D>>()), all<euler::NewGas>());
+                        requiresOld(delT), withoutMaterial(all<euler::NewState<D>>()), all<euler::NewGas>(),
+                        withoutMaterial(all<euler::RimFluxes<D>>(false)), all<euler::GasRims>());
+  if (hasLevels_)
+    tasks.acrossMaterials("ice::closeShares", euler::closeShares<D>, gases_, modifies(euler::c::gasShare));
+  for (const Transfer& one : transfers_)
+    tasks.acrossMaterials("ice::transferMass", transferMass<D>, gases_, with(one), startTime(), requiresOld(delT),
+                          all<euler::ChangedGas>());
+  if (diffusion_.acts())
+    tasks.acrossMaterials("ice::addMixtureDiffusion", addMixtureDiffusion<D>, gases_, with(diffusion_),
+                          withoutMaterial(all<euler::OldState<D>>(1)), all<euler::OldGas>(1), startTime(),
+                          requiresOld(delT), withoutMaterial(modifies(euler::c::momentum<D>)),
+                          withoutMaterial(modifies(euler::c::totalEnergy)),
+                          withoutMaterial(all<euler::DiffusionRims<D>>()));
+  if (!push_.isZero(0))
+    tasks.perPatch("euler::addForce", euler::addForce<D>, with(push_), requiresNew(euler::c::density),
+                   requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
   if (!gravity_.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(gravity_), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
+}
+
+template <int D>
+void MixtureIce<D>::scheduleRefine(TaskList& tasks) const {
+  tasks.acrossMaterials("euler::mendNewMixture", euler::mendNewMixture<D>, gases_, newCells(),
+                        withoutMaterial(all<euler::ChangedState<D>>()), all<euler::ChangedGas>());
 }
 
 template <int D>

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "components/euler/euler.hpp"
 #include "components/ice/gas_input.hpp"
+#include "components/ice/mixture/diffusion.hpp"
+#include "components/ice/mixture/exchange_mass.hpp"
 #include "components/ice/mixture/tasks.hpp"
 
 namespace tushar::ice {
@@ -24,7 +27,8 @@ class GasTotal {
 template <int D>
 class MixtureIce : public Component, public reference::GasSolution {
  public:
-  explicit MixtureIce(const GasScene& scene);
+  /// `hasLevels`: whether the grid may have several levels.
+  MixtureIce(const GasScene& scene, bool hasLevels);
 
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
@@ -33,7 +37,8 @@ class MixtureIce : public Component, public reference::GasSolution {
   std::string advice() const override { return "a smaller CFD/cfl, or CFD/ICE/advection of type FirstOrder"; }
   std::vector<std::string> foreignLabels() const override;
   simulation::OtherNames otherNames() const override;
-  std::string whyOneLevel() const override { return "shares of several gases are not exchanged between levels"; }
+  void scheduleRefine(TaskList& tasks) const override;
+  std::vector<simulation::Criterion> criteria() const override { return euler::criteria<D>(); }
   std::vector<reference::GasLaw> gases() const override;
   void scheduleMeasureError(TaskList& tasks, const reference::GasReference& exact,
                             const reference::Clock& clock) const override;
@@ -42,8 +47,11 @@ class MixtureIce : public Component, public reference::GasSolution {
  private:
   euler::Method method_;
   double cfl_;
-  Vec3 gravity_;
+  Vec3 gravity_, push_;
   Gases gases_;
+  MixtureDiffusion diffusion_;
+  std::vector<Transfer> transfers_;
+  bool hasLevels_;
   std::vector<std::shared_ptr<const GasTotal>> totals_;
 };
 

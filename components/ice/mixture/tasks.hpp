@@ -85,16 +85,21 @@ void computeMixedMach(const Patch& patch, const Gases& gases, const euler::OldSt
 
 /// T [K], the same of all gases of a cell: rho e = sum of m_k c_v,k T + z_k p_inf,k.
 template <int D>
+double temperatureAt(const Gases& gases, const euler::OldState<D>& state, const std::vector<euler::OldGas>& held,
+                     const Index<D>& cell) {
+  double heat = euler::internalEnergyIn<D, const double>(state, cell), capacity = 0;
+  for (std::size_t k = 0; k < gases.size(); ++k) {
+    heat -= held[k].share[cell] * gases[k].gas.pInfinity;
+    capacity += held[k].mass[cell] * gases[k].gas.specificHeat;
+  }
+  return heat / capacity;
+}
+
+template <int D>
 void computeMixedTemperature(const Patch& patch, const Gases& gases, const euler::OldState<D>& state,
                              const std::vector<euler::OldGas>& held, CellView<double> temperature) {
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    double heat = euler::internalEnergyIn<D, const double>(state, cell), capacity = 0;
-    for (std::size_t k = 0; k < gases.size(); ++k) {
-      heat -= held[k].share[cell] * gases[k].gas.pInfinity;
-      capacity += held[k].mass[cell] * gases[k].gas.specificHeat;
-    }
-    temperature[cell] = heat / capacity;
-  });
+  forEach<D>(patch.cells(),
+             [&](const Index<D>& cell) { temperature[cell] = temperatureAt<D>(gases, state, held, cell); });
 }
 
 /// Mass of each gas over its own volume. Less than a millionth of a cell is round-off, or all but.

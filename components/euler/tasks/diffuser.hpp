@@ -1,0 +1,154 @@
+#pragma once
+
+#include <numeric>
+
+#include "components/euler/boundary.hpp"
+#include "components/euler/tasks/diffusive_flux.hpp"
+#include "components/euler/varying_diffusion.hpp"
+
+namespace tushar::euler {
+
+/// What diffuses in a cell, and how.
+template <int D>
+struct DiffusingCell {
+  State<D> w{};             ///< T in the place of the density, and v
+  Diffusion how;            ///< without eddies
+  double density = 0;       ///< kg/m³
+  double specificHeat = 0;  ///< c_v, J/(kg K)
+  double soundSpeed = 0;    ///< m/s
+};
+
+/// The diffusive fluxes of blocks of cells whose viscosity and conduction differ: through a face flows what the mean of
+/// both cells' coefficients lets through. Eddies smaller than cells add rho (C Delta)² sqrt(2 S : S) to the viscosity,
+/// S the symmetric part of grad v at the face and Delta the cubic root of a cell's volume.
+/// Source: J. Smagorinsky, Mon. Weather Rev. 91 (1963) 99.
+template <int D>
+class Diffuser {
+ public:
+  /// Room for blocks of a patch; the rules at the sides outlive this.
+  Diffuser(const Level& level, const Box& cells, const GhostRules<D>& rules, double eddies)
+      : level_(level),
+        rules_(rules),
+        eddies_(eddies * eddies * std::pow(level.cellVolume(), 2.0 / 3)),
+        w_(largestBlock<D>(cells).grown(1, D).size()),
+        coefficients_(w_),
+        flux_(w_) {
+    for (auto& sides : mirrors_)
+      for (SideRules<D>& mirror : sides) {
+        mirror.mirrored = true;
+        mirror.factor.fill(1);
+        mirror.value.fill(0);
+      }
+  }
+
+  /// From now on the cells of `block`, of which `cellAt(cell)` gives each and those around it.
+  template <class CellAt>
+  void hold(const Box& block, CellAt&& cellAt) {
+    for (Rows<D>* rows : {&w_, &coefficients_, &flux_}) rows->hold(block.grown(1, D));
+    forEach<D>(level_.clipCells(w_.box()), [&](const Index<D>& cell) {
+      const DiffusingCell<D> one = cellAt(cell);
+      State<D> coefficients{};
+      coefficients[viscosity] = one.how.viscosity;
+      coefficients[conductivity] = one.how.conductivity;
+      coefficients[density] = one.density;
+      store<D>(w_.at(cell), 0, one.w);
+      store<D>(coefficients_.at(cell), 0, coefficients);
+    });
+    fillBeyondGrid<D>(level_, rules_, w_);
+    fillBeyondGrid<D>(level_, mirrors_, coefficients_);
+  }
+  /// The fluxes through the lower faces of `faces` across an axis, Pa and W/m².
+  Rows<D>& computeFluxes(const Box& faces, int axis) {
+    const Spacing<D> spacing(level_, w_);
+    forEach<D>(faces, [&](const Index<D>& face) {
+      store<D>(flux_.at(face), 0, diffusiveFluxAt<D>(atFace(face, axis), w_.at(face), spacing, axis, 0));
+    });
+    return flux_;
+  }
+  /// Viscosity and conductivity at a face.
+  Diffusion atFace(const Index<D>& face, int axis) const {
+    const Index<D> below = face - Index<D>::unit(axis);
+    const auto mean = [&](std::size_t k) {
+      return 0.5 * (coefficients_.number(below, k) + coefficients_.number(face, k));
+    };
+    Diffusion here{mean(viscosity), mean(conductivity)};
+    if (eddies_ > 0) here.viscosity += mean(density) * eddies_ * strain(face, axis);
+    return here;
+  }
+
+ private:
+  /// The numbers of a cell's coefficients.
+  enum : std::size_t { viscosity, conductivity, density };
+
+  /// sqrt(2 S : S) at a face [1/s].
+  double strain(const Index<D>& face, int axis) const {
+    const Index<D> below = face - Index<D>::unit(axis);
+    double gradient[D][D];
+    for (int k = 0; k < D; ++k)
+      for (int d = 0; d < D; ++d) {
+        const auto v = [&](const Index<D>& cell) { return w_.number(cell, kVelocity(k)); };
+        const Index<D> step = Index<D>::unit(d);
+        const double rise = d == axis
+                                ? v(face) - v(below)
+                                : 0.25 * ((v(face + step) - v(face - step)) + (v(below + step) - v(below - step)));
+        gradient[k][d] = rise * level_.inverseSpacing(d);
+      }
+    double sum = 0;
+    for (int k = 0; k < D; ++k)
+      for (int d = 0; d < D; ++d) {
+        const double s = 0.5 * (gradient[k][d] + gradient[d][k]);
+        sum += s * s;
+      }
+    return std::sqrt(2 * sum);
+  }
+
+  const Level& level_;
+  const GhostRules<D>& rules_;
+  GhostRules<D> mirrors_;
+  double eddies_;
+  Rows<D> w_, coefficients_, flux_;
+};
+
+/// Adds what diffuses in a step in the cells of a patch, as addDiffusion does where nothing varies.
+template <int D, class CellAt>
+void diffuse(const Patch& patch, Diffuser<D>& diffuser, double dt, CellAt&& cellAt, CellView<Vec<D>> momentum,
+             CellView<double> totalEnergy, const DiffusionRims<D>& rims) {
+  forEachBlock<D>(patch.cells(), [&](const Box& block) {
+    diffuser.hold(block, cellAt);
+    for (int axis = 0; axis < D; ++axis) {
+      Box faces = block;
+      ++faces.upper[axis];
+      Rows<D>& flux = diffuser.computeFluxes(faces, axis);
+      keepDiffused<D>(rims, faces, axis, flux);
+      addDiffused<D>(dt / patch.level().spacing(axis), block, axis, flux, momentum, totalEnergy);
+    }
+  });
+}
+
+/// The greatest sum_d (|v_d| + k c) / h_d + (nu_below + nu_above) / h_d² of the patch [1/s], nu the greatest
+/// diffusivity at a face, k the part of the speed of sound that counts.
+template <int D, class CellAt>
+double greatestDiffusionRate(const Patch& patch, Diffuser<D>& diffuser, double soundSpeedKnob, CellAt&& cellAt) {
+  const Level& level = patch.level();
+  double greatest = 0;
+  forEachBlock<D>(patch.cells(), [&](const Box& block) {
+    diffuser.hold(block, cellAt);
+    forEach<D>(block, [&](const Index<D>& cell) {
+      const DiffusingCell<D> here = cellAt(cell);
+      double rate = 0;
+      for (int d = 0; d < D; ++d) {
+        const double perWidth = level.inverseSpacing(d);
+        rate += (std::abs(here.w[kVelocity(d)]) + soundSpeedKnob * here.soundSpeed) * perWidth;
+        for (const Index<D>& face : {cell, cell + Index<D>::unit(d)}) {
+          const Diffusion how = diffuser.atFace(face, d);
+          const double heat = how.conductivity > 0 ? how.conductivity / here.specificHeat : 0;
+          rate += std::max(4.0 / 3 * how.viscosity, heat) / here.density * perWidth * perWidth;
+        }
+      }
+      greatest = std::max(greatest, rate);
+    });
+  });
+  return greatest;
+}
+
+}  // namespace tushar::euler

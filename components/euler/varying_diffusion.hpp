@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "components/euler/diffusion.hpp"
+#include "core/base/vec.hpp"
+
+namespace tushar::euler {
+
+/// A viscosity that rises with the temperature: mu = a T^(3/2) / (T + b).
+/// Source: W. Sutherland, Phil. Mag. 36 (1893) 507.
+struct Sutherland {
+  double a = 0;  ///< Pa s / sqrt(K)
+  double b = 0;  ///< K
+
+  double viscosity(double temperature) const {
+    return a * temperature * std::sqrt(std::max(temperature, 0.0)) / (temperature + b);
+  }
+};
+
+/// A box in which the gas has another viscosity, as one that swallows waves before a side of the grid.
+struct SpongeLayer {
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< m
+  double viscosity = 0;                             ///< Pa s
+
+  bool contains(const Vec3& point) const {
+    return (point.array() >= lower.array()).all() && (point.array() <= upper.array()).all();
+  }
+};
+
+/// Viscosity and conduction that differ from place to place, or with the flow.
+struct VaryingDiffusion {
+  Diffusion uniform = {};                     ///< where nothing of the rest holds
+  std::optional<Sutherland> sutherland = {};  ///< in place of the uniform viscosity
+  std::vector<SpongeLayer> sponges = {};      ///< in place of both; the last one counts
+  double smagorinsky = 0;                     ///< C of eddies: mu + rho (C Delta)² sqrt(2 S : S)
+
+  bool varies() const { return sutherland || !sponges.empty() || smagorinsky > 0; }
+  /// That of the gas at a point [m] with a temperature [K], without eddies.
+  Diffusion at(const Vec3& point, double temperature) const {
+    Diffusion here = uniform;
+    if (sutherland) here.viscosity = sutherland->viscosity(temperature);
+    for (const SpongeLayer& sponge : sponges)
+      if (sponge.contains(point)) here.viscosity = sponge.viscosity;
+    return here;
+  }
+};
+
+}  // namespace tushar::euler

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include "components/euler/labels.hpp"
+#include "components/ice/gas_input.hpp"
+#include "core/input/expression.hpp"
+#include "core/input/schema.hpp"
+
+// Conditions at sides of the grid in words of Uintah's ICE.
+
+namespace tushar::ice {
+
+using grid::BoundaryCondition;
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+namespace {
+
+constexpr const char *wavesTag = "LODI", *sineTag = "SINE_BC", *sineVar = "Sine", *slipVar = "FreeSlipWall";
+
+/// `LODI`: a side that lets waves out.
+struct WavesSection {
+  double farPressure = 0, sigma = 0;
+};
+
+const Schema<WavesSection>& wavesSchema() {
+  static const Schema<WavesSection> schema = [] {
+    Schema<WavesSection> tags(wavesTag, "Sides that let waves out, where Pressure and Velocity have var LODI.");
+    tags.required("press_infinity", &WavesSection::farPressure, "Pa", "the pressure far away, to which the gas goes",
+                  input::positive())
+        .value("sigma", &WavesSection::sigma, 0.27, "1",
+               "how fast: at sigma (1 - M^2) c over the grid's length; 0: not at all", input::nonNegative())
+        .ignored("material", "there is one gas")
+        .ignored("Li_scale", "all waves count in full");
+    return tags;
+  }();
+  return schema;
+}
+
+/// `SINE_BC`: what swings at a side.
+struct SineSection {
+  double omega = 0, amplitude = 0, pressure = 0;
+  Vec3 velocity = Vec3::Zero();
+};
+
+const Schema<SineSection>& sineSchema() {
+  static const Schema<SineSection> schema =
+      Schema<SineSection>(sineTag, "Pressures or velocities at sides that swing: r + A sin(omega t), var Sine.")
+          .required("omega", &SineSection::omega, "1/s", "2 pi times the frequency")
+          .required("A", &SineSection::amplitude, "Pa or m/s", "the amplitude")
+          .value("reference_pressure", &SineSection::pressure, 0, "Pa", "r of a Pressure")
+          .value("reference_velocity", &SineSection::velocity, Vec3::Zero(), "m/s",
+                 "r of a Velocity; components of 0 do not swing");
+  return schema;
+}
+
+/// The section of BoundaryConditions that a condition needs, as its schema reads it.
+template <class S>
+std::optional<S> sectionOf(const Schema<S>& schema, const Element& sides, const Element& condition,
+                           Diagnostics& diagnostics) {
+  const auto given = sides.child(schema.name());
+  if (!given) {
+    diagnostics.error(condition, fmt::format("needs a <{}> in <BoundaryConditions>", schema.name()));
+    return {};
+  }
+  const std::size_t before = diagnostics.size();
+  S read = schema.read(*given, diagnostics);
+  return diagnostics.size() == before ? std::optional(std::move(read)) : std::nullopt;
+}
+
+std::vector<BoundaryCondition> readWaves(const std::string& label, const Element& sides, const Element& condition,
+                                         Diagnostics& diagnostics) {
+  const auto section = sectionOf(wavesSchema(), sides, condition, diagnostics);
+  // Whatever else has LODI goes with the waves.
+  if (!section || label != euler::boundary::pressure.name) return {};
+  BoundaryCondition waves{euler::boundary::waves, BoundaryKind::dirichlet};
+  waves.value = Vec3(section->farPressure, section->sigma, 0);
+  return {waves};
+}
+
+input::Expression swing(double middle, const SineSection& sine) {
+  return *input::Expression::parse(
+              fmt::format("{:.17g} + {:.17g} * sin({:.17g} * t)", middle, sine.amplitude, sine.omega))
+              .value;
+}
+
+std::vector<BoundaryCondition> readSine(const std::string& label, const Element& sides, const Element& condition,
+                                        Diagnostics& diagnostics) {
+  const auto section = sectionOf(sineSchema(), sides, condition, diagnostics);
+  if (!section || label == euler::boundary::temperature.name) return {};  // it follows from pressure and density
+  if (label == euler::boundary::pressure.name) {
+    BoundaryCondition one{euler::boundary::pressure, BoundaryKind::dirichlet};
+    one.formula = std::make_shared<const input::VectorExpression>(
+        std::array{swing(section->pressure, *section), input::Expression(), input::Expression()});
+    return {one};
+  }
+  if (label == euler::boundary::velocity.name) {
+    BoundaryCondition one{euler::boundary::velocity, BoundaryKind::dirichlet};
+    std::array<input::Expression, 3> components;
+    for (int axis = 0; axis < 3; ++axis)
+      if (section->velocity[axis] != 0) components[axis] = swing(section->velocity[axis], *section);
+    one.formula = std::make_shared<const input::VectorExpression>(components);
+    return {one};
+  }
+  diagnostics.error(condition.whereOf("var"), condition.path(),
+                    "var: 'Sine' is for a Pressure, a Velocity or a Temperature");
+  return {};
+}
+
+std::vector<BoundaryCondition> readSlip(const std::string& label, const Element& condition, Diagnostics& diagnostics) {
+  if (label == euler::boundary::velocity.name) return {{grid::symmetric, BoundaryKind::symmetry}};
+  diagnostics.error(condition.whereOf("var"), condition.path(), "var: 'FreeSlipWall' is for a Velocity");
+  return {};
+}
+
+std::vector<BoundaryCondition> readCondition(const Element& sides, const Element& condition, Diagnostics& diagnostics) {
+  const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
+  if (var == slipVar) return readSlip(label, condition, diagnostics);
+  if (var == sineVar) return readSine(label, sides, condition, diagnostics);
+  return readWaves(label, sides, condition, diagnostics);
+}
+
+}  // namespace
+
+simulation::ConditionWords gasConditionWords() {
+  return {.vars = {wavesTag, sineVar, slipVar},
+          .sections = {{wavesTag, &wavesSchema(), false}, {sineTag, &sineSchema(), false}},
+          .read = readCondition};
+}
+
+}  // namespace tushar::ice

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "components/euler/tasks/diffuser.hpp"
+#include "components/ice/mixture/tasks.hpp"
+
+namespace tushar::ice {
+
+/// How several gases diffuse: each has its viscosity and conductivity, and a cell has their mean by their shares.
+struct MixtureDiffusion {
+  std::vector<euler::Diffusion> of;  ///< each gas
+  double smagorinsky = 0;            ///< C of eddies smaller than cells
+
+  bool acts() const {
+    return smagorinsky > 0 || std::any_of(of.begin(), of.end(), [](const euler::Diffusion& one) { return one.acts(); });
+  }
+};
+
+/// The cells of several gases as they diffuse.
+template <int D>
+auto diffusingMixture(const Gases& gases, const MixtureDiffusion& how, const euler::OldState<D>& state,
+                      const std::vector<euler::OldGas>& held) {
+  return [&, state](const Index<D>& cell) {
+    const MixedCell mixed = MixedCell::of<D>(gases, state, held, cell);
+    euler::DiffusingCell<D> one;
+    double capacity = 0;
+    for (std::size_t k = 0; k < gases.size(); ++k) {
+      capacity += held[k].mass[cell] * gases[k].gas.specificHeat;
+      one.how.viscosity += held[k].share[cell] * how.of[k].viscosity;
+      one.how.conductivity += held[k].share[cell] * how.of[k].conductivity;
+    }
+    one.w[euler::kTemperature] = temperatureAt<D>(gases, state, held, cell);
+    for (int d = 0; d < D; ++d) one.w[euler::kVelocity(d)] = state.momentum[cell][d] / mixed.density;
+    one.density = mixed.density;
+    one.specificHeat = capacity / mixed.density;
+    one.soundSpeed = mixed.soundSpeed();
+    return one;
+  };
+}
+
+/// Adds what viscosity and conduction change in a step in several gases, as euler::addDiffusion does in one. Walls
+/// have the conditions of all gases.
+template <int D>
+void addMixtureDiffusion(const Patch& patch, const Gases& gases, const MixtureDiffusion& how,
+                         const euler::OldState<D>& state, const std::vector<euler::OldGas>& held, double time,
+                         double dt, CellView<Vec<D>> momentum, CellView<double> totalEnergy,
+                         const euler::DiffusionRims<D>& rims) {
+  const euler::GhostRules<D> rules = euler::diffusionRules<D>(patch.level(), gases.front().gas, time);
+  euler::Diffuser<D> diffuser(patch.level(), patch.cells(), rules, how.smagorinsky);
+  euler::diffuse<D>(patch, diffuser, dt, diffusingMixture<D>(gases, how, state, held), momentum, totalEnergy, rims);
+}
+
+/// dt = cfl over the greatest rate at which cells are crossed and diffuse.
+template <int D>
+void limitMixtureDiffusion(const Patch& patch, const Gases& gases, const MixtureDiffusion& how, double cfl,
+                           const euler::OldState<D>& state, const std::vector<euler::OldGas>& held, double time,
+                           Minimum& dt) {
+  const euler::GhostRules<D> rules = euler::diffusionRules<D>(patch.level(), gases.front().gas, time);
+  euler::Diffuser<D> diffuser(patch.level(), patch.cells(), rules, how.smagorinsky);
+  const double greatest =
+      euler::greatestDiffusionRate<D>(patch, diffuser, 1, diffusingMixture<D>(gases, how, state, held));
+  if (greatest > 0) dt.add(cfl / greatest, "diffusion");
+}
+
+}  // namespace tushar::ice

@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include "tests/euler/gas_box.hpp"
+
+// Sides that let waves out.
+
+namespace tushar::euler {
+
+namespace {
+
+constexpr double far = 1 / 1.4;  // pressure at which the speed of sound is 1 where the density is
+
+/// A tube with a wall at 0, or open there too, that lets waves out at 1.
+grid::Domain tube(int cells, double sigma, bool hasWall) {
+  grid::Domain domain = closedBox(1, cells);
+  for (int side = hasWall ? 1 : 0; side < 2; ++side) {
+    auto& face = domain.boundaries.face(0, side);
+    face.clear();
+    face.push_back({boundary::waves, BoundaryKind::dirichlet, Vec3(far, sigma, 0)});
+  }
+  return domain;
+}
+
+/// The mean of p - p_far, and the greatest.
+std::pair<double, double> excess(const GasBox<1>& box) {
+  double mean = 0, most = 0;
+  for (std::size_t i = 0; i < box.density.size(); ++i) {
+    const double p = 0.4 * (box.energy[i] - 0.5 * box.momentum[i].squaredNorm() / box.density[i]);
+    mean += (p - far) / static_cast<double>(box.density.size());
+    most = std::max(most, std::abs(p - far));
+  }
+  return {mean, most};
+}
+
+/// Sound of a small height that runs to x+.
+State<1> pulse(const Vec<1>& x) {
+  const double rise = 1e-4 * std::exp(-200 * (x[0] - 0.5) * (x[0] - 0.5));
+  return gasAt(1 + rise, rise, far + rise);
+}
+
+}  // namespace
+
+TEST(Waves, LeaveTheTube) {
+  for (const double sigma : {0.0, 0.27}) {
+    GasBox<1> box(tube(100, sigma, false), pulse, {.reconstruction = Reconstruction::musclHancock});
+    box.run(1, 0.4);
+    EXPECT_LT(excess(box).second, sigma > 0 ? 3e-6 : 5e-7) << sigma;
+  }
+}
+
+TEST(Waves, RelaxToThePressureFarAway) {
+  // Sound goes to the wall and back in 2 L / c: what comes in at the side at t, w, and what arrives there of it later
+  // obey w' = -K (w(t) + w(t - 2 L / c)) / 2. Of w = exp(-s t): s L / c = sigma (1 + exp(2 s L / c)) / 2 = .05278. With
+  // slopes the side sees part of those that the limiter leaves of the last cell: nine tenths of it.
+  for (const Reconstruction how : {Reconstruction::firstOrder, Reconstruction::musclHancock}) {
+    GasBox<1> box(tube(50, 0.05, true), [](const Vec<1>&) { return gasAt(1, 0, far * (1 + 1e-4)); },
+                  {.reconstruction = how});
+    box.run(10, 0.4);
+    const double first = excess(box).first;
+    box.run(10, 0.4);
+    const bool hasSlopes = how == Reconstruction::musclHancock;
+    EXPECT_NEAR(std::log(first / excess(box).first) / 10 / 0.05278, hasSlopes ? 0.89 : 1, 0.02);
+  }
+}
+
+TEST(Waves, OfASideAtThatPressureDoNothing) {
+  const auto rest = [](const Vec<1>&) { return gasAt(1, 0.2, far); };
+  GasBox<1> box(tube(20, 0.27, false), rest, {.reconstruction = Reconstruction::musclHancock});
+  box.run(0.5, 0.4);
+  EXPECT_LT(excess(box).second, 1e-14);
+}
+
+}  // namespace tushar::euler
