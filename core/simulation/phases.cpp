@@ -31,15 +31,6 @@ const data::Label* findProduced(const std::vector<tasks::Task>& tasks, std::stri
   return nullptr;
 }
 
-/// The materials that have a variable; none if it belongs to none.
-std::vector<std::string> materialsOf(const std::vector<tasks::Task>& tasks, const data::Label& label) {
-  for (const tasks::Task& task : tasks)
-    for (const tasks::Access& access : task.accesses)
-      if (access.writes() && access.label->name == label.name)
-        return task.perMaterial(access) ? task.materials : std::vector<std::string>();
-  return {};
-}
-
 Names united(Names a, const Names& b) {
   a.insert(b.begin(), b.end());
   return a;

@@ -162,6 +162,14 @@ double indicatorOf(Indicator indicator, std::span<const Neighbours> axes, std::s
   return greatest;
 }
 
+std::vector<std::string> materialsOf(const std::vector<tasks::Task>& tasks, const data::Label& label) {
+  for (const tasks::Task& task : tasks)
+    for (const tasks::Access& access : task.accesses)
+      if (access.writes() && access.label->name == label.name)
+        return task.perMaterial(access) ? task.materials : std::vector<std::string>();
+  return {};
+}
+
 tasks::Task markTask(std::vector<BoundCriterion> criteria) {
   tasks::Task task;
   task.name = "findRefinementMarks";

@@ -17,6 +17,9 @@ struct BoundCriterion {
   std::vector<std::string> materials = {};  ///< those that have the variable; none if it belongs to none
 };
 
+/// The materials that have a variable that tasks write; none if it belongs to none.
+std::vector<std::string> materialsOf(const std::vector<tasks::Task>& tasks, const data::Label& label);
+
 /// The numbers of a cell's variable and those of its two neighbours along an axis; null where there is none.
 struct Neighbours {
   const double *below, *middle, *above;

@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.hpp"
+
+// Conditions, forces and viscosities in words of Uintah's ICE.
+
+namespace tushar::ice {
+
+namespace {
+
+using Overrides = std::vector<std::string>;
+using test::changedScene;
+
+const std::string sod = "ups/ice/sod.ups", channel = "ups/ice/channel.ups", pulse = "ups/ice/pulse.ups",
+                  shear = "ups/ice/shear_wave.ups";
+const std::string symmetricSide = R"(<Face side="x-"><BCType id="all" label="Symmetric" var="symmetry"/></Face>)";
+
+/// Sod's scene with other conditions at x-, and sections that they need.
+std::string withSide(const std::string& conditions, const std::string& sections = "") {
+  return changedScene(sod, symmetricSide, sections + "<Face side=\"x-\">" + conditions + "</Face>");
+}
+std::string condition(const std::string& label, const std::string& var, const std::string& value = "0") {
+  return "<BCType id=\"0\" label=\"" + label + "\" var=\"" + var + "\"><value>" + value + "</value></BCType>";
+}
+
+std::string problemOf(const std::string& scene) {
+  try {
+    scene::readScene(scene, {}, catalogue());
+    return "";
+  } catch (const InputError& error) {
+    return error.problems().size() == 1 ? error.problems()[0].sentence : std::string(error.what());
+  }
+}
+std::string fingerprintOf(const std::string& scene, const Overrides& overrides = {}) {
+  return test::runScene(scene, overrides).fingerprint;
+}
+double errorOf(const std::string& scene, const Overrides& overrides = {}) {
+  return test::runScene(scene, overrides).errors.at(0).norms.at("max");
+}
+
+}  // namespace
+
+TEST(IceConditions, AWallThatSlipsIsAPlaneOfSymmetry) {
+  EXPECT_EQ(fingerprintOf(withSide(condition("Velocity", "FreeSlipWall", "[0,0,0]"))), fingerprintOf(sod));
+  EXPECT_EQ(problemOf(withSide(condition("Pressure", "FreeSlipWall"))), "var: 'FreeSlipWall' is for a Velocity");
+}
+
+TEST(IceConditions, APressureSwingsAsAFormulaSays) {
+  const std::string section =
+      "<SINE_BC><omega>20</omega><A>0.1</A><reference_pressure>1</reference_pressure></SINE_BC>";
+  const std::string given = fingerprintOf(withSide(condition("Pressure", "Dirichlet", "1 + 0.1 * sin(20 * t)")));
+  EXPECT_EQ(fingerprintOf(withSide(condition("Pressure", "Sine") + condition("Temperature", "Sine"), section)), given);
+  EXPECT_EQ(problemOf(withSide(condition("Pressure", "Sine"))), "needs a <SINE_BC> in <BoundaryConditions>");
+  EXPECT_EQ(problemOf(withSide(condition("Density", "Sine"), section)),
+            "var: 'Sine' is for a Pressure, a Velocity or a Temperature");
+}
+
+TEST(IceConditions, OnlyComponentsOfVelocitiesThatAreThereSwing) {
+  const std::string section =
+      "<SINE_BC><omega>20</omega><A>0.1</A><reference_velocity>[0.5,0,0]</reference_velocity></SINE_BC>";
+  EXPECT_EQ(fingerprintOf(withSide(condition("Velocity", "Sine", "[0,0,0]"), section)),
+            fingerprintOf(withSide(condition("Velocity", "Dirichlet", "[0.5 + 0.1 * sin(20 * t), 0, 0]"))));
+}
+
+TEST(IceConditions, WavesLeaveByAllSides) {
+  // Of a height of 1e-3 Pa.
+  EXPECT_LT(errorOf(pulse), 2e-5);
+  EXPECT_EQ(fingerprintOf(pulse, {"Grid/Level/Box/patches=[4,2,1]"}), fingerprintOf(pulse));
+  EXPECT_EQ(problemOf(withSide(condition("Pressure", "LODI"))), "needs a <LODI> in <BoundaryConditions>");
+}
+
+TEST(IceConditions, WavesLeaveInImplicitSteps) {
+  const std::string implicit = changedScene(pulse, "<ICE><advection type=\"SecondOrder\"/></ICE>",
+                                            "<ICE><advection type=\"SecondOrder\"/><TimeStepControl>"
+                                            "<knob_for_speedSound>1</knob_for_speedSound></TimeStepControl>"
+                                            "<ImplicitSolver/></ICE>");
+  EXPECT_LT(errorOf(implicit), 1e-4);
+}
+
+TEST(IceForces, AGradientOfPressureDrivesAChannelAsGravityDoes) {
+  const std::string driven = changedScene(channel, "<ICE><advection type=\"SecondOrder\"/></ICE>",
+                                          "<ICE><advection type=\"SecondOrder\"/><fixedPressureGradient><x_dir>0.04"
+                                          "</x_dir></fixedPressureGradient></ICE>");
+  const Overrides coarse{"Grid/Level/Box/resolution=[8,8,1]", "PhysicalConstants/gravity=[0,0,0]"};
+  EXPECT_NEAR(errorOf(driven, coarse), 0.05 / 64, 2e-5);
+}
+
+TEST(IceViscosity, OfEddiesDampsAWave) {
+  const auto with = [](const std::string& constant) {
+    return changedScene(shear, "<ICE><advection type=\"SecondOrder\"/></ICE>",
+                        "<ICE><advection type=\"SecondOrder\"/><turbulence model=\"Smagorinsky\"><model_constant>" +
+                            constant + "</model_constant></turbulence></ICE>");
+  };
+  EXPECT_EQ(fingerprintOf(with("0")), fingerprintOf(shear));
+  const Overrides shortened{"Time/max_Timesteps=20"};
+  EXPECT_NE(fingerprintOf(with("0.2"), shortened), fingerprintOf(shear, shortened));
+  Overrides patches = shortened;
+  patches.emplace_back("Grid/Level/Box/patches=[4,2,1]");
+  EXPECT_EQ(fingerprintOf(with("0.2"), patches), fingerprintOf(with("0.2"), shortened));
+  EXPECT_NEAR(test::driftOf(test::runScene(with("0.2"), shortened), "energy"), 0, 1e-14);
+  EXPECT_EQ(problemOf(changedScene(
+                sod, "<ICE><advection",
+                "<ICE><turbulence model=\"Germano\"><model_constant>1</model_constant></turbulence><advection")),
+            "attribute 'model': found 'Germano', expected 'Smagorinsky'");
+}
+
+TEST(IceViscosity, OfModelsIsRead) {
+  const auto with = [](const std::string& models) {
+    return changedScene(sod, "<EOS type=\"ideal_gas\"/>",
+                        "<EOS type=\"ideal_gas\"/><dynamicViscosityModels>" + models + "</dynamicViscosityModels>");
+  };
+  const std::string sutherland = "<Model name=\"Sutherland\"><a>1</a><b>1</b></Model>";
+  const std::string sponge =
+      "<Model name=\"SpongeLayer\"><maxDynamicViscosity>1</maxDynamicViscosity><box label=\"b\">"
+      "<min>[0,0,0]</min><max>[1,1,1]</max></box></Model>";
+  EXPECT_EQ(problemOf(with(sutherland + sponge + sponge)), "");
+  EXPECT_EQ(problemOf(with(sponge + sutherland)), "Sutherland is given once, before any SpongeLayer");
+  EXPECT_EQ(problemOf(with("<Model name=\"Power\"/>")), "name: found 'Power', expected 'Sutherland' or 'SpongeLayer'");
+}
+
+}  // namespace tushar::ice
