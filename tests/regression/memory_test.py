@@ -20,16 +20,40 @@ PLANE = (f"{BOX}/resolution=[40,6,1]", f"{BOX}/upper=[1,.15,1]")
 SPACE = (f"{BOX}/resolution=[16,4,4]", f"{BOX}/upper=[1,.25,.25]")
 SMALL_SPACE = (f"{BOX}/resolution=[12,12,4]",)
 SPHERES = (f"{BOX}/resolution=[12,12,12]", "Time/timestep_multiplier=0.1")
+IMPLICIT = ("MPM/time_integrator=implicit", "Time/delt_max=1e-3", "Time/delt_init=1e-3", "Time/timestep_multiplier=1")
 GIMP, CPDI = "MPM/interpolator=gimp", "MPM/interpolator=cpdi"
 
 # Scene, overrides, layout of patches.
 CASES = {
+    "burgers on levels": ("ups/burgers/levels.ups", (f"{BOX}/resolution=[32,1,1]",), "4x1x1"),
     "burgers": ("ups/burgers/sine.ups", LINE, "4x1x1"),
     "heat": ("ups/heat/sine.ups", PLANE, "4x2x1"),
-    "implicit heat": ("ups/heat/implicit.ups", (), None),
+    "heat on levels": ("ups/heat/levels.ups", (), "4x1x1"),
+    "implicit heat in 1-D": ("ups/heat/implicit.ups", (), "4x1x1"),
+    "implicit heat in 2-D": ("ups/heat/implicit.ups", PLANE, "4x2x1"),
+    "implicit heat in 3-D": ("ups/heat/implicit.ups", SPACE, "4x2x2"),
+    "implicit heat on levels": ("ups/heat/implicit_levels.ups", (), "2x2x1"),
+    "poisson in 1-D": ("ups/poisson/sine.ups", (f"{BOX}/resolution=[48,1,1]",), "4x1x1"),
+    "poisson in 2-D": ("ups/poisson/sine.ups", (f"{BOX}/resolution=[16,16,1]",), "2x2x1"),
+    "poisson in 3-D": ("ups/poisson/sine.ups", (f"{BOX}/resolution=[8,8,8]",), "2x2x2"),
+    "poisson on levels": ("ups/poisson/levels.ups", (), "2x2x1"),
     "euler in 1-D": ("ups/euler/sod.ups", LINE, "4x1x1"),
     "euler in 2-D": ("ups/euler/vortex.ups", (f"{BOX}/resolution=[24,24,1]",), "3x2x1"),
     "euler in 3-D": ("ups/euler/vortex_3d.ups", SMALL_SPACE, "2x2x2"),
+    "ice in 1-D": ("ups/ice/sod.ups", LINE, "4x1x1"),
+    "ice in 2-D": ("ups/ice/vortex_slow.ups", (f"{BOX}/resolution=[24,24,1]",), "3x2x1"),
+    "ice in 3-D": ("ups/ice/sod.ups", SPACE, "4x2x2"),
+    "implicit ice": ("ups/ice/sod_implicit.ups", LINE, "4x1x1"),
+    "two gases": ("ups/ice/two_gases.ups", LINE, "4x1x1"),
+    "bodies in gas in 1-D": ("ups/fsi/closed_box.ups", (), "4x1x1"),
+    "bodies in gas in 2-D": ("ups/fsi/carried_disc.ups", (f"{BOX}/resolution=[24,24,1]",), "3x2x1"),
+    "bodies in gas in 3-D": ("ups/fsi/ball.ups", (f"{BOX}/resolution=[12,6,6]",), "2x2x2"),
+    "rigid bodies in gas": ("ups/fsi/slow_piston.ups", (), "4x1x1"),
+    "implicit solids in 1-D": ("ups/solid/bar_vibration.ups", IMPLICIT, "4x1x1"),
+    "implicit solids in 3-D": ("ups/solid/implicit_cantilever.ups", (f"{BOX}/resolution=[8,5,2]",), "2x1x1"),
+    "implicit solids in 2-D": ("ups/solid/implicit_cantilever.ups", (f"{BOX}/resolution=[12,8,1]",), "2x2x1"),
+    "euler on levels": ("ups/euler/vortex_levels.ups", (), "2x2x1"),
+    "solids on levels": ("ups/solid/penetration_levels.ups", (), "2x2x1"),
     "gas in 1-D": ("ups/mpm/sod.ups", LINE, "4x1x1"),
     "gas in 2-D": ("ups/mpm/sod.ups", PLANE, "4x2x1"),
     "gas in 3-D": ("ups/mpm/sod.ups", SPACE, "4x2x2"),
@@ -48,14 +72,16 @@ CASES = {
 # On three ranks: one of each component and kind of particles in each number of dimensions that it has.
 ON_THREE_RANKS = ("burgers", "heat", "euler in 3-D", "gas in 1-D", "gas in 3-D", "conserving gas in 2-D",
                   "conserving gas in 3-D",
-                  "solids in 1-D", "solids in 2-D", "solids in 3-D, GIMP")
+                  "solids in 1-D", "solids in 2-D", "solids in 3-D, GIMP", "ice in 3-D", "two gases",
+                  "bodies in gas in 2-D", "bodies in gas in 3-D", "rigid bodies in gas", "implicit solids in 2-D",
+                  "implicit heat in 2-D", "poisson in 2-D", "euler on levels", "solids on levels")
 
 
 class Memory(unittest.TestCase):
     def after(self, steps, name, ranks):
         scene, sets, layout = CASES[name]
         options = ("--quiet", *(("-layout", layout) if layout else ()))
-        ends = ("Time/maxTime=1e9", f"Time/max_Timesteps={steps}")
+        ends = ("Time/maxTime=1e9", f"Time/max_Timesteps={steps}", "DataArchiver/outputTimestepInterval=0")
         result = run(scene, *sets, *ends, options=options, ranks=ranks)
         self.assertIsNotNone(result.report, result.err)
         self.assertEqual(result.report["steps"], steps, result.err)
