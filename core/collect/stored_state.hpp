@@ -36,9 +36,9 @@ class StoredState {
   std::vector<output::Dataset> datasets_;
 };
 
-/// Makes a stored state the old values, on whatever patches the warehouse has; each rank reads what its own need.
-/// Collective. Throws InputError for a variable of `required` that the file lacks or has in another form, or that has
-/// another number of values.
+/// Makes a stored state the old values, on whatever patches the warehouse has; each rank reads what its own patches
+/// need. Collective. Throws InputError for a variable of `required` that the file lacks or has in another form, or that
+/// has another number of values.
 void readState(const output::Hdf5Input& file, data::Warehouse& warehouse, const StateNames& names,
                const std::vector<std::string>& required);
 

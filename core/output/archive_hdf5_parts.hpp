@@ -16,7 +16,7 @@ class Hdf5Parts {
 
   /// No values, of the type that the dataset has.
   const Array::Values& type() const { return type_; }
-  /// How many numbers there are, whatever the shape.
+  /// Its number of values, whatever the shape.
   std::size_t count() const { return count_; }
 
   /// Numbers of the dataset, in the order of the file, and the memory that they go to.
@@ -24,7 +24,7 @@ class Hdf5Parts {
     std::size_t first, count;
     std::byte* to;
   };
-  /// Reads parts in any order; those that follow one another in the file are read at once.
+  /// Reads parts in any order; contiguous ones are read together.
   void read(std::vector<Part> parts) const;
 
  private:

@@ -47,7 +47,7 @@ std::optional<XXH64_hash_t> hashOf(std::ifstream& in, std::uint64_t first, std::
   throw FileError(fmt::format("cannot read '{}'", file.string()));
 }
 
-/// The hashes of the blocks of a file that are the share of one of several.
+/// The hashes of share number `one` of `several` of the blocks of a file.
 std::vector<std::uint64_t> hashesOf(const fs::path& file, std::uint64_t size, int one, int several) {
   std::ifstream in(file, std::ios::binary);
   if (!in) refuseToRead(file);
@@ -94,7 +94,7 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
   return files;
 }
 
-/// Name and size of each file in a folder, for all ranks; those of the manifest, and no others.
+/// Name and size of each file in a folder, for all ranks; only of the files in the manifest.
 struct ListedFile {
   std::string name;
   std::uint64_t size;
@@ -125,7 +125,7 @@ std::vector<Line> linesOf(const std::string& text) {
   return lines;
 }
 
-/// What is wrong with the manifest, or with the names and sizes of files; `lines` gets those of the files.
+/// What is wrong with the manifest, or with the names and sizes of files; `lines` gets its lines, one per file.
 std::string damageOfList(const fs::path& folder, std::string& lines) {
   const auto text = textOf(folder / manifestName);
   if (!text) return fmt::format("{} is missing", manifestName);
@@ -143,7 +143,7 @@ std::string damageOfList(const fs::path& folder, std::string& lines) {
 }
 
 /// The hash of a file as the manifest has it; empty if it cannot be read. That of a large file of older versions is not
-/// by blocks, and made by the first rank alone.
+/// by blocks, and made by rank 0 alone.
 std::string hashNow(const fs::path& file, const Line& line, const mpi::Communicator& ranks) {
   const bool isByBlocks = line.hash.find('/') != std::string::npos;
   bool failed = false;

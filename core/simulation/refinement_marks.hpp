@@ -16,7 +16,7 @@ struct BoundCriterion {
   bool isDiagnosed;
 };
 
-/// The numbers of a cell's variable and those of its two neighbours along an axis; null where there is none.
+/// The numbers of a cell's variable and those of its two neighbours along an axis; null if there is none.
 struct Neighbours {
   const double *below, *middle, *above;
 };
@@ -28,7 +28,7 @@ struct Neighbours {
 double indicatorOf(Criterion::Indicator indicator, std::span<const Neighbours> axes, std::span<const double> spacing,
                    int components);
 
-/// The task that computes tasks::refinementMark by all criteria; 0 where there are none.
+/// The task that computes tasks::refinementMark by all criteria; 0 if there are none.
 tasks::Task markTask(std::vector<BoundCriterion> criteria);
 
 }  // namespace tushar::simulation

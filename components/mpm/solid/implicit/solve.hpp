@@ -117,7 +117,7 @@ RigidBodies<Shape> constrain(ImplicitSystem<Shape>& system, const RankPatches& p
   return rigid;
 }
 
-/// The acceleration of the nodes with which Newmark's rule starts: 0 where faces or rigid bodies hold them.
+/// The acceleration of the nodes with which Newmark's rule starts: 0 if faces or rigid bodies hold them.
 template <class Shape, int D = Shape::dimension>
 void accelerateAtStart(const RankPatches& patches, const std::vector<Material>& materials,
                        const mpi::Communicator& ranks, const ImplicitSetup& setup, double time,
