@@ -69,7 +69,7 @@ class LineExtract : public ExtentModule {
     grid::forEach<3>(box.cells, [&](const Index3& cell) {
       const std::size_t here = entry++;
       const Index3 along = cell - first;
-      if ((along[0] + along[1] + along[2]) % stride != 0) return;  // it is 0 but for one axis
+      if ((along[0] + along[1] + along[2]) % stride != 0) return;  // it is 0 except for one axis
       const Index3 index = sceneIndex(cell, *level_);
       const Vec3 place = placeOf(cell, isOfNodes, *level_, level_->number() - box.level);
       std::string text =

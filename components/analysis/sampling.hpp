@@ -124,7 +124,7 @@ class SamplingModule : public simulation::Analysis {
   bool isSampleDue(int) const override { return times_.isDue() && !variables_.empty(); }
 
  protected:
-  /// The values of a variable; null where they are not known at this time.
+  /// The values of a variable; null if they are not known at this time.
   static const output::FieldBlock* find(const output::Snapshot& snapshot, const simulation::SampledVariable& variable);
   /// Those of all variables, as far as they are known.
   struct Found {

@@ -104,7 +104,7 @@ const Schema<SliceSettings>& sliceSchema() {
 
 char nameOf(int axis) { return "xyz"[axis]; }
 
-/// Why a grid has no cells on a plane; empty where it has.
+/// Why a grid has no cells on a plane; empty if it has.
 std::string problemOf(const Plane& plane, const Level& level) {
   const double lower = level.domain().lower[plane.axis], upper = level.domain().upper[plane.axis];
   if (level.dimension() < 2) return "a slice of a grid along one axis would be a point; take the module out";

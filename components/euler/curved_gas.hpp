@@ -122,7 +122,7 @@ class CurvedGas {
     }
     return most;
   }
-  /// Entropy per mass over c_v, but for a constant: ln T - Gamma ln rho.
+  /// Entropy per mass over c_v, except for a constant: ln T - Gamma ln rho.
   double entropy(double rho, double energy) const {
     return std::log(temperature(rho, energy)) - gamma_ * std::log(rho);
   }

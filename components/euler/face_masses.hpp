@@ -13,7 +13,7 @@ template <int D>
 inline constexpr CellLabel<Vec<D>> massFluxAbove{"c.massFluxAbove", "kg/(m^2 s)", "mass through the upper faces"};
 }  // namespace c
 
-/// The mass that went through the faces of cells in a step, per area and time; empty where nothing needs it.
+/// The mass that went through the faces of cells in a step, per area and time; empty if nothing needs it.
 template <int D>
 struct FaceMasses {
   std::optional<CellView<Vec<D>>> below = {}, above = {};

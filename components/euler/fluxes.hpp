@@ -30,7 +30,7 @@ State<D, K> fluxOf(const FaceState<D, K>& face) {
 /// The approximate Riemann solver of three waves.
 ///
 /// Wave speeds: the outer ones of both states and of Einfeldt's mean (section 10.5), of the contact (10.37). Between
-/// the waves the states (10.39) and the mean of the two pressures (10.36), which are equal but for round-off: so the
+/// the waves the states (10.39) and the mean of the two pressures (10.36), which are equal except for round-off: so the
 /// mirrored problem gives the mirrored flux to the last bit.
 /// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 10.
 struct Hllc {

@@ -117,7 +117,7 @@ struct Gas {
     if (!law) return (pressure + pInfinity) / (gasConstant() * temperature);
     return std::visit([&](const auto& of) { return of.densityAt(pressure, temperature); }, *law);
   }
-  /// T [K] of a density and an internal energy per volume [J/m³]: c_v T = e - p_inf / rho where there is no law.
+  /// T [K] of a density and an internal energy per volume [J/m³]: c_v T = e - p_inf / rho if there is no law.
   double temperature(double density, double internalEnergyPerVolume) const {
     if (!law) return (internalEnergyPerVolume - pInfinity) / (density * specificHeat);
     return std::visit([&](const auto& of) { return of.temperature(density, internalEnergyPerVolume); }, *law);
@@ -152,7 +152,7 @@ Law lawOf(const Gas& gas) {
 /// How many gases a law is of.
 template <class G>
 inline constexpr int kGases = 1;
-/// The law that holds in a state: where there is one gas, its own.
+/// The law that holds in a state: if there is one gas, its own.
 template <int D, class G>
 const G& lawIn(const G& gas, const State<D>&) {
   return gas;  // NOLINT(bugprone-return-const-ref-from-parameter): callers keep the gas

@@ -18,14 +18,14 @@ struct EquationOfState {
   euler::ColdCurve cold = {};  ///< of JWL, JWLC and Murnaghan's
   euler::Water::Numbers water = {};
 
-  /// The law of a gas of a specific heat [J/(kg K)]; none where it is a stiffened gas.
+  /// The law of a gas of a specific heat [J/(kg K)]; none if it is a stiffened gas.
   std::shared_ptr<const euler::Gas::Law> law(double specificHeat) const;
 };
 
 /// Reads the `<EOS>` of a `<material>`. Every problem goes to the diagnostics.
 EquationOfState readEquationOfState(const input::Element& material, input::Diagnostics& diagnostics);
 
-/// The types that it knows, in Uintah's words but for stiffened_gas.
+/// The types that it knows, in Uintah's words except for stiffened_gas.
 const std::vector<std::string>& equationsOfState();
 
 }  // namespace tushar::ice

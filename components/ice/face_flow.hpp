@@ -19,7 +19,7 @@ struct IceSettings {
   solvers::LinearSettings solver = {};
 };
 
-/// Whether a cell has no slopes, as it has a body in it or beside it; none where all have theirs.
+/// Whether a cell has no slopes, as it has a body in it or beside it; none if all have theirs.
 template <int D>
 using IsFlat = std::function<bool(const Index<D>&)>;
 
@@ -94,7 +94,7 @@ class GasBefore {
     return mean(old_, face, axis, euler::kPressure<D>) + gas_.pInfinity;
   }
   /// dt / (rho_f h), m/(s Pa): what the normal velocity loses in a time dt [s] per Pa that the pressure rises by across
-  /// the face; 0 where no pressure pushes.
+  /// the face; 0 if no pressure pushes.
   double mobility(const Index<D>& face, int axis, double dt) const {
     if (isFree(face, axis) || givenVelocity(face, axis)) return 0;
     return dt * level_.inverseSpacing(axis) / density(face, axis);

@@ -33,7 +33,7 @@ class BodiesAtNodes {
     forEachAt(cell, axis, [&](const mpm::solid::NodeRecord& record) { mass += record[mpm::solid::lane::mass]; });
     return mass;
   }
-  /// Their mean velocity by mass, m/s; 0 where nothing is. `lane` says which of a record's: before the step, or after.
+  /// Their mean velocity by mass, m/s; 0 if nothing is. `lane` says which of a record's: before the step, or after.
   Vec<D> velocityAt(const Index<D>& cell, int axis, int lane) const {
     double mass = 0;
     Vec<D> momentum = Vec<D>::Zero();

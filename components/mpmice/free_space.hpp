@@ -18,7 +18,7 @@ inline double openShare(double coverage, double below, double above, bool thinWa
 /// The two faces of a cell across an axis: how much of each is open; open and walled share are the same of both.
 struct OpenFaces {
   std::array<double, 2> open{};
-  double area = 0;  ///< 0 where the cell has no gas
+  double area = 0;  ///< 0 if the cell has no gas
 
   double wall(int side) const { return area - open[side]; }
 };

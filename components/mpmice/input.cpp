@@ -52,7 +52,7 @@ void checkMomentum(const ice::Exchange& exchange, int solids, bool areRigid, con
                      "does nothing between bodies: they interact by their <contact>");
 }
 
-/// The coefficients of heat of all pairs; empty where none flows.
+/// The coefficients of heat of all pairs; empty if none flows.
 std::vector<double> heatOf(const ice::Exchange& exchange, int solids, const Element& root, const Element& tag,
                            Diagnostics& diagnostics) {
   const auto& heat = exchange.heat;

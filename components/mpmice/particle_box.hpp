@@ -22,7 +22,7 @@ struct ParticleBox {
   double lengthAbove(int axis, int k) const {
     return std::clamp(middle[axis] + 0.5 * edges[axis] - k, 0.0, edges[axis]);
   }
-  /// Weight of the lower face of the cell `k` across an axis: 1 in the middle, falling to 0 where the middle is as far
+  /// Weight of the lower face of the cell `k` across an axis: 1 in the middle, falling to 0 if the middle is as far
   /// away as the box is long, so that boxes side by side cover a face wholly.
   double hatAt(int axis, int k) const { return std::max(0.0, 1 - std::abs(k - middle[axis]) / edges[axis]); }
 

@@ -28,7 +28,7 @@ inline double shockPressure(const euler::Gas& gas, double density, double last, 
 }
 
 /// The pressure in the fan behind a wall that draws back by `speed` [m/s]: dp = -rho c du, drho = -rho / c du, by
-/// Runge-Kutta's method of fourth order; 0 where no gas is left.
+/// Runge-Kutta's method of fourth order; 0 if no gas is left.
 inline double fanPressure(const euler::Gas& gas, double density, double last, double speed) {
   constexpr int steps = 32;
   const bool isBarotropic = gas.isBarotropic();
@@ -54,7 +54,7 @@ inline double fanPressure(const euler::Gas& gas, double density, double last, do
 }
 
 /// Pressure [Pa] of a gas on a wall that it meets with the speed `closing` [m/s]: behind a shock where it closes in,
-/// behind a fan where it draws back, 0 of p + p_inf where there is no gas left. The gas is given by its density and the
+/// behind a fan where it draws back, 0 of p + p_inf if there is no gas left. The gas is given by its density and the
 /// last number of its primitive state.
 /// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., section 4.3, with the wall's
 /// speed given.

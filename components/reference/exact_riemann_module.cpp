@@ -64,7 +64,7 @@ GasLaw gasOf(const State& side, const RiemannSection& read) {
   return {side.gamma.value_or(read.gamma), side.pInfinity.value_or(read.pInfinity)};
 }
 
-/// Length along the tube after which a periodic grid repeats, m; 0 where it never does. Throws
+/// Length along the tube after which a periodic grid repeats, m; 0 if it never does. Throws
 /// std::invalid_argument where the axes do not agree.
 double periodAlong(const Vec3& normal, const grid::Level& level) {
   const grid::Domain& domain = level.domain();

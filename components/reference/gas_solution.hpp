@@ -74,7 +74,7 @@ enum class MeasuredPlace { particle, cell, node };
 class GasSolution {
  public:
   virtual ~GasSolution() = default;
-  /// The gases; none where no such law describes the flow.
+  /// The gases; none if no such law describes the flow.
   virtual std::vector<GasLaw> gases() const = 0;
   /// The places whose error labels scheduleMeasureError's tasks compute.
   virtual std::vector<MeasuredPlace> measuredPlaces() const {

@@ -10,7 +10,7 @@ namespace tushar::reference {
 struct MovingFrame {
   Vec3 start = Vec3::Zero();     ///< where it is at t = 0, m
   Vec3 velocity = Vec3::Zero();  ///< m/s
-  Vec3 periods = Vec3::Zero();   ///< lengths along x, y, z after which it repeats, m; 0 where it does not
+  Vec3 periods = Vec3::Zero();   ///< lengths along x, y, z after which it repeats, m; 0 if it does not
 
   /// From its nearest image at time `t` (s) to `x`, m.
   Vec3 offset(const Vec3& x, double t) const;

@@ -31,7 +31,7 @@ struct Sphere {
   void addBreaks(int axis, const Vec3& lower, const Vec3& upper, const Vec3& x, std::vector<double>& breaks) const;
 };
 
-/// Means over a box of a gas that is smooth but for some surfaces (Plane or Sphere), one axis inside the other.
+/// Means over a box of a gas that is smooth except for some surfaces (Plane or Sphere), one axis inside the other.
 template <class Surface>
 class PiecewiseMean {
  public:
@@ -92,7 +92,7 @@ class PiecewiseMean {
   double time_;
 };
 
-/// Mean of each field over the box [lower, upper] (m) at time `t` (s) of a gas that is smooth but for `surfaces`; an
+/// Mean of each field over the box [lower, upper] (m) at time `t` (s) of a gas that is smooth except for `surfaces`; an
 /// axis with no extent is a point. Gauss-Legendre with 5 points per axis, in a box that a surface cuts 8 in each piece:
 /// exact for polynomials cut by planes up to degree 13 over all axes, to about 1e-8 of what jumps where spheres cut.
 /// Throws std::invalid_argument where upper < lower.

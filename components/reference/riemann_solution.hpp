@@ -33,7 +33,7 @@ struct RiemannSolution {
   RiemannState left;   ///< as given
   RiemannState right;  ///< as given
   GasLaw leftGas, rightGas;
-  double starPressure = 0;      ///< p*, Pa; 0 where the waves leave vacuum between them
+  double starPressure = 0;      ///< p*, Pa; 0 if the waves leave vacuum between them
   double starVelocity = 0;      ///< u*, the contact's speed, m/s; the mean speed of the two fronts around vacuum
   double starDensityLeft = 0;   ///< rho*L, kg/m^3
   double starDensityRight = 0;  ///< rho*R, kg/m^3

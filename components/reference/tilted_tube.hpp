@@ -41,7 +41,7 @@ class TiltedTube : public GasReference {
   ExactRiemann tube_;
   RiemannProblem problem_;
   TubePlacement placement_;
-  double side_ = 1;         ///< 1 where the tube stands above its mirror, -1 below
+  double side_ = 1;         ///< 1 if the tube stands above its mirror, -1 below
   double meetingTime_ = 0;  ///< s
 };
 

@@ -12,31 +12,31 @@ namespace tushar {
 /// The exit codes of `sus`.
 enum class ExitCode : int {
   success = 0,
-  failure = 1,         ///< anything not named below: a file that cannot be written, memory, a defect of ours
+  failure = 1,         ///< any other failure: a file that cannot be written, lack of memory, a bug
   badCommandLine = 2,  ///< an unknown option
   badInput = 3,        ///< the scene cannot be run as it is written
-  numerical = 4,       ///< a value became impossible during the run
+  numerical = 4,       ///< a value became non-finite or unphysical during the run
   interrupted = 5,     ///< ended early by Ctrl-C or SIGTERM, after writing its output
 };
 
 /// A place in a scene file, or the option on the command line that overrides it.
 struct Location {
   std::string file;  ///< as the user named it; `--set PATH=VALUE` for an override
-  int line = 0;      ///< from 1; 0 where a line has no meaning
+  int line = 0;      ///< from 1; 0 if there is no line
   int column = 0;    ///< from 1, in bytes
 
   /// Whether it is an option on the command line.
   bool isOption() const { return line == 0 && !file.empty(); }
-  /// `file:line:column`, or `file` alone where there is no line.
+  /// `file:line:column`, or `file` alone if there is no line.
   std::string text() const;
 };
 
-/// Where to report a mistake that several `parts` of a tag make together: the option that overrides one of them, else
-/// `tag`.
+/// Where to report a mistake in the combination of several `parts` of a tag: the option that overrides one of them,
+/// else `tag`.
 const Location& placeOf(std::initializer_list<const Location*> parts, const Location& tag);
 const Location& placeOf(std::initializer_list<const Location*> parts, const Location&& tag) = delete;  // would dangle
 
-/// One thing wrong with a scene, in one sentence.
+/// One mistake in a scene, in one sentence.
 struct InputProblem {
   Location where;
   std::string tagPath;   ///< `Grid/Level/Box/resolution`; may be empty
@@ -46,7 +46,7 @@ struct InputProblem {
   std::string text() const;
 };
 
-/// Everything wrong with a scene: thrown once, after the whole file has been read.
+/// All mistakes in a scene: thrown once, after the whole file has been read.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<InputProblem> problems);
@@ -78,7 +78,7 @@ class NumericalError : public std::runtime_error {
   std::uint64_t cell_;
 };
 
-/// A file or folder that could not be written or read: the path and the system's reason.
+/// A file or folder that cannot be read or written: the path and the system's reason.
 class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -7,7 +7,7 @@ namespace tushar {
 namespace {
 volatile std::sig_atomic_t interrupted = 0, saveAsked = 0;
 
-/// A second signal finds the default; where both came before the first was noted, it is raised again for that.
+/// A second signal has its default effect; if both arrived before the first was handled, it is raised again.
 extern "C" void noteInterrupt(int signal) {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
@@ -23,7 +23,7 @@ void catchInterrupts() {
   std::signal(SIGINT, noteInterrupt);
   std::signal(SIGTERM, noteInterrupt);
   std::signal(SIGUSR1, noteSaveSignal);
-  std::signal(SIGXFSZ, SIG_IGN);  // what is written then fails with a sentence
+  std::signal(SIGXFSZ, SIG_IGN);  // so that a write beyond the limit fails with an error
 }
 
 bool isInterrupted() { return interrupted != 0; }

@@ -15,8 +15,8 @@ int numberFrom(std::initializer_list<const char*> names, int otherwise) {
   return otherwise;
 }
 
-/// What srun says to processes that find one another by PMIx. Its other variables do not mean that there are several
-/// ranks: a program in an allocation of many that was started without srun has them, too.
+/// A variable of srun, if its processes connect by PMIx. Its other variables do not imply several ranks: a program
+/// started without srun in an allocation of many cores has them, too.
 int fromSlurm(const char* name, int otherwise) {
   return std::getenv("PMIX_RANK") ? numberFrom({name}, otherwise) : otherwise;
 }

@@ -33,7 +33,7 @@ Bytes opened(Bytes words) {
 
 int wordsOf(const Bytes& words) { return static_cast<int>(words.size() / wordBytes); }
 
-/// What the operation below does; MPI passes it none of our data.
+/// The merge function for the operation below, to which MPI passes no data of ours.
 const std::function<void(const std::byte*, std::byte*)>* merging = nullptr;
 
 /// MPI requires inout = in ∘ inout, in the order of the ranks.
@@ -60,7 +60,7 @@ std::string libraryVersion() {
   int length = 0;
   MPI_Get_library_version(text.data(), &length);
   const std::string all(text.data(), static_cast<std::size_t>(length));
-  return all.substr(0, all.find_first_of(",\n"));  // Open MPI goes on with who packed it, and when
+  return all.substr(0, all.find_first_of(",\n"));  // Open MPI then says who packaged it, and when
 }
 
 Communicator::Communicator(std::shared_ptr<const Native> native) : native_(std::move(native)) {
@@ -253,7 +253,7 @@ bool Session::speaks(bool isKnown, int& exitCode) {
   }
   is_agreed_ = done != 0;
   if (!is_agreed_) {
-    // One after the other, so that the first ends the next before it speaks; no longer than patience in all.
+    // Ranks wait their turn, so that the first aborts the others before they report; at most `patience` in total.
     std::this_thread::sleep_for(std::min(turn, patience / meeting_.size()) * place);
     return isKnown;
   }

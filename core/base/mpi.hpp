@@ -56,10 +56,10 @@ class Communicator {
 
   bool any(bool mine) const;
   double max(double mine) const;
-  /// The greatest value of each over all ranks.
+  /// The maximum of each over all ranks.
   void max(std::span<double> mine) const;
   long sum(long mine) const;
-  /// The sum of each over all ranks; the same bits on all where these are whole numbers.
+  /// The sum of each over all ranks; bitwise the same on all ranks if they are whole numbers.
   void sum(std::span<double> mine) const;
   /// Every rank gets `merge(from, into)` over the values of all, in a tree that depends on their number alone, so that
   /// all get the same bits.
@@ -85,13 +85,13 @@ class Communicator {
   std::string broadcast(const std::string& text, int from = 0) const;
   /// The texts of all ranks, by rank, on every rank. Slow: for errors.
   std::vector<std::string> gather(const std::string& mine) const;
-  /// Runs something on rank 0 alone: throws what it throws there, and FailedElsewhere on the others.
+  /// Runs a function on rank 0 alone: throws what it throws there, and FailedElsewhere on the others.
   void onFirst(const std::function<void()>& action) const;
 
   /// Waits for the next message of rank `from` with this tag.
   Bytes receive(int from, Tag tag) const;
 
-  /// The ranks with the same colour among themselves.
+  /// A communicator of the ranks with the same colour.
   Communicator split(int colour) const;
   /// MPI's communicator; null for a single rank.
   const Native* native() const { return native_.get(); }
@@ -101,7 +101,7 @@ class Communicator {
   int rank_ = 0, size_ = 1;
 };
 
-/// Messages on their way to other ranks; it keeps their bytes until they have gone.
+/// Outgoing messages; keeps their bytes until they are sent.
 class Outbox {
  public:
   explicit Outbox(const Communicator& ranks);
@@ -112,14 +112,14 @@ class Outbox {
 
   /// Returns at once.
   void send(int to, Tag tag, Bytes bytes);
-  /// Waits until all have gone; their memory is used for later ones.
+  /// Waits until all are sent; later messages reuse their memory.
   void wait();
-  /// An empty buffer, with the memory of an earlier message where there is one.
+  /// An empty buffer, in the memory of an earlier message if there is one.
   Bytes buffer();
 
  private:
   struct Sent;
-  /// Messages still on their way when their outbox was destroyed.
+  /// Messages not yet sent when their outbox was destroyed.
   static std::list<Sent>& abandoned();
 
   const Communicator* ranks_;
@@ -127,10 +127,10 @@ class Outbox {
   std::vector<Bytes> spare_;
 };
 
-/// MPI for the life of a program: initialised only if a launcher (mpirun, srun) started several processes.
+/// MPI for the lifetime of a program: initialised only if a launcher (mpirun, srun) started several processes.
 class Session {
  public:
-  /// Throws std::runtime_error for an MPI that allows no threads, and FailedElsewhere on all ranks but the first.
+  /// Throws std::runtime_error for an MPI that allows no threads, and FailedElsewhere on all ranks except 0.
   Session();
   ~Session();
   Session(const Session&) = delete;
@@ -138,13 +138,12 @@ class Session {
 
   const Communicator& ranks() const { return ranks_; }
 
-  /// Called by a rank that cannot go on, for whatever reason; `isKnown` where it has a sentence of its own. Where the
-  /// others come here too, within some seconds, all may end in order, and the first that has a sentence is to say it:
-  /// true for that one, whose exit code all get. Where they do not, this rank is to report its own error and to end
-  /// them by `abort`: each in its turn, in the order of the ranks, so that of several that fail at the same time one
-  /// speaks.
+  /// Called by a rank that cannot continue, for whatever reason; `isKnown` if it has an error message of its own. If
+  /// all ranks call this within some seconds, all can end in order: returns true on the first rank with a message,
+  /// which must print it, and all get its exit code. Otherwise this rank must report its own error and stop the others
+  /// by `abort`; the ranks do so in order, so that if several fail at the same time, one reports.
   bool speaks(bool isKnown, int& exitCode);
-  /// Whether all ranks have come to `speaks`.
+  /// Whether all ranks have called `speaks`.
   bool isAgreed() const { return is_agreed_; }
   /// Ends all ranks at once.
   [[noreturn]] void abort(int exitCode);

@@ -71,7 +71,8 @@ std::vector<int> firstOfNodes(const Communicator& ranks) {
   return {firsts.begin(), firsts.end()};
 }
 
-/// Nobody sends letters of the next exchange before all have begun it, which they do when they have all of this one.
+/// No rank sends for the next exchange before all ranks have begun it, and a rank begins it only after it has received
+/// everything of this one.
 void exchange(const Communicator& ranks, Outbox& outbox, std::vector<Letter> letters,
               const std::function<void(int, const Bytes&)>& take) {
   if (ranks.isAlone()) return;

@@ -10,17 +10,17 @@
 
 namespace tushar::mpi {
 
-// What ranks do together. All ranks call these, in the same order; with one rank they need no MPI.
+// Collective operations: all ranks call these, in the same order; a single rank needs no MPI for them.
 
-/// Each rank does something of its own: throws what it throws there, and FailedElsewhere where it goes well but fails
-/// on another rank.
+/// Each rank runs an action of its own. Rethrows its exception; throws FailedElsewhere if it succeeds here but fails on
+/// another rank.
 void together(const Communicator& ranks, const std::function<void()>& action);
 
-/// Whether all ranks come here within that time. Where they do not, the run is about to end, and `ranks` is of no more
-/// use.
+/// Whether all ranks call this within `patience`. If not, the run is about to end, and `ranks` must not be used any
+/// more.
 bool meet(const Communicator& ranks, std::chrono::milliseconds patience);
 
-/// Each rank gets the sum over all ranks of what they have for it: `of[r]` is for rank r.
+/// The sum of the values that all ranks have for this one: `of[r]` is for rank r.
 int sumForMe(const Communicator& ranks, std::span<const int> of);
 
 /// The sum over the ranks before this one.
@@ -38,8 +38,8 @@ struct Letter {
   Bytes bytes;
 };
 
-/// Brings letters to their ranks, at most one from a rank to another, none to itself. `take(from, bytes)` gets those of
-/// this rank, in any order. `outbox` keeps what is sent until it has gone.
+/// Delivers messages, at most one from a rank to another, none to itself. `take(from, bytes)` gets those for this rank,
+/// in any order. `outbox` keeps the messages until they are sent.
 void exchange(const Communicator& ranks, Outbox& outbox, std::vector<Letter> letters,
               const std::function<void(int from, const Bytes& bytes)>& take);
 

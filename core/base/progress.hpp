@@ -12,7 +12,7 @@ class Progress {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Quiet progress says nothing. `stream` is the terminal or file; `period` is the time between the lines that go to a
+  /// If quiet, prints nothing. `stream` is the terminal or file; `period` is the time between the lines that go to a
   /// file.
   Progress(bool quiet, std::FILE* stream, Clock::duration period = std::chrono::minutes(1));
 

@@ -30,7 +30,7 @@ int boundCores() {
   return sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
 }
 
-/// Keeps, of what a loop throws, the exception of the least number.
+/// Of the exceptions thrown in a loop, keeps that of the lowest index.
 class FirstFailure {
  public:
   template <class Work>
@@ -87,7 +87,7 @@ class Threads::Pool {
   }
 
  private:
-  /// What a thread has done in a loop.
+  /// The work of a thread in a loop.
   struct alignas(64) Busy {
     Clock::time_point until;
     Clock::duration time{};
@@ -107,9 +107,9 @@ class Threads::Pool {
 
   tbb::global_control limit_;
   tbb::task_arena arena_;
-  tbb::affinity_partitioner partitioner_;  ///< a thread gets what it had in the loop before: it is in its cache
+  tbb::affinity_partitioner partitioner_;  ///< repeats indices per thread: data stay in cache
   std::vector<Busy> busy_;
-  /// TBB orders what the caller and the workers do; these two order it once more, where the thread sanitizer sees it.
+  /// TBB synchronises caller and workers; these two do so again, in a way that the thread sanitizer sees.
   std::atomic<bool> started_ = false;
   std::atomic<long> finished_ = 0;
 };

@@ -51,7 +51,7 @@ class Threads {
   };
   const Use& use() const { return use_; }
 
-  /// Has loops that one thread works through alone read no clock: their caller, who reads it anyway, counts their time.
+  /// Makes loops on a single thread read no clock: their caller, who reads it anyway, counts their time.
   void countOutside(bool outside) { counted_outside_ = outside && !pool_; }
   bool isCountedOutside() const { return counted_outside_; }
   /// Counts the time [s] of loops that did not read the clock.

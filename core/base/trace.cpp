@@ -20,7 +20,7 @@ struct Event {
 };
 using Events = std::vector<Event>;
 
-/// So many spans of a thread are kept, the first ones: what a viewer can still show.
+/// The first spans of a thread are kept, up to this number, which viewers can still show.
 constexpr std::size_t mostEvents = 2000000;
 
 std::atomic<bool> on = false;
@@ -43,7 +43,7 @@ void sortByNesting(Events& events) {
             [](const Event& a, const Event& b) { return a.from != b.from ? a.from < b.from : a.to > b.to; });
 }
 
-/// What is between the outermost spans.
+/// The time between the outermost spans.
 Events gapsOf(const Events& sorted) {
   Events gaps;
   for (Clock::time_point end{}; const Event& event : sorted) {

@@ -17,11 +17,11 @@ std::string_view nameOf(Kind kind);
 void start();
 bool isOn();
 
-/// Records what the calling thread did from `from` to `to`. `name` must outlive the trace; `patch` is -1 where there is
+/// Records what the calling thread did from `from` to `to`. `name` must outlive the trace; `patch` is -1 if there is
 /// none.
 void record(Kind kind, std::string_view name, int patch, Clock::time_point from, Clock::time_point to);
 
-/// Records its own life. Spans of a thread are nested.
+/// Records a span as long as its own lifetime. Spans of a thread are nested.
 class Span {
  public:
   Span(Kind kind, std::string_view name, int patch = -1) : name_(name), kind_(kind), patch_(patch), on_(isOn()) {

@@ -32,7 +32,7 @@ struct Index {
 
   constexpr int& operator[](int axis) { return at[axis]; }
   constexpr int operator[](int axis) const { return at[axis]; }
-  /// Number by number: the comparison of arrays calls memcmp.
+  /// Component by component, as the comparison of arrays calls memcmp.
   friend constexpr bool operator==(const Index& a, const Index& b) {
     bool same = true;
     for (int d = 0; d < D; ++d) same &= a[d] == b[d];

@@ -36,11 +36,11 @@ class Gather {
   /// The values of a variable without a copy, on each rank its own: they stay where they are, and are good while the
   /// state is as it is. None if no rank holds it.
   output::Array stream(data::Generation generation, int variable);
-  /// The values without a copy, in the given order.
+  /// The values in the given order, without a copy.
   output::Array stream(data::Generation generation, int variable, const GridOrder& order);
-  /// The same for the part of a variable of cells or nodes that is in a layer; no other part is read.
+  /// The values of a variable of cells or nodes in a layer, without a copy; no other part is read.
   output::Array stream(data::Generation generation, int variable, const Layer& layer);
-  /// The same for the part that is in a window.
+  /// The values in a window, without a copy.
   output::Array stream(data::Generation generation, int variable, const Window& window);
 
  private:

@@ -8,7 +8,7 @@
 
 namespace tushar::collect {
 
-/// An order of the cells or nodes of a grid that no layout changes: the first axis fastest; where there are several
+/// An order of the cells or nodes of a grid that no layout changes: the first axis fastest; if there are several
 /// levels, box after box, the coarsest level first, those of a level along the curve.
 class GridOrder {
  public:
@@ -19,7 +19,7 @@ class GridOrder {
   GridOrder(const grid::Grid& grid, int most, std::vector<grid::Box> windows = {});
 
   std::size_t size() const { return boxes_ ? size_ : all_.size(); }
-  /// The cells or nodes that a patch contributes, of those that it has.
+  /// Those of the patch's cells or nodes that it contributes.
   grid::Box givenBy(const grid::Box& own) const { return boxes_ ? own : own.intersect(all_); }
   /// Calls `visit(place in the order, first cell or node, count)` for each row of a box of a level, as far as it is in
   /// the order; box by box along the curve, so from left to right for a single row.
@@ -53,7 +53,7 @@ class GridOrder {
   std::size_t size_ = 0;
 };
 
-/// All cells or nodes that a variable has a value for; of several levels in boxes that suit readers of files.
+/// All cells or nodes for which a variable has a value; with several levels, in boxes that suit readers of files.
 GridOrder orderOf(const grid::Grid& grid, bool isNode);
 
 /// The order in a checkpoint: block by block for several levels; for one level, with the nodes beyond the sides of the

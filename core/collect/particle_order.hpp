@@ -13,14 +13,14 @@
 namespace tushar::collect {
 
 /// The order (cell, id) of the old particles of a material over the whole grid, which no layout changes, and where the
-/// patches of this rank have theirs. Cells come with the first axis fastest; where there are several levels, block by
+/// patches of this rank have theirs. Cells come with the first axis fastest; if there are several levels, block by
 /// block. A rank stores the counts of its own cells alone.
 class ParticleOrder {
  public:
   /// Orders the particles that the warehouses of all ranks hold. Collective.
   ParticleOrder(data::Warehouse& warehouse, int material);
 
-  /// Numbers of particles that are wanted: of so many cells from a place in the order of all cells on.
+  /// A request for numbers of particles: of `count` consecutive cells from a place in the order of all cells.
   struct Wanted {
     std::size_t first, count;
     std::int32_t* to;
@@ -30,7 +30,7 @@ class ParticleOrder {
 
   /// Number of particles of all ranks.
   std::size_t count() const { return count_; }
-  /// The number of particles in each cell of the grid, in the order of the cells; good while this lives.
+  /// The number of particles in each cell of the grid, in the order of the cells; valid as long as this object.
   std::shared_ptr<const output::Source> perCell() const;
   /// Gives each patch its particles, without values.
   void install();

@@ -16,7 +16,7 @@ using grid::Level;
 
 namespace {
 
-/// Adds entries behind those that there are.
+/// Appends entries.
 void addStretch(std::vector<output::Stretch>& all, std::size_t first, std::size_t count) {
   if (!all.empty() && all.back().first + all.back().count == first)
     all.back().count += static_cast<std::uint32_t>(count);
@@ -52,7 +52,7 @@ class InRuns : public output::Source {
   }
 
  private:
-  /// Calls `visit(values, place of the first, count)` for what each run has of some entries.
+  /// Calls `visit(values, place of the first, count)` for the part of some entries that each run holds.
   template <class Visit>
   void forEachPart(std::size_t first, std::size_t count, Visit&& visit) const {
     const auto isBefore = [](std::size_t place, const Run& run) { return place < run.place + run.count; };
@@ -98,7 +98,7 @@ class AtPlaces : public output::Source {
   void gather(std::size_t first, std::size_t count, std::byte* to) const {
     form_.gather(parts_.of, std::span(places_->places).subspan(first, count), to);
   }
-  /// Which of the places of this rank are among these entries: from, end.
+  /// Those of this rank's places that are among these entries: from, end.
   std::pair<std::size_t, std::size_t> own(std::size_t first, std::size_t count) const {
     const auto begin = places_->ranked.begin(), end = places_->ranked.end();
     const auto from = std::lower_bound(begin, end, first);
@@ -110,7 +110,8 @@ class AtPlaces : public output::Source {
   EntryForm form_;
 };
 
-/// Runs in the order of their places, without what an earlier one has: nodes on a face belong to patches on both sides.
+/// Runs in the order of their places, without entries that an earlier one has: nodes on a face belong to patches on
+/// both sides.
 Runs withoutOverlaps(Runs runs) {
   std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.place < b.place; });
   std::size_t end = 0;
@@ -165,7 +166,7 @@ class Packing {
   int bits_ = 0;
 };
 
-/// By a table of all keys that there may be.
+/// Sorts by a table of all possible keys.
 std::vector<Place> sortedByTable(const Parts& ids, const Packing& keyOf) {
   constexpr std::uint32_t nobody = ~std::uint32_t{0};
   std::vector<Place> places(std::size_t{1} << keyOf.bits(), Place{nobody, 0});
@@ -179,7 +180,7 @@ struct Keyed {
   Place place;
 };
 
-/// By digits of 11 bits, the lowest first.
+/// Sorts by digits of 11 bits, the lowest first.
 std::vector<Place> sortedByDigits(const Parts& ids, const Packing& keyOf, std::size_t count) {
   constexpr int bits = 11;
   constexpr std::size_t digits = std::size_t{1} << bits;

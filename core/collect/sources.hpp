@@ -31,10 +31,10 @@ struct Place {
 /// Where the particles with these ids are, in ascending order of the ids.
 std::vector<Place> placesById(const Parts& ids);
 
-/// What becomes of an entry of a variable on its way into an array: it stays as it is, or is widened to x, y, z.
+/// How an entry of a variable is converted for an array: it stays as it is, or is widened to x, y, z.
 class EntryForm {
  public:
-  /// Entries of so many bytes stay as they are.
+  /// Entries of `bytes` bytes, which stay as they are.
   explicit EntryForm(std::size_t bytes) : bytes_(bytes) {}
   explicit EntryForm(const data::Label& label) : EntryForm(label.bytes) {}
   /// Vectors get 0 along the axes that the grid leaves out, and positions the middle of the domain.
@@ -60,14 +60,14 @@ class EntryForm {
 /// Where the particles of this rank are, and their places in an order of those of all ranks.
 struct ParticlePlaces {
   std::vector<Place> places;            ///< in the order
-  std::vector<std::uint64_t> ranked{};  ///< place of each among those of all ranks; empty where there are no others
+  std::vector<std::uint64_t> ranked{};  ///< place of each among those of all ranks; empty if there are no others
   std::size_t count = 0;                ///< on all ranks
 };
 
 /// The particles with these ids, in ascending order of the ids. Collective.
 ParticlePlaces rankedById(const mpi::Communicator& ranks, const Parts& ids);
 
-/// The entries in the order of runs; `entries` is how many all ranks have.
+/// The entries in the order of runs; `entries` is their number on all ranks.
 std::shared_ptr<const output::Source> sourceInRuns(std::shared_ptr<const Runs> runs, std::size_t entries, Parts parts,
                                                    const EntryForm& form);
 

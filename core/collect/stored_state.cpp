@@ -72,7 +72,7 @@ std::vector<std::uint64_t> shapeOf(const grid::Grid& grid, const Label& label) {
 
 std::size_t wordsOf(std::size_t bytes) { return (bytes + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t); }
 
-/// What writing and reading share: which variables there are, and where they are in the file.
+/// Shared by writing and reading: which variables there are, and where they are in the file.
 class StateWalk {
  public:
   StateWalk(data::Warehouse& warehouse, const StateNames& names)
@@ -202,7 +202,7 @@ class StateReader : StateWalk {
     return false;
   }
 
-  /// Refuses a dataset that has not as many numbers as the scene needs, or another type.
+  /// Refuses a dataset whose size or type differs from what the scene needs.
   void check(const std::string& path, const Array::Values& found, std::size_t size, const Array::Values& type,
              std::size_t count) const {
     if (found.index() != type.index()) refuse(fmt::format("the checkpoint has another type of number for {}", path));
@@ -210,7 +210,7 @@ class StateReader : StateWalk {
       refuse(fmt::format("the checkpoint has {} numbers for {}, but the scene needs {}", size, path, count));
   }
 
-  /// A dataset of so many numbers of a type.
+  /// A dataset with a number of values of a type.
   Array::Values stored(const std::string& path, const Array::Values& type, std::size_t count) const {
     Array::Values values = file_.dataset(path);
     check(path, values, sizeOf(values), type, count);
@@ -253,7 +253,7 @@ class StateReader : StateWalk {
     return isNext(0, first[0] + count - 1) ? 1 : 0;
   }
 
-  /// Entries of a variable, from a place in the file on.
+  /// Consecutive entries of a variable, from a place in the file.
   static output::Hdf5Parts::Part partOf(const Label& label, std::size_t place, std::size_t count, std::byte* to) {
     const std::size_t components = label.components;
     return {place * components, count * components, to};

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t samplesOfRank = 64;
 
-/// The least key of each section but the first.
+/// The smallest key of each section except the first.
 std::vector<std::uint64_t> cutsOf(const mpi::Communicator& ranks, std::span<const std::uint64_t> keys) {
   const std::size_t sections = ranks.size();
   const auto all = static_cast<std::uint64_t>(ranks.sum(static_cast<long>(keys.size())));
@@ -28,7 +28,7 @@ std::vector<std::uint64_t> cutsOf(const mpi::Communicator& ranks, std::span<cons
   return cuts;
 }
 
-/// What one rank has of a section: keys, then weights where they are given; once it is merged, the sums.
+/// The part of a section on one rank: keys, then weights where they are given; once it is merged, the sums.
 struct Part {
   int from = 0;
   std::vector<std::uint64_t> words{};
@@ -97,7 +97,7 @@ class Sections {
     return values.empty() ? values : values.subspan(starts_[rank], sizeOf(rank));
   }
 
-  /// What all ranks have of the section of this one.
+  /// The parts of this rank's section on all ranks.
   std::vector<Part> gathered() {
     std::vector<Part> parts;
     std::vector<mpi::Letter> letters;

@@ -40,7 +40,7 @@ class Buffer {
   void allocate(std::size_t bytes, std::size_t keep);
 
   void* memory_ = nullptr;
-  std::size_t mapped_ = 0;  ///< bytes of pages; 0 where the memory is the heap's
+  std::size_t mapped_ = 0;  ///< bytes of pages; 0 if the memory is the heap's
   std::byte* start_ = nullptr;
   std::size_t capacity_ = 0;
 };

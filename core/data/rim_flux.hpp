@@ -11,7 +11,7 @@ namespace tushar::data {
 const Label& rimLabelOf(const Label& label);
 
 /// The fluxes of a variable through the faces of a patch at which its level ends: the amount per area and time, along
-/// the axis. None where there is one level, and where nothing needs them. Several tasks of a step each add their part;
+/// the axis. None if there is one level, and where nothing needs them. Several tasks of a step each add their part;
 /// the sum is 0 before the first.
 template <class T>
 class RimFlux {

@@ -14,7 +14,7 @@ class PatchMaker {
 
   bool hasPatch(std::size_t place) const { return hasPatch_[place]; }
 
-  /// The blocks of the patch that a leaf begins.
+  /// The blocks of the patch whose first leaf is given.
   Box growFrom(const BlockId& leaf) {
     Box blocks{leaf.at, leaf.at + Index3::filled(1)};
     for (int axis = 0; axis < tree_.dimension(); ++axis)

@@ -66,7 +66,8 @@ void checkTree(int dimension, const Index3& roots, int levels) {
 std::strong_ordering operator<=>(const BlockId& a, const BlockId& b) {
   const int finer = std::max(a.level, b.level);
   std::strong_ordering order = a.level <=> b.level;
-  // The highest bit in which the places differ along any axis decides; of equally high ones, that of the last axis.
+  // The highest bit in which the places differ along any axis decides; if several are equally high, that of the last
+  // axis.
   int highest = 0;
   for (int d = 0; d < 3; ++d) {
     const std::int64_t first = std::int64_t{a.at[d]} << (finer - a.level);
@@ -121,7 +122,7 @@ int BlockTree::levelAt(const BlockId& block) const {
   std::optional<BlockId> place = inside(block);
   if (!place) return -1;
   while (place->level >= levels_) place = parentOf(*place);
-  // Of the leaves in the block's lower corner or before it, the last holds the corner.
+  // The last of the leaves that do not come after the block's lower corner holds that corner.
   const auto after = std::upper_bound(keys_.begin(), keys_.end(), keyOf(*place) | keyLevelMask);
   return std::min(static_cast<int>(*(after - 1) & keyLevelMask), block.level + 1);
 }
@@ -195,7 +196,7 @@ BlockTree BlockTree::fromKeys(int dimension, const Index3& roots, const Index3& 
     if (const std::optional<BlockId> parent = unrefined.inside(parentOf(unrefined.blockOf(key))))
       refined[level - 1].push_back(unrefined.keyOf(*parent));
   }
-  // What is no leaf of a tree, or is missing, is not in these keys, or is there beside them.
+  // The keys of a tree: leaves that are wrong or missing make them differ.
   BlockTree tree = unrefined.withRefined(std::move(refined));
   if (tree.keys_ != keys)
     throw std::invalid_argument(fmt::format(

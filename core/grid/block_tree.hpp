@@ -26,9 +26,9 @@ struct BlockId {
 /// their images do. A tree never changes: regridding makes another.
 class BlockTree {
  public:
-  /// Nothing refined yet. `roots`: blocks of level 0 along the kernel axes (1 beyond `dimension`); `periodic[d]` != 0
-  /// where the grid repeats; `levels`: the most levels, from 1 to 16. Throws std::invalid_argument where this does not
-  /// hold, or the finest level has more than 2^20 blocks along an axis.
+  /// A tree in which nothing is refined. `roots`: blocks of level 0 along the kernel axes (1 beyond `dimension`);
+  /// `periodic[d]` != 0 if the grid repeats; `levels`: the most levels, from 1 to 16. Throws std::invalid_argument
+  /// where this does not hold, or the finest level has more than 2^20 blocks along an axis.
   BlockTree(int dimension, const Index3& roots, const Index3& periodic, int levels);
 
   int dimension() const { return dimension_; }
@@ -40,7 +40,7 @@ class BlockTree {
   /// Depth first along Morton's curve through all levels (G. M. Morton, A Computer Oriented Geodetic Data Base and a
   /// New Technique in File Sequencing, IBM 1966).
   const std::vector<BlockId>& leaves() const { return leaves_; }
-  /// The level of the leaf that holds a block's place: its own, a coarser one, or block.level + 1 where the block is
+  /// The level of the leaf that holds a block's place: its own, a coarser one, or block.level + 1 if the block is
   /// refined. Along periodic axes, images count; outside the grid along other axes: -1.
   int levelAt(const BlockId& block) const;
   /// Place of a leaf on the curve, from 0; the block must be a leaf, not the image of one.

@@ -24,7 +24,7 @@ constexpr std::string_view nameOf(BoundaryKind kind) { return boundaryKindNames[
 /// A variable for which a scene may give conditions, of any type. Two with the same name are the same variable.
 struct BoundaryVariable {
   std::string_view name;  ///< the `label` attribute of a `BCType`
-  bool isVector = false;  ///< whether its value is one
+  bool isVector = false;  ///< whether its value is a vector
   bool isEven = false;    ///< may be given on a plane of symmetry; a vector where it lies in the plane
 
   /// The same variable, which may also be given on a plane of symmetry.
@@ -48,7 +48,7 @@ struct BoundaryCondition {
   BoundaryKind kind;
   Vec3 value = Vec3::Zero();  ///< a number is in the first component; the unit is the variable's
   int material = -1;          ///< the number of the one that it holds for; -1: all
-  /// In place of the value, for components that take formulas; a number is its first component.
+  /// In place of the value, for components that take formulas; a scalar is in the first component.
   std::shared_ptr<const input::VectorExpression> formula = {};
 
   /// Whether it holds for a material.
@@ -65,7 +65,7 @@ struct BoundaryValue {
   bool isDirichlet() const { return kind == BoundaryKind::dirichlet; }
   /// The value at a place [m] and a time [s].
   T at(const Vec3& x, double time) const { return formula ? of((*formula)(x, time)) : value; }
-  /// Takes a condition as the scene gives it.
+  /// From a condition as the scene gives it.
   static BoundaryValue of(const BoundaryCondition& condition) {
     return {condition.kind, of(condition.value), condition.formula.get()};
   }
@@ -79,13 +79,13 @@ struct BoundaryValue {
   }
 };
 
-/// A part of a side, and the conditions there.
+/// A part of a side, and its conditions.
 struct ConditionsOfPart {
   SidePart shape;
   std::vector<BoundaryCondition> conditions;
 };
 
-/// Stands for the rest of a side, outside of all its parts, where there may be the number of a part.
+/// In place of the number of a part: the rest of a side, outside of all its parts.
 inline constexpr int restOfSide = -1;
 
 /// The conditions of the six faces x-, x+, y-, y+, z-, z+ in this order. A face with none is free.

@@ -33,7 +33,7 @@ struct Box {
     return true;
   }
 
-  /// Place of an index in memory that holds the box, the first axis fastest.
+  /// Offset of an index in an array over the box, the first axis fastest.
   constexpr std::size_t offset(const Index3& at) const {
     const std::size_t x = at[0] - lower[0];
     const std::size_t y = at[1] - lower[1];

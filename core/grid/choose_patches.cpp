@@ -8,7 +8,7 @@ namespace tushar::grid {
 
 namespace {
 
-constexpr int patchesPerWorker = 4;  ///< so that one with less work can take over from another
+constexpr int patchesPerWorker = 4;  ///< so that a thread with less work can take some from another
 
 double countOf(const Index3& cells) { return static_cast<double>(cells[0]) * cells[1] * cells[2]; }
 

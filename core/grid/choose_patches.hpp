@@ -7,22 +7,22 @@
 
 namespace tushar::grid {
 
-inline constexpr int cellsPerThread = 8192;  ///< fewer are not worth a thread
+inline constexpr int cellsPerThread = 8192;  ///< with fewer, another thread does not pay off
 
-/// How many threads, from 1 to `most`, pay off for so many cells.
+/// How many threads, from 1 to `most`, pay off for a number of cells.
 int usefulThreads(double cells, int cellsOfThread, int most);
 
 /// The ranks and threads that work on a grid.
 struct Workers {
   int threads = 1;          ///< of each rank
-  bool mayBeFewer = false;  ///< whether only as many threads are wanted as are worth having
+  bool mayBeFewer = false;  ///< whether to use only as many threads as pay off
   int ranks = 1;
-  std::optional<Index3> layout;  ///< patches along x, y, z that they want, whatever the scene says
+  std::optional<Index3> layout;  ///< patches along x, y, z; overrides those of the scene
 
   /// The threads of each rank for a grid of `cells` along x, y, z: a thread with too few cells costs more than it
   /// gains.
   int threadsFor(const Index3& cells) const;
-  /// How many patches they need to share the work evenly: one where there is one worker.
+  /// Number of patches that share the work evenly: one if there is one worker.
   int patchesFor(const Index3& cells) const;
 };
 

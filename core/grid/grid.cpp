@@ -70,7 +70,7 @@ void Grid::cutIntoBlocks() {
   tiling_ = std::move(tiling);
 }
 
-/// Large enough that ghosts cost little, small enough to stay in cache and for threads to share.
+/// Large enough that ghosts cost little, small enough to fit into cache and to share among threads.
 Index3 Grid::mostCellsOfPatch(const Index3& blockCells) const {
   const auto& wanted = level().domain().refinement.blocksPerPatch;
   Index3 most = Index3::filled(1);
@@ -147,7 +147,7 @@ bool Grid::sharesUpperFace(const Patch& patch, int kernelAxis) const {
   for (int d = 0; d < dimension(); ++d) ++behind.upper[d];
   behind.lower[kernelAxis] = face;
   const std::vector<Patch> others = patchesOverlapping(behind, level.number());
-  std::size_t covered = 0;  // all of it, but for cells of other levels
+  std::size_t covered = 0;  // all of it, except cells of other levels
   for (const Patch& other : others) covered += other.cells().intersect(behind).size();
   return covered == behind.intersect(level.cells()).size() &&
          std::all_of(others.begin(), others.end(), [&](const Patch& other) { return isMine(other.id()); });

@@ -34,22 +34,22 @@ class Grid {
   int levels() const { return static_cast<int>(levels_.size()); }
   const Level& finest() const { return levels_.back(); }
   bool isFinest(const Patch& patch) const { return &patch.level() == &finest(); }
-  /// Whether all cells of a box of the finest level, as far as they are on the grid or its images, are not part of
-  /// coarser ones.
+  /// Whether no cell of a box of the finest level is part of a coarser one; cells beyond the grid and its images do not
+  /// count.
   bool isFinest(const Box& cells) const;
   int dimension() const { return level().dimension(); }
 
-  /// The tree of refined blocks; there must be several levels.
+  /// The tree of refined blocks; only for several levels.
   const BlockTree& tree() const { return blocks_->tree(); }
   /// Cells of a block along the kernel axes.
   const Index3& blockCells() const { return blocks_->blockCells(); }
   const BlockTiling& tiling() const { return *blocks_; }
   /// Blocks that stay refined, as the regions of the scene say.
   const std::set<BlockId>& fixedBlocks() const { return fixed_blocks_; }
-  /// The patches that another tree would make.
+  /// The patches of another tree.
   std::unique_ptr<BlockTiling> cut(BlockTree tree) const;
-  /// Replaces the patches, in the given shares or, without any, in such that are as equal in cells as they allow;
-  /// returns the previous ones. The caller moves the values of the patches: see tasks::regrid.
+  /// Replaces the patches; returns the previous ones. Without given shares, ranks get as equal numbers of cells as the
+  /// patches allow. The caller moves the values of the patches: see tasks::regrid.
   std::unique_ptr<Tiling> refine(std::unique_ptr<BlockTiling> tiling, RankOffsets shares = {});
   /// Cells of one of this rank's patches that were part of coarser ones before the last call of refine().
   const std::vector<Box>& newCells(int patch) const { return new_cells_[patch - first_patch_]; }
@@ -70,8 +70,8 @@ class Grid {
   /// The rank that has a patch.
   int ownerOf(int patch) const { return isMine(patch) ? share_.rank : partition_->ownerOf(patch); }
   const Share& share() const { return share_; }
-  /// Nodes of one of this rank's patches that are its own: all but those on an upper face behind which only patches of
-  /// this rank stand, which have these nodes, too. Each node of a patch is an own node of one of the rank's.
+  /// Nodes that one of this rank's patches owns: all but those on an upper face behind which only patches of this rank
+  /// stand, which have these nodes, too. Each node of a patch is an own node of one of the rank's.
   const Box& ownNodes(int patch) const { return own_nodes_[patch - first_patch_]; }
   /// The distribution of patches to ranks.
   RankOffsets rankOffsets() const;
@@ -104,13 +104,13 @@ class Grid {
   std::deque<Level> levels_;
   Share share_;
   std::unique_ptr<Tiling> tiling_;
-  const BlockTiling* blocks_ = nullptr;  ///< the tiling, where there are several levels
+  const BlockTiling* blocks_ = nullptr;  ///< the tiling, if there are several levels
   std::set<BlockId> fixed_blocks_;
   std::optional<Partition> partition_;
   int first_patch_ = 0;
   std::vector<Patch> patches_;
   std::vector<Box> own_nodes_;               ///< by place of the patch on this rank
-  std::vector<std::vector<RimPiece>> rims_;  ///< likewise; empty where there is one level
+  std::vector<std::vector<RimPiece>> rims_;  ///< likewise; empty if there is one level
   std::vector<std::vector<Box>> new_cells_;  ///< by place of the patch on this rank
 };
 

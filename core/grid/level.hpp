@@ -27,7 +27,7 @@ struct Domain {
   Index3 patches{{1, 1, 1}};     ///< along x, y, z
   Index3 periodic{};             ///< 1 along axes where the grid repeats without end
   int nodesBeyond = 0;           ///< layers of nodes outside every side that is not periodic, for wide shape functions
-  Refinement refinement;         ///< nothing is refined unless it says so
+  Refinement refinement;         ///< by default nothing is refined
   BoundaryConditions boundaries;
 };
 
@@ -43,16 +43,16 @@ struct Domain {
 class Level {
  public:
   explicit Level(const Domain& domain) : Level(domain, 0, 1, nullptr) {}
-  /// Level `number` of `levels` of a grid, which outlives it: `domain`'s cells are halved `number` times.
+  /// Level `number` of the `levels` of a grid, which must outlive it: `domain`'s cells are halved `number` times.
   Level(const Domain& domain, int number, int levels, const Grid* grid);
   Level(const Level&) = delete;
   Level& operator=(const Level&) = delete;
 
   /// 0 for the coarsest.
   int number() const { return number_; }
-  /// The grid to which this level belongs, which has the patches; there must be one.
+  /// The grid that this level belongs to, which has the patches; only if there is one.
   const Grid& grid() const { return *grid_; }
-  /// The finest level of that grid; this one, where it has no finer ones.
+  /// The finest level of that grid; this one if there are no finer ones.
   const Level& finest() const;
   int dimension() const { return static_cast<int>(axes_.size()); }
   /// The scene's axis (0 for x, 1 for y, 2 for z) behind a kernel axis.
@@ -74,9 +74,9 @@ class Level {
   double spacing(int kernelAxis) const { return spacing_[kernelAxis]; }
   /// One over the cell width, 1/m: saves a division wherever kernels convert metres to cells.
   double inverseSpacing(int kernelAxis) const { return inverse_spacing_[kernelAxis]; }
-  /// Cell width along an axis of the scene, m; 0 where the grid has no extent.
+  /// Cell width along an axis of the scene, m; 0 if the grid has no extent.
   double cellWidth(int axis) const { return (domain_.upper[axis] - domain_.lower[axis]) / domain_.resolution[axis]; }
-  /// The least cell width, m.
+  /// The smallest cell width, m.
   double minSpacing() const;
   /// Volume of a cell, m³; an axis without extent counts as 1 m.
   double cellVolume() const { return cellVolume_; }
@@ -105,7 +105,7 @@ class Level {
 
   /// The cells of the grid near a box in space [m]: at least all that it touches.
   Box cellsNear(const Vec3& lower, const Vec3& upper) const;
-  /// The axes that are left out: `y, z`, or nothing.
+  /// The axes that the grid does not use: `y, z`, or nothing.
   std::string axesLeftOut() const;
   /// The periodic images of the grid that hold cells of a box, as shifts in cells: cell c + shift is an image of c.
   /// Zero among them where the box holds cells of the grid.
@@ -137,14 +137,14 @@ class Level {
     for (int d = 0; d < D; ++d) reduced[d] = v[axis(d)];
     return reduced;
   }
-  /// A direction back in x, y, z: zero along the axes left out.
+  /// A direction along x, y, z, from one along the kernel axes: zero along the axes left out.
   template <int D>
   Vec3 expandDirection(const Vec<D>& v) const {
     Vec3 full = Vec3::Zero();
     for (int d = 0; d < D; ++d) full[axis(d)] = v[d];
     return full;
   }
-  /// A point back in x, y, z: the middle of the domain along the axes left out.
+  /// A point in x, y, z, from one along the kernel axes: the middle of the domain along the axes left out.
   template <int D>
   Vec3 expandPoint(const Vec<D>& x) const {
     Vec3 full = 0.5 * (domain_.lower + domain_.upper);
@@ -167,14 +167,14 @@ class Level {
   const std::vector<ConditionsOfPart>& parts(int kernelAxis, int side) const {
     return domain_.boundaries.parts[2 * axis(kernelAxis) + side];
   }
-  /// The number of the part of a side that has the face of a cell, by its middle; restOfSide where none does. Only
-  /// where the cell is across the side counts; beyond the grid that of the nearest cell, or the one it is an image of.
+  /// The number of the part of a side that holds the middle of a cell's face; restOfSide if none does. Only where the
+  /// cell is across the side counts; beyond the grid that of the nearest cell, or the one it is an image of.
   template <int D>
   int partAt(int kernelAxis, int side, const Index<D>& cell) const {
     return parts(kernelAxis, side).empty() ? restOfSide
                                            : partOf(kernelAxis, side, middleOfSide<D>(kernelAxis, side, cell));
   }
-  /// The middle of the face on a side of the grid of a cell, which may be beyond others, m.
+  /// The middle of a cell's face, projected onto a side of the grid, m.
   template <int D>
   Vec3 middleOfSide(int kernelAxis, int side, const Index<D>& cell) const {
     Index<D> nearest = wrapped<D>(cell);
@@ -201,7 +201,7 @@ class Level {
   Box clip(const Box& box, const Box& grid) const;
   void measure();
 
-  int number_ = 0, halvings_ = 0;  ///< and how often the cells of the finest level are halved beyond these
+  int number_ = 0, halvings_ = 0;  ///< and the number of further halvings down to cells of the finest level
   const Grid* grid_ = nullptr;
   Domain domain_;
   std::vector<int> axes_;
@@ -225,11 +225,11 @@ class BoundarySides {
       }
   }
 
-  /// Of the rest of a side, outside of its parts.
+  /// The condition on the rest of a side, outside of its parts.
   const std::optional<BoundaryValue<T>>& operator()(int kernelAxis, int side) const {
     return sides_[numberOf(kernelAxis, side)].rest;
   }
-  /// Of the face of a cell at a side.
+  /// The condition at the face of a cell on a side.
   template <int D>
   const std::optional<BoundaryValue<T>>& operator()(int kernelAxis, int side, const Index<D>& cell) const {
     const Side& at = sides_[numberOf(kernelAxis, side)];

@@ -23,7 +23,7 @@ class MortonCurve {
   /// Number of blocks.
   int blocks() const { return static_cast<int>(all_.size()); }
   std::uint64_t cells() const { return cellsOf(all_); }
-  /// Place of a block on the curve, from 0.
+  /// Position of a block on the curve, from 0.
   int placeOf(const Index3& block) const;
   Index3 blockAt(int place) const;
   /// The cells of a block.

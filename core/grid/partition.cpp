@@ -4,8 +4,8 @@
 
 namespace tushar::grid {
 
-// Where nothing else is given, cuts stand at rank · cells / ranks, and a patch belongs to the rank between whose cuts
-// its middle is: so halves of 61 and 62 cells are one for each of two ranks. Patch 0 belongs to rank 0.
+// By default the cuts are at rank · cells / ranks, and a patch belongs to the rank whose cuts enclose its middle: thus
+// of halves with 61 and 62 cells each of two ranks gets one. Patch 0 belongs to rank 0.
 
 int Partition::firstOf(int rank) const {
   if (!offsets_.empty()) return offsets_[rank];

@@ -16,7 +16,7 @@ struct FineRegion {
 /// How a grid may be refined: in blocks of a fixed number of cells, which are a property of the scene. Patches are
 /// boxes of blocks of one level, chosen for speed alone.
 struct Refinement {
-  int levels = 1;                        ///< the most, with the coarsest
+  int levels = 1;                        ///< the most levels, including the coarsest
   Index3 blockCells{{8, 8, 8}};          ///< cells of a block along x, y, z
   std::optional<Index3> blocksPerPatch;  ///< the most along x, y, z; none: as suits the threads and ranks
   std::vector<FineRegion> regions;

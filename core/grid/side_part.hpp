@@ -18,15 +18,14 @@ class SidePart {
  public:
   /// Points within `radius` of `origin`, m, on a side across `axis`.
   static SidePart circle(int axis, const Vec3& origin, double radius);
-  /// A circle without a smaller one.
+  /// A circle, without a smaller circle in it.
   static SidePart annulus(int axis, const Vec3& origin, double inner, double outer);
-  /// Half as wide along its longer axis as `longer`, and `shorter` across, m. The longer axis is turned by `degrees`
-  /// from y towards z on x+, from z towards x on y+, from x towards y on z+, and the other way round on the opposite
-  /// sides.
+  /// An ellipse with the semi-axes `longer` and `shorter`, m. The longer axis is turned by `degrees` from y towards z
+  /// on x+, from z towards x on y+, from x towards y on z+, and the other way round on the opposite sides.
   static SidePart ellipse(int axis, int side, const Vec3& origin, double shorter, double longer, double degrees);
   /// Between two corners, m.
   static SidePart rectangle(int axis, const Vec3& lower, const Vec3& upper);
-  /// A rectangle without a smaller one.
+  /// A rectangle, without a smaller rectangle in it.
   static SidePart rectangulus(int axis, const std::array<Vec3, 2>& inner, const std::array<Vec3, 2>& outer);
 
   bool holds(const Vec3& x) const;
@@ -41,7 +40,7 @@ class SidePart {
     Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
     friend bool operator==(const Corners&, const Corners&) = default;
   };
-  /// Two foci, and the sum of the distances to them, m; of a circle they are one.
+  /// Two foci, which coincide for a circle, and the sum of the distances to them, m.
   struct Oval {
     Vec3 first = Vec3::Zero(), second = Vec3::Zero();
     double sum = 0;

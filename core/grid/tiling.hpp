@@ -22,8 +22,7 @@ class Tiling {
   /// Number of patches.
   virtual int count() const = 0;
   virtual Tile tile(int id) const = 0;
-  /// The patch of a level that holds a cell of it; its id is -1 where the cell is refined or belongs to a coarser
-  /// level.
+  /// The patch that holds a cell of a level; its id is -1 if the cell is refined or belongs to a coarser level.
   virtual Tile tileOf(int level, const Index3& cell) const = 0;
   /// The patches of a level that hold cells of a box of it, all of which lie on the grid.
   virtual std::vector<Tile> overlapping(int level, const Box& cells) const = 0;

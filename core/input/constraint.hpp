@@ -9,7 +9,7 @@
 
 namespace tushar::input {
 
-/// A condition on a number, and the words for it.
+/// A condition on a number, and its wording.
 struct Constraint {
   std::function<bool(double)> holds;
   std::string allowed;  ///< `greater than 0`, `at least 1`, `from 0 to 1`

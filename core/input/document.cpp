@@ -44,10 +44,10 @@ class TreeBuilder {
   std::vector<std::string> including_;
 };
 
-/// Where a file is that a tag names.
+/// The path of a file that a tag names.
 struct FoundFile {
   std::string path;
-  bool hasMoved = false;  ///< it is not where the tag says
+  bool hasMoved = false;  ///< it was found elsewhere
 };
 
 /// Finds a file that a tag of the scene `scene` names: beside the scene, in a folder above it, where the run is started

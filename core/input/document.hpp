@@ -23,7 +23,7 @@ class Document {
   /// Reads a scene from memory; messages and included files treat it as the file `name`.
   static Document parse(std::string_view text, const std::string& name, Diagnostics& diagnostics);
 
-  /// Overrides one value, `Grid/Level/Box/resolution=[200,1,1]`. `Tag[2]` picks the second of several siblings,
+  /// Overrides one value, such as `Grid/Level/Box/resolution=[200,1,1]`. `Tag[2]` picks the second of several siblings,
   /// `Tag[@label='left']` one by its attribute, and a path that ends in `@type` sets an attribute. Missing tags are
   /// created. What is overridden is from then on at the location `--set PATH=VALUE`.
   void set(const std::string& change, Diagnostics& diagnostics);

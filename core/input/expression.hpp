@@ -33,7 +33,7 @@ class Expression {
   /// Whether it is constant in space and time.
   bool isConstant() const { return constant_; }
   bool dependsOnTime() const { return dependsOnTime_; }
-  /// The formula as written in the scene.
+  /// The formula as it is written in the scene.
   const std::string& text() const { return text_; }
   /// The tag that it was read from, or the option that overrides it.
   const Location& where() const { return where_; }

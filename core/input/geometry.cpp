@@ -38,12 +38,12 @@ Kind simple() {
   return {T::schema().name(), read, describe, &T::schema()};
 }
 
-/// A reference to a shape that is wrong is null without a sentence of its own.
+/// A reference to a faulty shape is null, without a message of its own.
 bool allRead(const std::vector<PiecePtr>& pieces) {
   return std::find(pieces.begin(), pieces.end(), nullptr) == pieces.end();
 }
 
-/// What a union, a difference or an intersection is made of.
+/// The shapes of a union, a difference or an intersection.
 struct Operands {
   std::vector<PiecePtr> pieces;
 };
@@ -107,7 +107,7 @@ struct FileTag {
   std::string file;
 };
 
-/// `load(path, tag, diagnostics)` makes the shape, or says what is wrong at the tag.
+/// `load(path, tag, diagnostics)` makes the shape, or reports what is wrong at the tag.
 Kind fromFile(const std::string& name, const std::string& sentence, const std::string& whatFile,
               const std::function<PiecePtr(const std::string&, const Element&, Diagnostics&)>& load) {
   const auto schema = std::make_shared<const Schema<FileTag>>(
@@ -214,7 +214,7 @@ std::vector<Element> labelledAbove(const Element& shape) {
   return found;
 }
 
-/// Those of all sections above.
+/// The labelled shapes of all sections above.
 std::vector<Element> labelledInScene(const Element& shape) {
   Element scene = shape;
   while (scene.parent()) scene = *scene.parent();

@@ -29,7 +29,7 @@ PiecePtr readShape(const Element& shape, Diagnostics& diagnostics);
 /// The manual of all shapes, indented by that many blanks.
 void describeGeometry(std::ostream& out, int indent = 0);
 
-/// Adds the tags of shapes to the schema of a body: `shape` becomes their union, and `where` the place of the body.
+/// Adds the tags of the shapes to the schema of a body: `shape` becomes their union, and `where` the place of the body.
 /// `sentence` says what the shape is for.
 template <class S>
 Schema<S>& addShape(Schema<S>& body, Location S::*where, PiecePtr S::*shape, const std::string& sentence) {

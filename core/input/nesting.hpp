@@ -14,10 +14,10 @@ inline constexpr std::size_t mostNested = 100;
 struct BadNesting {
   std::ptrdiff_t where;            ///< byte of the text
   std::string closed;              ///< name of the tag that is closed there; empty at the end of the text
-  std::string open;                ///< name of the innermost tag that is open there; empty where none is
+  std::string open;                ///< name of the innermost tag that is open there; empty if none is
   std::ptrdiff_t whereOpened = 0;  ///< byte of its name
   bool wasOpened = false;          ///< whether the tag that is closed is open further out
-  bool tooDeep = false;            ///< one tag too many in each other, and nothing else
+  bool tooDeep = false;            ///< nested one level too deep, and nothing else is wrong
 };
 
 /// Checks only tags: comments, CDATA, declarations and text between tags are skipped.

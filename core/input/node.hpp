@@ -21,7 +21,7 @@ struct Node {
 
   Kind kind = Kind::tag;
   std::string name;  ///< empty for a comment
-  std::string text;  ///< own text without blanks at its ends; what a comment says
+  std::string text;  ///< own text without blanks at its ends; the text of a comment
   Location where;
   std::vector<Attribute> attributes;
   std::vector<std::unique_ptr<Node>> children;

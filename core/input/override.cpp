@@ -95,7 +95,7 @@ Node& create(Node& parent, const std::string& name, const Location& where) {
   return parent.append(std::move(node));
 }
 
-/// Why `step` does not lead to exactly one tag among `found`, or nothing.
+/// Why `step` does not match exactly one tag among `found`, or nothing.
 std::string stepProblem(const Node& parent, const OverrideStep& step, std::size_t found) {
   if (step.index > 0) {
     if (static_cast<std::size_t>(step.index) <= found + 1) return {};
@@ -109,7 +109,7 @@ std::string stepProblem(const Node& parent, const OverrideStep& step, std::size_
                      parent.name, step.name, step.name);
 }
 
-/// The one child that `step` names, made if it is missing; null after a complaint.
+/// The only child that `step` matches, made if it is missing; null after an error.
 Node* follow(Node& parent, const OverrideStep& step, const Location& where, Diagnostics& diagnostics) {
   const std::vector<Node*> found = matches(parent, step);
   const std::string problem = stepProblem(parent, step, found.size());

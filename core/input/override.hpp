@@ -13,19 +13,19 @@ namespace tushar::input {
 /// One tag of the path of an override: `Box`, `Box[2]` or `Box[@label='left']`.
 struct OverrideStep {
   std::string name;
-  int index = 0;          ///< from 1; 0 where none is given
-  std::string attribute;  ///< empty where none is given
+  int index = 0;          ///< from 1; 0 if none is given
+  std::string attribute;  ///< empty if none is given
   std::string value;      ///< of `attribute`
 };
 
-/// `Grid/Level/Box/resolution=[200,1,1]` taken apart.
+/// The parts of `Grid/Level/Box/resolution=[200,1,1]`.
 struct Override {
   std::vector<OverrideStep> steps;
-  std::string attribute;  ///< the attribute to set; empty where the text of the tag is set
+  std::string attribute;  ///< the attribute to set; empty if the text of the tag is set
   std::string value;
 };
 
-/// Reads `PATH=VALUE`; nothing, and a sentence in `diagnostics`, if the text has another form.
+/// Reads `PATH=VALUE`; nothing, with an error in `diagnostics`, if the text has another form.
 std::optional<Override> parseOverride(std::string_view text, const Location& where, Diagnostics& diagnostics);
 
 /// Sets the value below `root`, creating missing tags. The new tags, and the tag or attribute that is set, are from

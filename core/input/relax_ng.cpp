@@ -137,7 +137,7 @@ class Grammar {
     referToTag(isOne ? parent : parent.append_child("choice"), form, tag, documentation);
   }
 
-  /// Tags of which some must be given, whichever.
+  /// Tags of which a number must be given, any of them.
   void writeAnyOf(xml_node parent, const SchemaEntry& entry, int atLeast) {
     const auto choose = [&](xml_node place) {
       xml_node choice = place.append_child("choice");
@@ -202,7 +202,7 @@ class Grammar {
       writeAllTags(element, schema, demands);
   }
 
-  /// Tags in any order; where some are included from another file, nothing can be said of which are missing.
+  /// Tags in any order; if some are included from another file, missing tags cannot be detected.
   void writeAllTags(xml_node element, const SchemaBase& schema, const std::vector<Demand>& demands) {
     const bool someAreRequired = std::any_of(schema.entries().begin(), schema.entries().end(),
                                              [&](const auto& entry) { return isRequired(entry, demands); });
@@ -210,7 +210,7 @@ class Grammar {
     if (someAreRequired) {
       xml_node all = parent.append_child("interleave");
       writeTags(all, schema, demands, false);
-      if (all.first_child() == all.last_child()) {  // libxml2 2.9 loses its way in an interleave of one
+      if (all.first_child() == all.last_child()) {  // libxml2 2.9 fails on an interleave of one
         parent.append_move(all.first_child());
         parent.remove_child(all);
       }

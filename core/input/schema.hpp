@@ -219,7 +219,7 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// Adds, to the message about a word that the last choice lacks, where that word is available.
+  /// Adds to the message about a word that the last choice lacks where that word is available.
   Schema& elsewhere(std::string_view word, std::string_view sentence) {
     explainWordOfLast(word, sentence);
     return *this;

@@ -97,7 +97,7 @@ void readAttribute(const SchemaEntry& entry, void* object, const Element& elemen
   }
 }
 
-/// Reports what a function that reads tags by hand ignores: attributes, tags in values, second tags.
+/// Reports what is ignored by a function that reads tags by hand: attributes, tags in values, second tags.
 void checkForm(const TagForm& form, const Element& element, Diagnostics& diagnostics) {
   std::vector<std::string> demanded;
   for (const Demand& demand : form.demands) demanded.push_back(demand.name);

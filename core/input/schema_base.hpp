@@ -31,23 +31,23 @@ struct SchemaEntry {
   std::string sentence;
   std::string type;
   std::string unit;
-  std::string fallback;  ///< the default as text; empty where there is none
+  std::string fallback;  ///< the default as text; empty if there is none
   std::string limits;
   std::vector<std::string> choices;
   std::vector<std::string> takes;  ///< the tags that it reads; empty for attributes and text
   bool ours = false;
   bool repeatable = false;
-  bool isAlternative = false;  ///< of the attributes that are, one must be given
+  bool isAlternative = false;  ///< one of the attributes with this mark must be given
   int atLeast = 0;             ///< how many must be given
-  std::vector<TagForm> forms;  ///< what the tags that a function of the parent reads may contain; empty: anything
-  const SchemaBase* nested = nullptr;  ///< what reads a nested tag
+  std::vector<TagForm> forms;  ///< the allowed content of tags that a function of the parent reads; empty: anything
+  const SchemaBase* nested = nullptr;  ///< the schema that reads a nested tag
 
   std::function<void(void* object)> setDefault;
-  /// Reads a value that is given at `where`; returns a sentence where it is wrong.
+  /// Reads a value that is given at `where`; returns what is wrong with it, or nothing.
   std::function<std::string(void* object, const std::string& text, const Location& where)> assign;
   /// Reads a nested tag; for Form::custom, the parent.
   std::function<void(void* object, const Element& element, Diagnostics& diagnostics)> fill;
-  /// The manual of what is below the tag.
+  /// The manual of the content of the tag.
   std::function<void(std::ostream& out, int indent)> describe;
 };
 
@@ -56,12 +56,12 @@ SchemaEntry namedEntry(std::string_view name, std::string_view sentence);
 /// `number in Pa, greater than 0, default 1`: what the manual says of a value besides its sentence.
 std::string factsOf(const SchemaEntry& entry);
 
-/// Why `text` is none of `words`, or nothing.
+/// The message that `text` is none of `words`, or nothing if it is one.
 std::string choiceProblem(const std::string& text, const std::vector<std::string>& words);
 
 /// Reports the attributes of a tag that are not among `allowed`.
 void refuseAttributes(const Element& element, const std::vector<std::string>& allowed, Diagnostics& diagnostics);
-/// Reports the text of a tag that holds tags alone.
+/// Reports text in a tag that may hold only tags.
 void refuseText(const Element& element, Diagnostics& diagnostics);
 
 /// The part of a Schema that does not depend on the structure that it fills.

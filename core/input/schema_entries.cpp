@@ -2,7 +2,7 @@
 
 namespace tushar::input {
 
-// What the compiler would otherwise make in each file that declares a schema.
+// Instances that the compiler would otherwise make in each file that declares a schema.
 SchemaEntry::SchemaEntry() = default;
 SchemaEntry::SchemaEntry(const SchemaEntry& other) = default;
 SchemaEntry::SchemaEntry(SchemaEntry&& other) noexcept = default;

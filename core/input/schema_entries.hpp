@@ -13,8 +13,8 @@
 #include "core/input/schema_base.hpp"
 #include "core/input/values.hpp"
 
-// The entries of a Schema by the type of their value alone, not by the structure that they fill: what all schemas of a
-// program share.
+// The parts of a Schema's entries that depend on the type of the value alone, not on the structure: all schemas of a
+// program share them.
 
 namespace tushar::input {
 
@@ -22,7 +22,7 @@ namespace tushar::input {
 template <class E>
 using Choices = std::vector<std::pair<std::string, E>>;
 
-/// Where a member is in an object whose type is not known here: an M, which is a T, an optional T or a list of T.
+/// The address of a member in an object whose type is erased: an M, which is a T, an optional T or a list of T.
 template <class M>
 using Reach = std::function<M*(void* object)>;
 
@@ -43,7 +43,7 @@ void storeIn(std::vector<T>& member, T value) {
 template <class T>
 struct Limit {
   std::string allowed;  ///< `greater than 0`
-  /// Why a value, given as `text`, breaks it; nothing if it does not.
+  /// Why a value, given as `text`, violates it; nothing if it does not.
   std::function<std::string(const T& value, const std::string& text, const std::string& unit)> problem;
 };
 template <class T>

@@ -8,7 +8,7 @@ namespace tushar::input {
 
 class SchemaBase;
 
-/// An attribute or a tag that must be there, with one of some words; with any value where there are no words.
+/// An attribute or a tag that must be there, with one of some words; with any value if there are no words.
 struct Demand {
   std::string name;
   std::vector<std::string> words;
@@ -36,7 +36,7 @@ struct TagForm {
   bool repeats = true;  ///< whether a tag may be given more than once
 };
 
-/// Tags with a value of a type, each given once at the most.
+/// Tags with a value of a type, each given at most once.
 inline TagForm typeForm(std::vector<std::string> tags, std::string type, int atLeast = 0) {
   return {.tags = std::move(tags),
           .kind = TagForm::Kind::value,
@@ -59,7 +59,7 @@ inline TagForm patternForm(std::vector<std::string> tags, std::string pattern) {
   return form;
 }
 
-/// Tags that are never right.
+/// Tags that are never allowed.
 inline TagForm noForm(std::vector<std::string> tags) {
   return {.tags = std::move(tags), .kind = TagForm::Kind::nothing};
 }
@@ -78,14 +78,14 @@ inline TagForm sectionForm(std::vector<std::string> tags, std::function<std::vec
           .atLeast = atLeast};
 }
 
-/// A tag that schemas read, given once at the most.
+/// A tag that schemas read, given at most once.
 inline TagForm onceForm(std::string tag, std::function<std::vector<Alternative>()> alternatives, int atLeast = 0) {
   TagForm form = sectionForm({std::move(tag)}, std::move(alternatives), atLeast);
   form.repeats = false;
   return form;
 }
 
-/// 0, as a number is written.
+/// The ways to write the number 0.
 inline constexpr const char* zeroPattern = R"([+\-]?(0+(\.0*)?|\.0+)([eE][+\-]?[0-9]+)?)";
 
 }  // namespace tushar::input

@@ -7,7 +7,7 @@
 
 namespace tushar::input {
 
-/// A type of values as the schemas of editors have it.
+/// A type of values in schemas for editors.
 struct ValueType {
   std::string type;     ///< as the manual calls it
   std::string name;     ///< in schemas
@@ -17,7 +17,7 @@ struct ValueType {
 /// All types of values, `text` the first.
 const std::vector<ValueType>& valueTypes();
 
-/// The type that the manual calls `type`; text where there is none.
+/// The type that the manual calls `type`; text if there is none.
 const ValueType& valueTypeOf(const std::string& type);
 
 /// The allowed content of the tags of a declaration.

@@ -25,7 +25,7 @@ std::string_view withoutPlus(std::string_view text) {
   return plus ? text.substr(1) : text;
 }
 
-/// Without a point that nothing but zeros follow: `2.0` is a whole number, too.
+/// Without a decimal point that only zeros follow: `2.0` is a whole number, too.
 std::string_view withoutPoint(std::string_view text) {
   const auto point = text.find('.');
   const bool isWhole =
@@ -48,7 +48,7 @@ Parsed<T> parseInteger(std::string_view given) {
                               : fmt::format("found '{}', which is above the largest integer, {}", text, Limits::max()));
 }
 
-/// `[a,b,c]` taken apart; a problem where the brackets are missing. `what` says what was expected.
+/// The parts of `[a,b,c]`; an error if the brackets are missing. `what` says what was expected.
 Parsed<std::vector<std::string>> parts(const std::string& text, std::string_view what) {
   if (text.size() < 2 || text.front() != '[' || text.back() != ']') {
     return Parsed<std::vector<std::string>>::wrong(expected(text, what));

@@ -15,7 +15,7 @@ class TypedTag;
 template <class... Ts>
 class TypedTag<std::variant<Ts...>> {
  public:
-  /// Reads the tag `element`; where the type is unknown, the first of the structs is left as it is by default.
+  /// Reads the tag `element`; if the type is unknown, the result is the first of the structs with its defaults.
   static std::variant<Ts...> read(const input::Element& element, input::Diagnostics& diagnostics) {
     std::variant<Ts...> result;
     const std::string type = element.attribute("type").value_or("");

@@ -30,7 +30,7 @@ void restrict(xml_node type, const char* base, const char* facet, const std::vec
   for (const std::string& value : values) restriction.append_child(facet).append_attribute("value") = value.c_str();
 }
 
-/// All that a tag or an attribute of one name may be, from all places where it is declared.
+/// All allowed forms of a tag or an attribute of one name, from all places where it is declared.
 class Uses {
  public:
   std::vector<TagForm> values;
@@ -62,7 +62,7 @@ class Uses {
   }
 };
 
-/// Names in the order in which they were first met.
+/// Names in the order in which they first occur.
 struct UsesByName {
   std::vector<std::pair<std::string, Uses>> all;
 
@@ -90,7 +90,7 @@ class Writer {
   }
 
  private:
-  /// The name of the type of a tag; empty where the tag contains the type.
+  /// The name of the type of a tag; empty if the tag contains the type.
   std::string typeOf(const std::string& tag, const Uses& uses) {
     if (uses.mayBeAnything || (!uses.sections.empty() && !uses.values.empty())) return "xs:anyType";
     if (uses.sections.empty()) return "";
@@ -162,7 +162,7 @@ class Writer {
     other.append_attribute("type") = "include";
   }
 
-  /// The type of a value, in the tag or attribute itself.
+  /// The type of a value, inside the tag or attribute.
   static void writeValue(xml_node parent, const Uses& uses) {
     xml_node type = parent.append_child("xs:simpleType");
     if (uses.mayBeAnything) return restrict(type, "xs:string", "", {});

@@ -35,7 +35,7 @@ class CellSystem {
     unknowns_.entries.assign(number_.owned(), Balance<D>::most);
   }
 
-  /// A constant added to the solution makes another one: that of mean 0 is taken.
+  /// Declares that a constant added to a solution gives another solution: that of mean 0 is taken.
   void freeConstant() { unknowns_.constantIsFree = true; }
 
   /// Solves for the unknowns, from the values in `guess` of each patch. `equationOf(p, cell)` gives the CellEquation of
@@ -62,8 +62,8 @@ class CellSystem {
     if (isRefined && unknowns_.constantIsFree) takeOutMean();
     return outcome;
   }
-  /// Throws NumericalError if the solver gave up on `what`; `section` holds the settings of the solver, `quantity` is
-  /// the label of the solution, and `also` is one more thing to try.
+  /// Throws NumericalError if the solver gave up on `what`; `section` has the settings of the solver, `quantity` is the
+  /// label of the solution, and `also` is further advice.
   void requireConvergence(const solvers::Outcome& outcome, const std::string& what, const std::string& section,
                           const std::string& quantity, const std::string& also = "") const {
     if (outcome.converged) return;
@@ -114,7 +114,7 @@ class CellSystem {
       matrix.add({columns.data(), 1}, {&column, 1}, {&far.weight, 1});
     }
   }
-  /// Cells count by their volume.
+  /// Cells are weighted by volume.
   void takeOutMean() {
     data::Sum sum, volume;
     forEachCell([&](std::size_t p, const Index<D>& cell) {

@@ -10,7 +10,7 @@
 
 namespace tushar::numerics {
 
-/// A formula of the scene whose values are checked where they are needed.
+/// A formula of the scene whose values are checked when they are used.
 struct CheckedFormula {
   const input::Expression& formula;
   std::string path;  ///< its tag, such as `Heat/temperature`

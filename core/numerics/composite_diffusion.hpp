@@ -29,7 +29,7 @@ class CompositeDiffusion {
     for (int level = 0; level < grid.levels(); ++level) ofLevels_.emplace_back(grid.level(level), k, phi);
   }
 
-  /// The integral of div(k grad phi) over a cell, one that is neither refined nor part of a coarser one.
+  /// The integral of div(k grad phi) over a cell, which must be neither refined nor part of a coarser one.
   Balance<D> balance(int level, const Index<D>& cell) const {
     const Diffusion<D>& diffusion = on(level);
     if (grid_.levels() == 1) return diffusion.balance(cell);
@@ -63,7 +63,7 @@ class CompositeDiffusion {
     }
   }
 
-  /// Adds `factor` times what flows out of a cell into a coarser one, A F.
+  /// Adds `factor` times the flow A F out of a cell into a coarser one.
   void addRim(int level, const Index<D>& fine, int d, int side, double factor, Balance<D>& balance) const {
     const Diffusion<D>& diffusion = on(level);
     const grid::Level& here = grid_.level(level);

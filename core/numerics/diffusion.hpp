@@ -14,7 +14,7 @@ namespace tushar::numerics {
 /// Numerical Heat Transfer and Fluid Flow, 4.2).
 inline double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }
 
-/// A linear function of the values in a cell and others: sum_n weight_n phi_n + constant.
+/// A linear function of the values in a cell and its neighbours: sum_n weight_n phi_n + constant.
 template <int D>
 struct Balance {
   static constexpr std::size_t most = 2 * D + 1;
@@ -26,10 +26,10 @@ struct Balance {
   };
 
   int level = 0;                       ///< of the cell
-  std::array<Index<D>, most> cells{};  ///< the cell itself first, then some next to it; of the grid or their images
+  std::array<Index<D>, most> cells{};  ///< the cell itself, then some of its neighbours, which may be periodic images
   std::array<double, most> weights{};
   std::size_t count = 1;
-  std::vector<Far> far;  ///< what is beyond faces where the level ends; none where there is one level
+  std::vector<Far> far;  ///< values beyond faces where the level ends; none on a single level
   double constant = 0;
 
   /// Adds to the weight of a cell.

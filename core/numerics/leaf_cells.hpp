@@ -6,7 +6,7 @@
 
 namespace tushar::numerics {
 
-/// Which cells of a grid of several levels are there: those that are neither refined nor part of coarser ones.
+/// Which cells of a grid of several levels exist: those that are neither refined nor part of coarser ones.
 template <int D>
 class LeafCells {
  public:
@@ -40,8 +40,8 @@ class FaceInterpolation {
  public:
   explicit FaceInterpolation(const LeafCells<D>& leaves) : leaves_(leaves) {}
 
-  /// Calls `visit(cell, weight)` for what the value at the middle of `cell` plus `shift` widths is the sum of; the
-  /// shift along the axis `normal` counts for 0.
+  /// Calls `visit(cell, weight)` for each term of the value at the middle of `cell` plus `shift` widths; the shift
+  /// along the axis `normal` is ignored.
   template <class Visit>
   void forEachTerm(int level, const Index<D>& cell, int normal, const std::array<double, D>& shift,
                    Visit&& visit) const {
@@ -53,7 +53,7 @@ class FaceInterpolation {
   }
 
  private:
-  /// Visits the cells beside along an axis; gives what the cell's own weight gets.
+  /// Visits the neighbours along an axis; returns the addition to the cell's own weight.
   template <class Visit>
   double addAlong(int level, const Index<D>& cell, int d, double s, Visit&& visit) const {
     const Index<D> one = Index<D>::unit(d);
@@ -74,8 +74,8 @@ class FaceInterpolation {
     visit(cell + inwards * 2, u * (u - 1) / 2);
     return (u - 1) * (u - 2) / 2 - 1;
   }
-  /// The same for s_a s_b times the mixed difference: the mean over the corners of the cell whose other cells are
-  /// there.
+  /// Visits the cells of s_a s_b times the mixed difference: the mean over the corners of the cell whose other cells
+  /// are there.
   template <class Visit>
   double addMixed(int level, const Index<D>& cell, int a, int b, const std::array<double, D>& shift,
                   Visit&& visit) const {

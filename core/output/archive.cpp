@@ -38,7 +38,7 @@ struct Archive::State {
         last_step(index.lastStep()) {}
 
   fs::path indexFile() const { return folder / "index.xml"; }
-  /// Writes index.xml and the XDMF file; where there are no outputs, none that shows them.
+  /// Writes index.xml and the XDMF file; if there are no outputs, only the index.
   void writeLists();
   void writeVtkHdfFiles();
 
@@ -88,7 +88,7 @@ Archive::~Archive() {
   try {
     flush();
   } catch (const FileError&) {
-    // The run has ended, and whoever wants to know of it has called flush().
+    // The run has ended, and callers who want its errors have called flush().
   }
 }
 

@@ -9,7 +9,7 @@
 
 namespace tushar::output {
 
-/// How an archive keeps its numbers.
+/// How an archive stores its numbers.
 struct ArchiveOptions {
   bool doubleAsFloat = false;  ///< keep 4 of the 8 bytes of each real number
   int compression = 0;         ///< gzip level, 0 (none) to 9
@@ -62,16 +62,16 @@ class Archive {
 
   /// Writes an output. A step that is written again replaces what was there.
   void write(const Snapshot& snapshot);
-  /// Lists an output that is in the folder already: ranks have written it together.
+  /// Lists an output that is already in the folder: ranks have written it together.
   void list(const Snapshot& snapshot);
   /// Adds a line to `<name>.dat`.
   void appendGlobal(const GlobalSample& sample);
-  /// Writes index.xml and the XDMF file if they have been behind for long enough. To be called after each step.
+  /// Writes index.xml and the XDMF file if they have been out of date for long enough. To be called after each step.
   void keepUp();
   /// Writes them if they are out of date.
   void flush();
   /// Writes them, and waits until the lines of globals are on the disk. Where the archive stands then: this, kept in a
-  /// checkpoint, makes up for lists that a power cut takes. Outputs may go with it, but for those of the last seconds
+  /// checkpoint, makes up for lists lost in a power cut. Outputs may go with it, except for those of the last seconds
   /// only.
   ArchivePoint sync(int step, double time);
 

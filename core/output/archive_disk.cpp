@@ -16,7 +16,7 @@ namespace tushar::output {
 
 namespace {
 
-/// What the access properties carry to open().
+/// The contents of the access properties, for open().
 struct Settings {
   DiskFailure* failure;
 };
@@ -24,7 +24,7 @@ struct Settings {
 /// An open file; HDF5 keeps its own members in front.
 struct DiskFile : H5FD_t {
   int descriptor;
-  haddr_t allocated;  ///< end of what HDF5 has given to its parts
+  haddr_t allocated;  ///< end of the space that HDF5 has allocated
   haddr_t size;
   DiskFailure* failure;
 

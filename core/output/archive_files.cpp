@@ -25,7 +25,7 @@ namespace {
 
 std::error_code lastError() { return {errno ? errno : EIO, std::generic_category()}; }
 
-/// A folder with a greater number was made by someone else.
+/// A folder with a greater number was made by another run.
 constexpr int greatestNumber = 999'999'999;
 
 /// The number of `sod.uda.007` among the folders of `sod.uda`.

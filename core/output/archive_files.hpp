@@ -14,27 +14,27 @@ namespace tushar::output {
 /// FileError if it cannot be made, or if `filebase` itself exists and is not a link.
 std::filesystem::path makeNextFolder(const std::filesystem::path& filebase);
 
-/// Makes a folder with its parents, where they are not there yet. FileError if it cannot.
+/// Makes a folder and its parents, unless they exist. FileError if it cannot.
 void makeFolder(const std::filesystem::path& folder);
 
-/// Points the relative link `filebase` to `folder`, in one step.
+/// Points the relative link `filebase` to `folder`, atomically.
 void pointLink(const std::filesystem::path& filebase, const std::filesystem::path& folder);
 
-/// Puts `text` into the file, in one step: a reader sees the old text or the new. FileError if it cannot.
+/// Puts `text` into the file, atomically: a reader sees the old text or the new. FileError if it cannot.
 void replaceFile(const std::filesystem::path& file, const std::string& text);
 
 /// As above, and the file is on the disk when it returns.
 void replaceFileOnDisk(const std::filesystem::path& file, const std::string& text);
 
-/// A file that is open to be added to, without a buffer. Its functions throw FileError.
+/// A file open for appending, without a buffer. Its functions throw FileError.
 class AppendFile {
  public:
-  /// Opens the file, or makes it.
+  /// Opens the file, or creates it.
   explicit AppendFile(std::filesystem::path file);
   AppendFile(AppendFile&& other) noexcept
       : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
   ~AppendFile();
-  /// Adds text; a process that is killed afterwards has not lost it.
+  /// Appends text, which survives if the process is killed afterwards.
   void append(std::string_view text);
   /// Waits until all is on the disk.
   void sync() const;
@@ -66,7 +66,7 @@ std::string groupName(const std::string& material, int materialIndex);
 std::string stepName(int step);
 /// `t00042.h5`.
 std::string outputName(int step);
-/// The step of `t00042`, or none where a name is no stepName.
+/// The step of `t00042`, or none if a name is not a stepName.
 std::optional<int> stepOf(const std::string& name);
 
 }  // namespace tushar::output

@@ -30,7 +30,7 @@ hid_t fileTypeLike(const Array::Values& type) {
                     type);
 }
 
-/// The first of the next piece: along the axis that varies fastest where there is one, else along the next.
+/// The start of the next piece: along the axis that varies fastest if there is one, else along the next.
 void advance(std::vector<hsize_t>& first, const std::vector<hsize_t>& piece, const std::vector<hsize_t>& shape) {
   for (std::size_t k = shape.size(); k-- > 0;) {
     first[k] += piece[k];
@@ -78,7 +78,7 @@ class Sequence : public Source {
   std::size_t count_;
 };
 
-/// Chooses what a part shows of its dataset.
+/// Selects the section of its dataset that a part shows.
 void choose(hid_t space, const VirtualPart& part) {
   const std::size_t axes = part.source.size();
   if (axes > part.extent.size()) return;
@@ -92,7 +92,7 @@ void choose(hid_t space, const VirtualPart& part) {
 /// there are more parts than this, a dataset shows others of this file that show so many each.
 constexpr std::size_t mostParts = 256;
 
-/// The end of the parts that one dataset shows: those that begin at the same entry stay together.
+/// The end of the parts that go into one dataset: those that begin at the same entry stay together.
 std::size_t endOfRun(const std::vector<VirtualPart>& parts, std::size_t begin) {
   std::size_t end = std::min(begin + mostParts, parts.size());
   while (end < parts.size() && parts[end].first[0] == parts[end - 1].first[0]) ++end;
@@ -107,7 +107,7 @@ Handle typeIn(hid_t file, const std::string& dataset) {
 
 }  // namespace
 
-/// Returns a result of HDF5 unless it, or the disk behind it, says failure.
+/// Returns a result of HDF5. Throws if it, or the disk behind it, reports failure.
 template <class Result>
 Result Hdf5File::checked(Result result, const std::string& what) const {
   if (result >= 0 && failure_.error == 0) return result;
@@ -194,7 +194,7 @@ void Hdf5File::writeValues(Id data, const std::vector<Number>& values, const std
   checked(H5Dwrite(data, memoryType(Number{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what + " in");
 }
 
-/// Each piece is a box of the shape, and in the file without a gap.
+/// Each piece is a box of the shape, contiguous in the file.
 template <class Number>
 void Hdf5File::writePieces(Id data, const Array& array, const Shape& shape, const std::string& what) {
   if (array.entries() == 0) return;
@@ -247,7 +247,7 @@ void Hdf5File::showParts(const std::string& name, const Array::Values& type, con
   shown_ += parts.size();
 }
 
-/// What is in the file is forgotten: HDF5 keeps the parts of all virtual datasets as long as their file is open.
+/// The contents of the file are discarded: HDF5 keeps the parts of all virtual datasets as long as their file is open.
 void Hdf5File::reopen() {
   const Handle access(diskAccess(failure_), H5Pclose);
   close();

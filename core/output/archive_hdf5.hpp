@@ -22,7 +22,7 @@ struct VirtualPart {
   std::vector<std::uint64_t> source;  ///< shape of the dataset, of which as much is shown as the box has room for; all
                                       ///< of it where it has more axes than the box
   std::vector<std::uint64_t> first, extent;  ///< corner and size of the box
-  std::vector<std::uint64_t> from{};         ///< where what is shown begins in the dataset; empty: at its start
+  std::vector<std::uint64_t> from{};         ///< start of the shown section in the dataset; empty: 0
 };
 
 /// Precision of real numbers in the file: that with which it was opened, or always 8 bytes.
@@ -32,7 +32,7 @@ enum class Precision { asAsked, full };
 /// reason: the system's, or else the innermost of HDF5, whose own printing is kept silent.
 class Hdf5File {
  public:
-  /// Creates the file, in place of one that exists. Real numbers are kept in 4 bytes if `doubleAsFloat`, and all are
+  /// Creates the file, replacing one that exists. Real numbers are kept in 4 bytes if `doubleAsFloat`, and all are
   /// packed by gzip at level `compression` if that is above 0.
   Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression);
   /// Closes the file if close() was not called; errors are then lost.
@@ -42,21 +42,21 @@ class Hdf5File {
 
   /// Makes a group, `/particles/gas`, with those above it.
   void group(const std::string& name);
-  /// Writes an array as a dataset of shape `shape` × components (the last only where there are several), with the
+  /// Writes an array as a dataset of shape `shape` × components (the last only if there are several), with the
   /// attributes unit and description. The groups above it are made. Values of a source are written piece by piece.
   void dataset(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape,
                Precision precision = Precision::asAsked);
-  /// The same for an array whose values are written later: makes room for them, without gaps, and says where in the
+  /// As above for an array whose values are written later: makes room for them, without gaps, and returns where in the
   /// file that begins; of a compressed file 0, as there each chunk gets its room when it comes.
   std::uint64_t room(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape);
-  /// Writes a packed chunk of a dataset that has been given room; `corner` is the index of its first number, `skipped`
+  /// Writes a packed chunk of a dataset that has room for it; `corner` is the index of its first number, `skipped`
   /// HDF5's mask of filters.
   void chunk(const std::string& name, const std::vector<unsigned long long>& corner, std::uint32_t skipped,
              std::span<const std::byte> bytes);
   /// Writes a text of any length as a dataset. The groups above it are made.
   void text(const std::string& name, const std::string& value);
-  /// Makes a dataset of real numbers, or of integers like those of `type`, that shows parts of others and holds no
-  /// number itself. What no part covers is NaN or 0. Where it shows parts of this file, it has their type. Parts come
+  /// Makes a dataset of real numbers, or of integers like those of `type`, that shows parts of others and stores no
+  /// numbers itself. What no part covers is NaN or 0. Where it shows parts of this file, it has their type. Parts come
   /// in the order of their first entries.
   void virtualDataset(const std::string& name, const Array::Values& type, const std::vector<std::uint64_t>& shape,
                       const std::vector<VirtualPart>& parts);

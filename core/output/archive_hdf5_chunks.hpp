@@ -16,11 +16,11 @@ using Extents = std::vector<unsigned long long>;
 /// The shape of a dataset: that of its entries, and their components.
 Extents fullShape(const std::vector<std::uint64_t>& shape, const Array& array);
 
-/// How many numbers there are.
+/// Its number of values.
 unsigned long long numbersOf(const Extents& shape);
 
-/// The part of a dataset that is written at once, and compressed by itself: about a megabyte, whole along the axes that
-/// vary fastest. So its entries follow one another.
+/// The unit in which a dataset is written and compressed: about a megabyte, complete along the axes that vary fastest,
+/// so that its entries are contiguous.
 Extents chunkOf(const Extents& shape);
 
 /// The chunks of a dataset, in the order of their entries.
@@ -31,7 +31,7 @@ class Chunks {
   std::size_t count() const { return count_; }
   /// The index of the first number of a chunk.
   Extents corner(std::size_t chunk) const;
-  /// Its entries, of so many numbers each.
+  /// Its entries, of `components` numbers each.
   Piece entries(std::size_t chunk, int components) const;
 
  private:
@@ -41,14 +41,14 @@ class Chunks {
 
 /// A chunk as it is stored in a file.
 struct PackedChunk {
-  std::uint32_t skipped = 0;  ///< HDF5's mask of the filters that did not pay
+  std::uint32_t skipped = 0;  ///< HDF5's mask of the filters that were skipped because they did not pay off
   std::vector<std::byte> bytes;
 };
 
-/// Packs chunks by HDF5's own filters, in a file that is in memory alone: so they have the bytes that HDF5 would write.
+/// Packs chunks by HDF5's own filters, in a file in memory: the bytes are those that HDF5 would write.
 class ChunkPacker {
  public:
-  /// At a level of gzip.
+  /// Compresses at a level of gzip.
   explicit ChunkPacker(int compression);
   ~ChunkPacker();
   ChunkPacker(const ChunkPacker&) = delete;
@@ -56,7 +56,7 @@ class ChunkPacker {
 
   /// The chunks that follow are of an array with values of this type, and of this shape.
   void begin(const Array::Values& type, const Extents& shape, bool asFloat);
-  /// `entries` is as many numbers as a chunk has, or fewer for one at an end. Throws FileError.
+  /// `entries` has as many numbers as a chunk, or fewer at an end of the dataset. Throws FileError.
   PackedChunk pack(std::span<const std::byte> entries);
 
  private:

@@ -29,7 +29,7 @@ Number typeOfNumber(const std::vector<Number>&) {
   return {};
 }
 
-/// The text that HDF5 has put into memory of its own.
+/// A text that HDF5 has allocated.
 std::string taken(char* characters) {
   const std::string text = characters ? characters : "";
   H5free_memory(characters);
@@ -38,7 +38,7 @@ std::string taken(char* characters) {
 
 }  // namespace
 
-/// Returns a result of HDF5 unless it says failure.
+/// Returns a result of HDF5. Throws if it reports failure.
 template <class Result>
 Result Hdf5Input::checked(Result result, const std::string& what) const {
   if (result >= 0) return result;

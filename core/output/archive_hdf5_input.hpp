@@ -19,9 +19,9 @@ class Hdf5Input {
   Hdf5Input& operator=(const Hdf5Input&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Whether there is a group or dataset of that path.
+  /// Whether there is a group or dataset with that path.
   bool has(const std::string& name) const;
-  /// Names in a group, sorted; none where there is no such group.
+  /// Names in a group, sorted; none if there is no such group.
   std::vector<std::string> names(const std::string& group) const;
   /// The numbers of a dataset, whatever its shape, as they were written.
   Array::Values dataset(const std::string& name) const;
@@ -29,7 +29,7 @@ class Hdf5Input {
   struct Placed {
     Array::Values type;        ///< no values, of the type that it has
     std::size_t count = 0;     ///< of numbers, whatever the shape
-    std::int64_t offset = -1;  ///< of the first in the file; -1 where their layout differs from that in memory
+    std::int64_t offset = -1;  ///< of the first in the file; -1 if their layout differs from that in memory
   };
   Placed placed(const std::string& name) const;
   /// A dataset that Hdf5File::text wrote.

@@ -17,7 +17,7 @@ class Hdf5Parts {
 
   /// No values, of the type that the dataset has.
   const Array::Values& type() const { return type_; }
-  /// How many numbers there are, whatever the shape.
+  /// Its number of values, whatever the shape.
   std::size_t count() const { return count_; }
 
   /// Numbers of the dataset, in the order of the file, and the memory that they go to.
@@ -26,8 +26,7 @@ class Hdf5Parts {
     std::byte* to;
     std::size_t others = 0;  ///< at its end, which another part or rank has and adds to the sum
   };
-  /// Reads parts in any order; those that follow one another in the file are read at once, and numbers that several
-  /// have are read once. DamageError where the numbers that all ranks read are not those that were written.
+  /// Reads parts in any order; contiguous ones are read together, and numbers that several have are read once. DamageError where the numbers that all ranks read are not those that were written.
   void read(std::vector<Part> parts) const;
 
  private:

@@ -13,7 +13,7 @@ namespace tushar::output {
 class ArchiveIndex {
  public:
   static constexpr const char* rootName = "tushar_archive";
-  static constexpr int format = 2;         ///< of archives, the newest; one more where older readers would go wrong
+  static constexpr int format = 2;         ///< of archives: the newest, which rises if older readers would go wrong
   static constexpr int uniformFormat = 1;  ///< of archives whose grids have one level
 
   explicit ArchiveIndex(std::string version) : version_(std::move(version)) {}
@@ -29,7 +29,7 @@ class ArchiveIndex {
   /// Why an archive cannot be read: an index of a newer format. Empty where it can.
   static std::string refusalOf(const std::string& text);
   bool lists(int step) const { return outputs_.contains(step); }
-  /// The step of the last output; -1 where there is none.
+  /// The step of the last output; -1 if there is none.
   int lastStep() const { return outputs_.empty() ? -1 : outputs_.rbegin()->first; }
   /// The whole file.
   std::string text() const;

@@ -79,7 +79,7 @@ void writeFirst(Hdf5File& out, const Snapshot& snapshot, const std::string& vers
   for (const ParticleBlock& block : snapshot.particles) writeGroup(out, block);
 }
 
-/// Stands for values that are elsewhere by now.
+/// In place of values that have been moved elsewhere.
 class Gone : public Source {
  public:
   explicit Gone(std::size_t entries) : entries_(entries) {}

@@ -14,9 +14,10 @@ namespace tushar::output {
 
 class FileInFlight;
 
-/// A snapshot on its way into an HDF5 file, under a temporary name until it is whole. When one is made, the values have
-/// been taken over, and `behind` brings them to the file. All ranks make one, each with the values that it has. Both
-/// functions throw FileError on a rank that cannot write, FailedElsewhere on the others; no file is left then.
+/// A snapshot that is being written to an HDF5 file, under a temporary name until it is complete. When one is made, the
+/// values have been taken over, and `behind` brings them to the file. All ranks make one, each with the values that it
+/// has. Both functions throw FileError on a rank that cannot write, FailedElsewhere on the others; no file is left
+/// then.
 class SnapshotInFlight {
  public:
   /// `writers` and `behind` must outlive it.
@@ -24,10 +25,10 @@ class SnapshotInFlight {
                    const Writers& writers, Behind& behind);
   ~SnapshotInFlight();
   SnapshotInFlight(SnapshotInFlight&&) noexcept;
-  /// Waits until the file is whole, and gives it its name. Collective on `ranks`: those of the writers, or the first
+  /// Waits until the file is complete, and gives it its name. Collective on `ranks`: those of the writers, or the first
   /// alone where it is the only writer.
   void finish(const mpi::Communicator& ranks);
-  /// Removes what there is of it.
+  /// Removes the incomplete file.
   void abandon();
 
  private:
@@ -41,7 +42,7 @@ void writeSnapshot(const std::filesystem::path& file, const Snapshot& snapshot, 
 /// The bytes of the values of a snapshot that have sources, on all ranks together.
 std::uint64_t bytesInFlight(const Snapshot& snapshot);
 
-/// A snapshot without its values, but with how many of them there are.
+/// A snapshot without its values, but with their numbers.
 Snapshot withoutValues(Snapshot snapshot);
 
 /// The path of a particle array in the HDF5 file: `/particles/gas/p.density`.
@@ -50,7 +51,7 @@ std::string pathInFile(const ParticleBlock& block, const Array& array);
 /// The path of a field in the HDF5 file: `/cells/c.temperature` or `/nodes/gas/g.mass`.
 std::string pathInFile(const FieldBlock& field);
 
-/// Whether the array is part of the file; a variable that is not held at this time has no values.
+/// Whether the array is part of the file; a variable that does not exist at this time has no values.
 bool isHeld(const ParticleBlock& block, const Array& array);
 
 /// Number of entries of a field along z, y, x; of one on a grid with boxes, which has no nodes, of all boxes together.
@@ -59,7 +60,7 @@ std::vector<std::uint64_t> fieldShape(const GridInfo& grid, Centring centring);
 /// Numbers of cells of a box along z, y, x.
 std::vector<std::uint64_t> boxShape(const GridBox& box);
 
-/// Number of entries of an array of some shape.
+/// Number of entries of an array of a shape.
 std::uint64_t volumeOf(const std::vector<std::uint64_t>& shape);
 
 /// Cell widths of a level [m].

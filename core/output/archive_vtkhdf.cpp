@@ -20,7 +20,7 @@ using Shape = std::vector<std::uint64_t>;
 
 constexpr const char* root = "/VTKHDF";
 
-/// What an output shows of a block, by name in the VTKHDF file.
+/// The arrays of a block in one output, by name in the VTKHDF file.
 using Items = std::map<std::string, Item>;
 
 /// Outputs by time [s].
@@ -37,7 +37,7 @@ void readTimes(const pugi::xml_node& collection, Times& times) {
   }
 }
 
-/// One item of each name that there is at any time.
+/// One item for each name that occurs at any time.
 Items kindsOf(const Times& times) {
   Items kinds;
   for (const auto& [time, items] : times) kinds.insert(items.begin(), items.end());

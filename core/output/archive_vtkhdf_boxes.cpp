@@ -93,7 +93,7 @@ std::map<int, ShownLevel> levelsOf(const std::map<double, std::vector<ShownBox>>
   return levels;
 }
 
-/// The corner of the grid, which is that of some box along each axis [m].
+/// The corner of the grid [m]: along each axis, that of some box.
 std::vector<double> cornerOf(const std::map<int, ShownLevel>& levels) {
   std::vector<double> corner(3, HUGE_VAL);
   for (const auto& [number, level] : levels)
@@ -115,7 +115,7 @@ std::vector<std::int32_t> cellsOf(const ShownLevel& level, const std::vector<dou
   return numbers;
 }
 
-/// Adds rows to those before, as one part with them where they follow one another in the file too.
+/// Adds rows, merged with those before if they are contiguous in the file.
 void addPart(std::vector<VirtualPart>& parts, const Rows& rows, std::uint64_t at, std::uint64_t count) {
   const Item& item = rows.item;
   if (!parts.empty()) {

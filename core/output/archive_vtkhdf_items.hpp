@@ -16,7 +16,7 @@ struct Item {
   Array::Values type;
 };
 
-/// The numbers of a text, up to the first word that is none.
+/// The numbers in a text, up to the first word that is not a number.
 template <class Number>
 std::vector<Number> numbersIn(const char* text) {
   std::istringstream words(text);
@@ -28,7 +28,7 @@ std::vector<Number> numbersIn(const char* text) {
 /// The target of an XDMF DataItem.
 Item itemOf(const pugi::xml_node& node);
 
-/// The name in a VTKHDF file of what an Attribute of XDMF shows: `CellData/c.temperature`.
+/// The name, in a VTKHDF file, of an Attribute of XDMF: `CellData/c.temperature`.
 std::string nameOf(const pugi::xml_node& attribute);
 
 /// The path of something in a VTKHDF file.

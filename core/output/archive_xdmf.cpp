@@ -23,7 +23,7 @@ struct StoredRows {
   Shape shape;
 };
 
-/// What the items of one output share.
+/// The common properties of the items of one output.
 struct Context {
   std::string file;  ///< of HDF5, relative to the XDMF file
   bool doubleAsFloat;
@@ -68,7 +68,7 @@ void addHeavyItem(pugi::xml_node parent, const Context& context, const std::stri
   item.text() = (context.file + ":" + path).c_str();
 }
 
-/// Some entries of an array that the file has one after the other.
+/// Consecutive entries of an array in the file.
 void addSlab(pugi::xml_node parent, const Context& context, const std::string& path, const Array& array,
              const StoredRows& rows) {
   const bool several = array.components > 1;
@@ -133,7 +133,7 @@ Vec3 firstNode(const GridInfo& grid) {
   return at;
 }
 
-/// A uniform grid of so many points along z, y, x.
+/// A uniform grid with these numbers of points along z, y, x.
 void addMesh(pugi::xml_node grid, const Shape& points, const Vec3& origin, const Vec3& spacing) {
   pugi::xml_node topology = grid.append_child("Topology");
   set(topology, "TopologyType", "3DCoRectMesh");

@@ -24,7 +24,7 @@ class XdmfIndex {
   static std::size_t sizeOf(const std::string& text, int step);
   /// The whole file.
   std::string text() const;
-  /// What shows the outputs.
+  /// The grids that show the outputs.
   const pugi::xml_node& domain() const { return domain_; }
 
  private:

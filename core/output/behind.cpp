@@ -76,7 +76,7 @@ long Behind::put(std::vector<std::byte> buffer, std::function<void()> job) {
   return given_;
 }
 
-/// Signals are for the thread that runs the program.
+/// Signals go to the main thread.
 void Behind::start() {
   sigset_t all, before;
   sigfillset(&all);
@@ -94,7 +94,7 @@ void Behind::start() {
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
-/// Does the next job.
+/// Runs the next job.
 void Behind::run() {
   std::unique_lock lock(mutex_);
   Job job = std::move(jobs_.front());

@@ -11,9 +11,9 @@
 
 namespace tushar::output {
 
-/// A thread that does jobs in their order while the caller goes on. Each job has a buffer, and all together have no
-/// more than a bound: where that is reached, the caller waits. The first failure is kept, and later jobs are let go: so
-/// a process that fails still takes part in what others wait for. One thread calls it.
+/// A thread that runs jobs in order while the caller continues. Each job has a buffer, and the total size of all
+/// buffers is bounded: if the bound is reached, the caller waits. The first failure is kept, and later jobs are
+/// abandoned, so that a process that fails still takes part in collective operations. To be called from one thread.
 class Behind {
  public:
   Behind() = default;
@@ -22,21 +22,20 @@ class Behind {
   Behind(const Behind&) = delete;
   Behind& operator=(const Behind&) = delete;
 
-  /// Buffers may have so many bytes together from now on; 0: each job is done when it is given. Waits for all jobs, and
-  /// forgets a failure.
+  /// Sets the total size of all buffers; 0: each job runs at once. Waits for all jobs, and forgets a failure.
   void setMost(std::size_t bytes);
   std::size_t most() const { return most_; }
 
-  /// A buffer of at least so many bytes for the next job; waits until there is room for it.
+  /// A buffer of at least `bytes` bytes for the next job; waits until there is room for it.
   std::vector<std::byte> buffer(std::size_t bytes);
-  /// Has a job done, which may use the bytes of its buffer until then. Returns its number.
+  /// Queues a job, which may use the bytes of its buffer until it is done. Returns its number.
   long put(std::vector<std::byte> buffer, std::function<void()> job);
 
-  /// Whether all jobs are done, or let go.
+  /// Whether all jobs are done, or abandoned.
   bool isDone() const;
   /// Waits for the job of a number, and those before it.
   void waitFor(long job);
-  /// Waits for all jobs; throws what the first that failed has thrown.
+  /// Waits for all jobs; rethrows the first exception.
   void wait();
   /// How long the caller has waited, s.
   double waited() const { return waited_; }
@@ -60,7 +59,7 @@ class Behind {
   std::exception_ptr failure_;
   double waited_ = 0;
   mutable std::mutex mutex_;
-  std::condition_variable news_;  ///< a job has been given, or done
+  std::condition_variable news_;  ///< a job was queued, or is done
   std::thread thread_;
 };
 

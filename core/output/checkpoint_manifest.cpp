@@ -119,7 +119,7 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
   return files;
 }
 
-/// Name and size of each file in a folder, for all ranks; those of the manifest, and no others.
+/// Name and size of each file in a folder, for all ranks; only of the files in the manifest.
 struct ListedFile {
   std::string name;
   std::uint64_t size;
@@ -155,7 +155,7 @@ std::vector<Line> linesOf(const std::string& text) {
   return lines;
 }
 
-/// What is wrong with the manifest, or with the names and sizes of files; `lines` gets those of the files.
+/// What is wrong with the manifest, or with the names and sizes of files; `lines` gets its lines, one per file.
 std::string damageOfList(const fs::path& folder, std::string& lines) {
   const auto text = textOf(folder / manifestName);
   if (!text) return fmt::format("{} is missing", manifestName);
@@ -174,7 +174,7 @@ std::string damageOfList(const fs::path& folder, std::string& lines) {
 }
 
 /// The hash of a file as a manifest of an older version has it; empty if it cannot be read. That of a large file of the
-/// oldest is not by blocks, and made by the first rank alone.
+/// oldest is not by blocks, and made by rank 0 alone.
 std::string hashNow(const fs::path& file, const Line& line, const mpi::Communicator& ranks) {
   const bool isByBlocks = line.hash.find('/') != std::string::npos;
   bool failed = false;

@@ -36,7 +36,7 @@ class CheckpointStore {
   std::filesystem::path folder(int step) const;
   /// Steps of the existing checkpoints, intact or not, ascending.
   std::vector<int> steps() const;
-  /// The step that LATEST names, or the last that there is where LATEST says nothing; -1 where there are none.
+  /// The step that LATEST names, or else that of the last checkpoint; -1 if there is none.
   int latest() const;
 
  private:

@@ -5,8 +5,8 @@
 
 namespace tushar::output {
 
-/// When a list that is written whole is due again. Writing takes longer the more it lists: so it waits for a second
-/// after the last time, and for 20 times as long as that has taken.
+/// Decides when a list that is rewritten as a whole is due again. Writing takes longer the more it lists: so it waits
+/// for a second after the last time, and for 20 times as long as that has taken.
 class Pace {
  public:
   /// Notes that there is something new; `urgent` if readers need it.

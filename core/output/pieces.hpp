@@ -16,23 +16,23 @@ struct Piece {
   std::size_t first = 0, count = 0;
 };
 
-/// The most bytes of a piece: of one rank alone what stays in the processor's cache while it is written; of several,
-/// who have to wait for each other for each of them, what is still little beside 64 MB.
+/// The most bytes of a piece. On a single rank, it should stay in the processor's cache while it is written; with
+/// several, which wait for each other at each piece, it should be small compared with 64 MB.
 std::size_t mostOfPiece(const Writers& writers);
 
 /// Bytes of an entry in memory, and of all entries on all ranks.
 std::size_t entryBytes(const Array& array);
 std::uint64_t bytesOf(const Array& array);
 
-/// Brings pieces of an array of which each rank has some entries to the writers, one to each at a time: so none needs
-/// memory for more than a piece, and for what it sends of those of the others.
+/// Sends the pieces of an array that is spread over the ranks to the writers, one to each at a time: so a writer needs
+/// memory for one piece, and a rank for its parts of the others.
 class Pieces {
  public:
   /// `writers` must outlive it.
   explicit Pieces(const Writers& writers) : writers_(&writers), outbox_(writers.ranks()) {}
 
-  /// Brings to each writer its piece of the array, which has a source; `of[w]` is for writer w. The entries of that of
-  /// this rank, in `into`, which grows to have room for them. Collective.
+  /// Sends each writer its piece of the array, which has a source; `of[w]` is for writer w. The entries of that of this
+  /// rank, in `into`, which grows to have room for them. Collective.
   std::span<std::byte> bring(const Array& array, std::span<const Piece> of, std::vector<std::byte>& into);
 
  private:
@@ -40,7 +40,7 @@ class Pieces {
   mpi::Outbox outbox_;
 };
 
-/// Brings the values of all arrays into the memory of the first rank; the others lose theirs. Collective.
+/// Moves the values of all arrays to rank 0; the others lose theirs. Collective.
 void load(Snapshot& snapshot, const mpi::Communicator& ranks = mpi::Communicator::alone());
 
 }  // namespace tushar::output

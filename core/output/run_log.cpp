@@ -31,7 +31,7 @@ Json entryOf(const RunRecord& record) {
   return entry;
 }
 
-/// The runs that a file lists; none where there is no file, or where it is damaged, which moves it away.
+/// The runs that a file lists; none if there is no file, or it is damaged, in which case it is moved away.
 Json runsIn(const fs::path& file) {
   Json empty = {{"format", RunLog::format}, {"runs", Json::array()}};
   const auto text = textOf(file);
@@ -43,7 +43,7 @@ Json runsIn(const fs::path& file) {
   return empty;
 }
 
-/// As text; bytes that are no UTF-8 become a mark.
+/// As text; bytes that are not UTF-8 are replaced.
 std::string textOf(const Json& runs) { return runs.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 }  // namespace
@@ -63,7 +63,7 @@ RunLog::RunLog(const fs::path& folder, const RunRecord& record) : file_(folder /
   replaceFile(file_, runs_);
 }
 
-// NOLINTNEXTLINE(bugprone-exception-escape): what it parses it has written itself
+// NOLINTNEXTLINE(bugprone-exception-escape): it parses only what it has written
 RunLog::~RunLog() {
   if (!ended_) end("error", -1, static_cast<int>(ExitCode::failure));
 }
@@ -83,7 +83,7 @@ void RunLog::end(const std::string& why, int step, int exitCode) {
   try {
     replaceFile(file_, textOf(runs));
   } catch (const FileError&) {
-    // The results are what matters, and their errors have been reported.
+    // Losing the log is no failure of the run, whose errors have been reported.
   }
 }
 

@@ -11,8 +11,8 @@ namespace tushar::output {
 struct RunRecord {
   std::string version, build, commit, compiler, flags;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name and version
-  std::vector<std::string> command, overrides;                 ///< words of the command line; those of --set
-  std::vector<std::string> hosts;                              ///< of the ranks, each once
+  std::vector<std::string> command, overrides;                 ///< arguments of the command line; those of --set
+  std::vector<std::string> hosts;                              ///< host names of the ranks, without repeats
   int ranks = 1, threads = 1;
   bool restarts = false;
   int step = 0;  ///< from which it starts
@@ -24,7 +24,7 @@ class RunLog {
  public:
   static constexpr int format = 1;
 
-  /// Why a file of this text is not to be added to: a newer version has written it. Empty: it may be.
+  /// Why a file with this text must not be extended: a newer version has written it. Empty: it may be.
   static std::string refusalOf(const std::string& text);
   /// Adds a run that starts now. A file that cannot be read is moved to `run.json.damaged`. FileError if it cannot be
   /// written.
@@ -34,7 +34,7 @@ class RunLog {
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;
 
-  /// Adds a library that the run has loaded meanwhile; end() writes it to the file.
+  /// Adds a library that the run has loaded since; end() writes it to the file.
   void addLibrary(const std::string& name, const std::string& version);
   /// Adds how the run ended: why, after which step, and the exit code. It is lost if the disk is full.
   void end(const std::string& why, int step, int exitCode);

@@ -7,8 +7,9 @@
 
 namespace tushar::output {
 
-/// A file that there is, of which this process writes parts; others may write other parts at the same time. The first
-/// failure is kept, and later writes are dropped: so a process that fails still takes part in what others wait for.
+/// An existing file of which this process writes parts; other processes may write other parts at the same time. The
+/// first failure is kept, and later writes are dropped: so a process that fails still takes part in what others wait
+/// for.
 class SharedFile {
  public:
   explicit SharedFile(std::filesystem::path path);
@@ -16,9 +17,9 @@ class SharedFile {
   SharedFile(const SharedFile&) = delete;
   SharedFile& operator=(const SharedFile&) = delete;
 
-  /// Puts bytes at a place; `what` they are is for the sentence of a failure.
+  /// Writes bytes at an offset; `what` describes them in error messages.
   void write(std::uint64_t at, const std::byte* from, std::size_t count, const std::string& what);
-  /// Throws FileError if anything has failed, with what, the path and the system's reason.
+  /// Throws FileError if a write has failed, with `what`, the path and the system's reason.
   void close();
 
  private:

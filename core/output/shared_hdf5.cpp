@@ -18,10 +18,10 @@ bool isNarrowed(const Storage& how, const Array& array) {
   return how.doubleAsFloat && std::holds_alternative<std::vector<double>>(array.values);
 }
 
-/// A file whose values come later, on the first rank.
+/// A file on rank 0 whose values are written later.
 struct Begun {
   std::shared_ptr<Hdf5File> file;
-  std::vector<std::uint64_t> rooms;  ///< where those of each dataset with a source go
+  std::vector<std::uint64_t> rooms;  ///< the offset of each dataset with a source
 };
 
 void begin(Begun& begun, const std::filesystem::path& path, const Storage& how,
@@ -49,11 +49,11 @@ std::vector<Slab> slabsOf(const Writers& writers, const Storage& how, const std:
 
 }  // namespace
 
-/// Compresses datasets: the writers a chunk each at a time, which the first rank puts into the file in their order: at
+/// Compresses datasets: the writers a chunk each at a time, which rank 0 puts into the file in their order: at
 /// once where it is the only writer, else when all have theirs.
 class FileInFlight::Chunks {
  public:
-  /// The first rank has the file.
+  /// The file is open on rank 0.
   Chunks(const Writers& writers, Behind& behind, const Storage& how, std::shared_ptr<Hdf5File> file)
       : writers_(writers),
         behind_(behind),
@@ -120,7 +120,7 @@ class FileInFlight::Chunks {
     if (!isOnly) rounds_.push_back(std::move(round));
   }
 
-  /// Brings the chunks of a round to the first rank, which puts them into the file.
+  /// Sends the chunks of a round to rank 0, which writes them to the file.
   void placeNext() {
     const Round round = std::move(rounds_.front());
     rounds_.pop_front();
@@ -134,7 +134,7 @@ class FileInFlight::Chunks {
     }
   }
 
-  /// The chunks of all writers, on the first rank.
+  /// The chunks of all writers, on rank 0.
   std::vector<PackedChunk> gathered(PackedChunk mine) {
     std::vector<PackedChunk> all(file_ ? static_cast<std::size_t>(writers_.count()) : 0);
     std::vector<mpi::Letter> letters;

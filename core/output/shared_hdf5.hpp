@@ -15,14 +15,14 @@
 
 namespace tushar::output {
 
-/// An array, its name in a file, and its shape there without the components.
+/// An array, its path in a file, and its shape without components.
 struct Dataset {
   std::string name;
   Array array;
   std::vector<std::uint64_t> shape;
 };
 
-/// How a file keeps its numbers.
+/// How a file stores its numbers.
 struct Storage {
   bool doubleAsFloat = false;  ///< 4 of the 8 bytes of each real number
   int compression = 0;         ///< gzip level, 0 (none) to 9
@@ -42,7 +42,7 @@ class FileInFlight {
   FileInFlight(const FileInFlight&) = delete;
   FileInFlight& operator=(const FileInFlight&) = delete;
 
-  /// Waits until the file is whole, and closes it. Collective on `ranks`: those of the writers, or the first alone
+  /// Waits until the file is complete, and closes it. Collective on `ranks`: those of the writers, or the first alone
   /// where it is the only writer.
   void finish(const mpi::Communicator& ranks);
   /// Where the values of the datasets that have a source are; none where they are compressed.

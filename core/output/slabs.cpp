@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little, "files have the bytes 
 
 namespace {
 
-/// Makes 4 bytes of each 8 of real numbers, in place.
+/// Converts real numbers from 8 to 4 bytes, in place.
 std::span<std::byte> narrowed(std::span<std::byte> numbers) {
   const std::size_t count = numbers.size() / sizeof(double);
   for (std::size_t k = 0; k < count; ++k) {
@@ -28,7 +28,7 @@ std::span<std::byte> narrowed(std::span<std::byte> numbers) {
 
 std::uint64_t entryBytesInFile(const Slab& slab) { return entryBytes(*slab.array) / (slab.asFloat ? 2 : 1); }
 
-/// Brings one array to the writers, a piece to each at a time.
+/// Sends one array to the writers, a piece to each at a time.
 class SlabWriter {
  public:
   SlabWriter(const Writers& writers, Behind& behind, std::shared_ptr<SharedFile> file, Pieces& pieces, const Slab& slab)
@@ -49,14 +49,14 @@ class SlabWriter {
   }
 
  private:
-  /// The bytes of a writer's slab of which so many are done that are next.
+  /// The next bytes of a writer's slab, after those that are `done`.
   ByteRange next(int writer, std::uint64_t done) const {
     const ByteRange slab = slabOf(all_, writer, writers_.count());
     const std::uint64_t first = std::min(slab.first + done, slab.last);
     return {first, std::min(first + most_, slab.last)};
   }
 
-  /// The entries that have bytes in a range.
+  /// The entries with bytes in a range.
   Piece entriesOf(const ByteRange& bytes) const {
     if (bytes.size() == 0) return {};
     const std::uint64_t first = (bytes.first - slab_.offset) / entry_bytes_;

@@ -14,14 +14,13 @@
 
 namespace tushar::output {
 
-/// Where in a file writers change over: at multiples of so many bytes, so that no page and no stripe has two writers.
+/// The slabs of a file start at multiples of this many bytes, so that no page and no stripe has two writers.
 inline constexpr std::uint64_t slabCut = std::uint64_t{1} << 20;
 
-/// The part of a range that one of the writers writes. The parts of all follow one another, and are as long as the cuts
-/// let them be.
+/// The part of a range that one of the writers writes. The parts are contiguous, and as equal as the cuts allow.
 ByteRange slabOf(const ByteRange& all, int writer, int writers);
 
-/// An array with a source, and where in a file there is room for it.
+/// An array with a source, and its place in a file.
 struct Slab {
   std::string name;          ///< of the dataset
   const Array* array;        ///< of real numbers, if `asFloat`
@@ -32,13 +31,13 @@ struct Slab {
 /// The bytes of all its numbers in the file.
 ByteRange rangeOf(const Slab& slab);
 
-/// Arrays on their way into a file that the first rank has made: each writer puts there the slab that is its own. When
-/// one is made, the values have been taken over, and `behind` brings them to the file. Collective.
+/// Writes arrays to a file that rank 0 has made: each writer writes its own slab. The constructor copies the values;
+/// `behind` then writes them. Collective.
 class SlabsInFlight {
  public:
   SlabsInFlight(const Writers& writers, Behind& behind, const std::filesystem::path& file,
                 const std::vector<Slab>& slabs);
-  /// Waits until they are there. Collective on `ranks`. Throws FileError on a rank that could not write,
+  /// Waits until they are written. Collective on `ranks`. Throws FileError on a rank that could not write,
   /// FailedElsewhere on the others.
   void finish(const mpi::Communicator& ranks);
 

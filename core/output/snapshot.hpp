@@ -12,14 +12,14 @@
 
 namespace tushar::output {
 
-/// A named column of numbers, as it goes to the archive.
+/// A named array of numbers for the archive.
 struct Array {
   std::string label, unit, description;
   int components = 1;  ///< 1 scalar, 3 vector, 9 tensor by rows
   using Values = std::variant<std::vector<double>, std::vector<std::uint64_t>, std::vector<std::int32_t>>;
   /// Entry by entry: values[entry * components + k].
   Values values;
-  /// If set, it has the values, and `values` has only their type.
+  /// If set, it provides the values, and `values` gives only their type.
   std::shared_ptr<const Source> source{};
 
   /// Number of particles, cells, nodes or rows that have a value, on all ranks together.
@@ -30,11 +30,11 @@ struct Array {
   }
 };
 
-/// Brings the values of an array that no other rank has a part of into memory.
+/// Loads the values of an array that is on this rank alone.
 void load(Array& array);
 
 /// The particles of a material. The first array is p.x [m], with 3 components always; the others have as many entries
-/// as it has, or none where a variable is not held at this time: such an array is left out of the archive.
+/// as it has, or none if a variable is not held at this time: such an array is left out of the archive.
 struct ParticleBlock {
   std::string material;
   int materialIndex = 0;
@@ -48,8 +48,8 @@ enum class Centring { cell, node };
 /// A field over all cells or nodes of the grid, x fastest; where the grid has boxes, box by box.
 struct FieldBlock {
   Centring centring = Centring::cell;
-  std::string material;    ///< empty where the field belongs to none
-  int materialIndex = -1;  ///< -1 where the field belongs to none
+  std::string material;    ///< empty if the field belongs to none
+  int materialIndex = -1;  ///< -1 if the field belongs to none
   Array array;
 };
 
@@ -67,7 +67,7 @@ struct GridInfo {
   Index3 cells = Index3::filled(1);
   int dimension = 0;  ///< number of axes that the scene uses
   /// Where the run may have several levels, the boxes of cells that tile the domain, those of the coarsest level first;
-  /// none where it has one.
+  /// none if it has one.
   std::vector<GridBox> boxes{};
   int levels = 1;  ///< one more than the finest level of any box, at least
 };

@@ -13,10 +13,10 @@ class Writers {
   Writers() : Writers(mpi::Communicator::alone(), {0}) {}
   /// Ranks of these numbers, ascending from 0. `ranks` must outlive it.
   Writers(const mpi::Communicator& ranks, std::vector<int> writers);
-  /// `count` of the ranks, as the first says, evenly spread; 0: one on each node. No more than there are. Collective.
+  /// `count` of the ranks, as rank 0 says, evenly spread; 0: one on each node. No more than there are. Collective.
   static Writers spread(const mpi::Communicator& ranks, int count);
 
-  /// Those of them that say so of themselves, and the first. Collective.
+  /// The ranks that pass `true`, and rank 0. Collective.
   Writers only(bool mine) const;
 
   const mpi::Communicator& ranks() const { return *ranks_; }

@@ -18,8 +18,8 @@ struct MeasuredError {
 /// A part of an energy budget that an analysis module keeps: the total `label` (J).
 struct EnergyTerm {
   enum class Side {
-    came,  ///< what there was at the start, or came since
-    went,  ///< where it is now, or where it has gone
+    came,  ///< present at the start, or added since
+    went,  ///< present now, or gone elsewhere
   };
   std::string name;
   const data::Label* label;

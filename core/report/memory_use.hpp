@@ -10,13 +10,13 @@ struct MemoryUse {
   double peak = 0;       ///< resident
   double fields = 0;     ///< variables on nodes and cells
   double particles = 0;  ///< variables of particles
-  double buffers = 0;    ///< what steps keep for the next: variables that live within a step, messages
+  double buffers = 0;    ///< memory kept from step to step: for variables within a step, for messages
   double files = 0;      ///< by how much outputs and checkpoints have raised the peak
 };
 
 /// The memory of all ranks.
 struct MemoryOfRanks {
-  MemoryUse sum, most;  ///< over the ranks; of the rank that has most of it, each number by itself
+  MemoryUse sum, most;  ///< sums over the ranks; the largest of a rank, each number by itself
 };
 
 /// Adds up the variables that a rank holds.

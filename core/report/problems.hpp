@@ -8,7 +8,7 @@
 
 namespace tushar::report {
 
-/// The problems of a scene for programs: a list of objects with `file`, `line` and `column` (from 1; 0 where a line has
+/// The problems of a scene for programs: a list of objects with `file`, `line` and `column` (from 1; 0 if a line has
 /// no meaning), `path` of the tag, `message` and, where there is a nearest word, `suggestion`; `number` as `numberOf`
 /// gives it, if it does.
 std::string toJson(const std::vector<InputProblem>& problems,

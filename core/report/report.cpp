@@ -125,7 +125,7 @@ std::string energyTable(const Report& report) {
                             energies.greatest() > 0 ? energies.unaccounted() / energies.greatest() : 0.0);
 }
 
-/// What the threads did during the time loop and its outputs, in parts of their time.
+/// How the threads spent their time during the time loop and its outputs, in parts of the whole.
 std::string useLine(const Report& report) {
   const TimeUse& use = report.use;
   const double all = use.task + use.message + use.output + use.wait;
@@ -138,7 +138,7 @@ std::string useLine(const Report& report) {
       100 * use.output / all, 100 * use.wait / all, use.imbalance);
 }
 
-/// What all ranks have in memory, in megabytes.
+/// The memory of all ranks, in megabytes.
 std::string memoryLine(const Report& report) {
   const MemoryUse& sum = report.memoryOfRanks.sum;
   if (sum.peak <= 0) return "";
@@ -168,7 +168,7 @@ std::string uniformLine(const Report& report) {
          fmt::format("  it would probably be faster: on levels an update takes about {:g} times as long\n", cost);
 }
 
-/// The cells of each level, and what stepping and changing them took.
+/// The cells of each level, and the cost of updating and regridding them.
 std::string levelsLine(const Report& report) {
   if (!isRefined(report)) return "";
   std::string cells;

@@ -30,7 +30,8 @@ struct Drift {
 
 /// The energy budget of a run, J.
 struct EnergyBudget {
-  std::vector<std::pair<std::string, double>> came, went;  ///< names and amounts; work done on others is negative
+  std::vector<std::pair<std::string, double>> came,
+      went;  ///< names and amounts; work done on the surroundings is negative
 
   /// The energy that is not accounted for.
   double unaccounted() const;
@@ -41,8 +42,8 @@ struct EnergyBudget {
 /// The patches that have changed ranks in a run.
 struct Rebalancing {
   int times = 0;
-  int step = 0;                  ///< after which they did so last
-  double before = 1, after = 1;  ///< costs of the rank that has most over the mean, then
+  int step = 0;                  ///< the last step after which they did
+  double before = 1, after = 1;  ///< the largest cost of a rank over the mean, before and after the last change
 };
 
 /// Wall time of a task over the whole run.
@@ -56,24 +57,25 @@ struct Report {
   std::string scene, title, component, version, build;
   int dimension = 0, patches = 0, ranks = 1, threads = 1;
   long cells = 0, particles = 0, dropped = 0;
-  double spacing = 0;                               ///< least cell width, m
-  int steps = 0, retries = 0;                       ///< taken; undone and repeated
-  std::vector<std::pair<std::string, int>> limits;  ///< of the time step, and how many steps each has ruled
-  double time = 0;                                  ///< reached, s
+  double spacing = 0;          ///< least cell width, m
+  int steps = 0, retries = 0;  ///< steps taken; undone and repeated
+  std::vector<std::pair<std::string, int>>
+      limits;                   ///< reasons that limit the time step, and how many steps each has limited
+  double time = 0;              ///< reached, s
   std::string ended;            ///< why: maxTime, max_Timesteps, max_wall_time, stop_now, interrupted, failed
-  std::string failure, advice;  ///< of a run that failed: the value that cannot be, and what to try
+  std::string failure, advice;  ///< of a run that failed: the unphysical value, and what to try
   double particleSteps = 0;
-  ResidentMemory memory;  ///< after the last step, of the rank that has most
+  ResidentMemory memory;  ///< of the rank with the most, after the last step
   MemoryOfRanks memoryOfRanks;
   double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
   double wallOutputWait = 0;  ///< s of the output spent waiting for one that was still being written
   TimeUse use;
   Rebalancing rebalancing;
   std::vector<long> levels;   ///< cells of each level at the end, the coarsest first; 0 for a single level
-  double updates = 0;         ///< of cells: the sum over steps of the cells of all levels
+  double updates = 0;         ///< cell updates: the sum over steps of the cells of all levels
   double uniformUpdates = 0;  ///< the same, had all cells been as fine as the finest
-  int regrids = 0;            ///< how often the grid became another
-  double wallRegrid = 0;      ///< s of the loop spent choosing and making other grids
+  int regrids = 0;            ///< number of regrids
+  double wallRegrid = 0;      ///< s of the loop spent on regridding
   std::vector<TaskTime> tasks;
   double exchange = 0;  ///< s of the loop spent filling ghosts
   std::vector<ErrorNorms> errors;
@@ -84,7 +86,7 @@ struct Report {
   std::vector<tasks::LeftOut> leftOut;
   std::string fingerprint;
   std::string archive;                     ///< folder, if anything was saved
-  std::vector<std::string> unusedOptions;  ///< given to PETSc, which no solve has used
+  std::vector<std::string> unusedOptions;  ///< options for PETSc that no solve has used
 };
 
 /// The report as JSON, with the keys that tools/README.md lists.

@@ -10,12 +10,12 @@ struct TimeUse {
   double task = 0;       ///< in the bodies of tasks, and moving particles to other cells
   double message = 0;    ///< packing, unpacking and copying ghosts
   double output = 0;     ///< writing; the other threads wait meanwhile
-  double wait = 0;       ///< the rest: for others, or in between
-  double imbalance = 1;  ///< time of all loops over what it would be if each thread worked all the time
+  double wait = 0;       ///< the rest: waiting for others, or between loops
+  double imbalance = 1;  ///< time of all loops over the time if each thread worked throughout
 
   TimeUse() = default;
-  /// From what the threads had done before, over `wall` seconds with `outputSeconds` of output among them. Every rank
-  /// makes it.
+  /// The difference to the times `before`, over `wall` seconds, of which `outputSeconds` were spent on output. Every
+  /// rank makes it.
   TimeUse(const Threads::Use& before, const Threads& threads, double wall, double outputSeconds,
           const mpi::Communicator& ranks);
 };

@@ -10,13 +10,13 @@
 
 namespace tushar::scene {
 
-/// The materials of the variables of cells that a component has, by name; empty for one that belongs to none.
+/// The cell variables of a component, by name, each with its materials; empty if it belongs to none.
 std::map<std::string, std::vector<std::string>> cellVariables(const simulation::Component& component);
 
 /// Whether it makes particles.
 bool hasParticles(const simulation::Component& component);
 
-/// Whether it marks cells that must be finer itself.
+/// Whether the component itself marks cells for refinement.
 bool estimatesErrors(const simulation::Component& component);
 
 }  // namespace tushar::scene

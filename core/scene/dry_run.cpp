@@ -24,7 +24,7 @@ double residentMegabytes() {
   return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// The rank of the cell in the middle, which is of one level alone.
+/// The rank that has the cell in the middle of the grid.
 int rankInTheMiddle(const grid::Grid& grid) {
   for (int number = 0; number < grid.levels(); ++number) {
     grid::Box middle = grid.level(number).cells();
@@ -38,7 +38,7 @@ int rankInTheMiddle(const grid::Grid& grid) {
   return 0;
 }
 
-/// Plans the messages of graphs, and counts them.
+/// Plans and counts the messages of graphs.
 class Messages {
  public:
   Messages(const grid::Grid& grid, const data::VariableTable& table) : grid_(grid), table_(table) {}
@@ -55,9 +55,9 @@ class Messages {
       result.messages += static_cast<int>(receivers.size());
       neighbours_.insert(receivers.begin(), receivers.end());
       if (task.task.kind == tasks::TaskKind::relocate) addRelocations(static_cast<int>(task.materials.size()), result);
-      if (task.task.perRank) ++result.agreements;  // on whether to begin
+      if (task.task.perRank) ++result.agreements;  // agreement on whether to begin
     }
-    ++result.agreements;  // on how it went
+    ++result.agreements;  // agreement on the outcome
     result.neighbours = static_cast<int>(neighbours_.size());
   }
 
@@ -93,7 +93,7 @@ DryRun dryRun(const std::string& scene, const std::vector<std::string>& override
   simulation::Phases phases(*problem.component, problem.analyses);
   phases.compile(problem.analyses, problem.archive.saves, grid, table, problem.regrid);
   DryRun result;
-  result.agreements = 1;  // on whether to stop
+  result.agreements = 1;  // agreement on whether to stop
   Messages messages(grid, table);
   for (const tasks::TaskGraph* graph : {&phases.stableTimeStep, &phases.timeAdvance, &phases.everyStep}) {
     result.tasks += static_cast<int>(graph->tasks().size());

@@ -13,16 +13,17 @@ namespace tushar::scene {
 struct DryRun {
   int rank = 0, ranks = 1;
   int patches = 0, patchesOfAll = 0;  ///< of this rank, and of the grid
-  int tasks = 0, placements = 0;      ///< of a step: kept, and times patches and materials
+  int tasks = 0, placements = 0;      ///< of a step: tasks kept, and their runs over patches and materials
   int neighbours = 0;                 ///< ranks that it sends ghosts to
-  int messages = 0;                   ///< with ghosts and with particles that move on, sent in a step
+  int messages = 0;                   ///< sent in a step, with ghosts and with particles that move
   int agreements = 0;                 ///< of all ranks, in a step
-  double bytes = 0;                   ///< in them but for particles, at most: as if all nodes were near particles
-  double seconds = 0;                 ///< of the processor, to read the scene and compile
-  double megabytes = 0;               ///< of memory that this took
+  double bytes = 0;                   ///< upper bound, without particles: as if all nodes were near some
+  double seconds = 0;                 ///< processor time to read the scene and compile
+  double megabytes = 0;               ///< memory taken by this
 };
 
-/// Reads a scene as that of `workers.ranks` ranks would that has the middle of the grid. Throws what readScene throws.
+/// Reads a scene as if this were the rank, of `workers.ranks`, that has the middle of the grid. Throws what readScene
+/// throws.
 DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides,
               const simulation::Catalogue& catalogue, const grid::Workers& workers);
 

@@ -40,7 +40,7 @@ fs::path folderOf(const fs::path& uda) {
   return folder;
 }
 
-/// Steps whose checkpoints may be taken, the first that is whole: the chosen one, or those from LATEST back.
+/// Steps whose checkpoints may be used; the first that is intact will be: the chosen one, or those from LATEST back.
 std::vector<int> candidatesOf(const std::string& uda, const fs::path& archive, std::optional<int> chosen) {
   const output::CheckpointStore store(archive, 1);
   const std::vector<int> steps = store.steps();

@@ -41,7 +41,7 @@ void refuseTwice(const Analysis& analysis, const Element& module, TakenByModules
 
 void refuseSharedFiles(const std::vector<std::unique_ptr<Analysis>>& analyses,
                        const std::vector<simulation::SaveRequest>& saves, input::Diagnostics& diagnostics) {
-  std::map<std::string, std::string> taken;  // the file, and what it is for
+  std::map<std::string, std::string> taken;  // the file, and its purpose
   for (const simulation::SaveRequest& save : saves)
     if (isGlobal(save.label))
       taken.emplace(output::GlobalFiles::nameOf(save.label), fmt::format("the saved '{}'", save.label));

@@ -13,12 +13,12 @@
 
 namespace tushar::scene {
 
-/// What the modules above measure and compute.
+/// What the modules above in the scene measure and compute.
 struct TakenByModules {
   std::set<std::string> measured, computed;
 };
 
-/// Throws InputError for a module that measures or computes what one above does, and adds what it has. A report has one
+/// Throws InputError for a module that measures or computes what one above does, and adds its own. A report has one
 /// place for the errors of a field, and for an energy budget; a variable has one task that computes it.
 void refuseTwice(const simulation::Analysis& analysis, const input::Element& module, TakenByModules& taken);
 

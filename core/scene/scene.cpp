@@ -82,7 +82,7 @@ const ComponentKind* readComponentKind(const Element& root, const Catalogue& cat
   const ComponentTag read = componentSchema().read(*tag, diagnostics);
   if (diagnostics.size() > before) return nullptr;
   std::string type = read.type;
-  if (std::none_of(type.begin(), type.end(), [](unsigned char c) { return std::islower(c); }))  // as Uintah takes it
+  if (std::none_of(type.begin(), type.end(), [](unsigned char c) { return std::islower(c); }))  // as in Uintah
     std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
   const ComponentKind* kind = catalogue.component(type);
   if (!kind)
@@ -107,7 +107,7 @@ void refuseUnknownSections(const Element& root, const ComponentKind& kind, Diagn
                                            didYouMean(child.name(), known), fmt::join(known, ", ")));
 }
 
-/// Refuses text and attributes of the root, but for the name spaces that editors write.
+/// Refuses text and attributes of the root, except the name spaces that editors write.
 void refuseLooseWords(const Element& root, Diagnostics& diagnostics) {
   std::vector<std::string> allowed;
   for (const input::Attribute& attribute : root.attributes())
@@ -175,14 +175,14 @@ void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, co
                   "attribute 'interval': ", diagnostics);
 }
 
-/// The same for what analysis modules sample by time.
+/// Refuses such intervals at which analysis modules sample by time.
 void checkIntervals(const TimeSettings& time, const std::vector<ReadModule>& modules, Diagnostics& diagnostics) {
   for (const ReadModule& module : modules)
     if (const auto tag = module.element.child("outputInterval"))
       checkInterval(input::parse<double>(tag->text()).value.value_or(0), time, *tag, "", diagnostics);
 }
 
-/// What makes several levels of a grid.
+/// The tag that requests several levels.
 Element whereOfLevels(const Element& grid, const AmrSettings& amr) {
   const std::vector<Element> levels = grid.children("Level");
   return levels.size() > 1 ? levels[1] : *amr.tag;
@@ -199,7 +199,7 @@ void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrS
                                   kind.name));
 }
 
-/// Refuses several levels for a component that cannot run on them as the scene has it; what makes the levels.
+/// Refuses several levels if the component cannot run on them with the settings of the scene.
 Location checkTakesLevels(const ComponentKind& kind, const Component& component, const Element& grid,
                           const AmrSettings& amr, Diagnostics& diagnostics) {
   const Element where = whereOfLevels(grid, amr);
@@ -208,10 +208,10 @@ Location checkTakesLevels(const ComponentKind& kind, const Component& component,
   return where.where();
 }
 
-/// A component on the smallest grid that it takes, of one axis where it can be.
+/// A component on the smallest grid that it accepts, with one axis if possible.
 struct Trial {
   std::unique_ptr<grid::Level> level;
-  std::unique_ptr<Component> component;  ///< null if it takes no grid
+  std::unique_ptr<Component> component;  ///< null if it accepts no grid
 };
 Trial tryOut(const MakeComponent& make) {
   for (int axes = 1; axes <= 3; ++axes) {
@@ -243,8 +243,8 @@ void renameLabels(const simulation::OtherNames& names, std::vector<SaveRequest>&
   saves = std::move(kept);
 }
 
-/// Names what is wrong with the labels that are saved and sampled. Takes out, with a note, what Uintah has and no task
-/// here.
+/// Reports what is wrong with the labels that are saved and sampled. Takes out, with a note, what Uintah has and no
+/// task here.
 void checkLabels(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
                  std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   renameLabels(otherNames(component, analyses), saves, diagnostics);
@@ -267,8 +267,8 @@ void checkLabels(const Component& component, const std::vector<std::unique_ptr<A
   refuseSharedFiles(analyses, saves, diagnostics);
 }
 
-/// Checks the labels even where the rest of the scene is wrong, too: those of a component and of its modules do not
-/// depend on the grid. Whether it could: some component or module cannot be had on so small a grid as this takes.
+/// Checks the labels even if other parts of the scene are wrong: those of a component and of its modules do not depend
+/// on the grid. Whether it could: some component or module cannot be had on so small a grid as this takes.
 bool checkLabelsWithoutGrid(const MakeComponent& make, const std::vector<ReadModule>& modules,
                             std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   const auto [level, component] = tryOut(make);
@@ -283,7 +283,7 @@ bool checkLabelsWithoutGrid(const MakeComponent& make, const std::vector<ReadMod
   return true;
 }
 
-/// What every scene has besides its grid and its component.
+/// The parts of a scene besides its grid and its component.
 void readSharedSections(const Element& root, Problem& problem, Diagnostics& diagnostics) {
   if (const auto meta = section(root, "Meta", false, diagnostics))
     problem.title = metaSchema().read(*meta, diagnostics).title;
@@ -294,7 +294,7 @@ void readSharedSections(const Element& root, Problem& problem, Diagnostics& diag
   }
 }
 
-/// <Grid> for a component; for one that is not known, all that a grid may have.
+/// <Grid> for a component; for an unknown one, all that a grid may have.
 grid::Domain readGridFor(const ComponentKind* kind, const Element& section, const AmrSettings& amr,
                          const grid::Workers& workers, Diagnostics& diagnostics) {
   SideWords words{{}, true, true};

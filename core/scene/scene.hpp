@@ -37,14 +37,14 @@ struct AmrSettings {
   std::optional<std::vector<Index3>> ratios;  ///< of cell widths from level to level
   std::optional<input::Element> tag;          ///< `AMR`, where it is given; for messages
 };
-/// `kind`: the component of the scene, null where it is not known.
+/// `kind`: the component of the scene, null if it is not known.
 AmrSettings readAmr(const input::Element& section, const simulation::ComponentKind* kind,
                     input::Diagnostics& diagnostics);
 /// When and where a component's grid is refined: by its own criteria where the scene has none. Reports variables that
 /// the component lacks.
 simulation::RegridSettings settled(AmrSettings amr, const simulation::Component& component,
                                    input::Diagnostics& diagnostics);
-/// The conditions at sides of a grid that a component supports.
+/// The boundary conditions that a component supports.
 struct SideWords {
   std::vector<grid::BoundaryVariable> labels = {};
   bool takesParts = false;     ///< parts of a side with conditions of their own
@@ -70,7 +70,7 @@ const input::SchemaBase& gridForm(const simulation::ComponentKind& kind);
 /// The tag SimulationComponent; its `type` says which component.
 const input::SchemaBase& componentForm();
 
-/// Sections of Uintah's without effect here, and why.
+/// Uintah's sections without effect here, and why.
 const std::vector<std::pair<std::string, std::string>>& idleSections();
 
 }  // namespace tushar::scene

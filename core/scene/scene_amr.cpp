@@ -21,7 +21,7 @@ using Indicator = simulation::Criterion::Indicator;
 
 namespace {
 
-/// The name of a criterion that is no variable: cells with particles, of any material.
+/// The name of a criterion that is not a variable: cells with particles, of any material.
 constexpr std::string_view cellsWithParticles = "particles";
 
 struct VariableTag {
@@ -60,7 +60,7 @@ struct AmrSection {
 bool isLower(Indicator indicator) { return indicator == Indicator::below; }
 bool isValue(Indicator indicator) { return indicator == Indicator::above || indicator == Indicator::below; }
 
-/// What is halfway from the threshold to nothing; of values, half their size further.
+/// Half the threshold; for values, half their size beyond it.
 double coarsenOf(const VariableTag& tag, double refine) {
   if (tag.coarsen) return *tag.coarsen;
   return isLower(tag.indicator) ? refine + 0.5 * std::abs(refine) : refine - 0.5 * std::abs(refine);
@@ -255,7 +255,7 @@ std::vector<std::string> amrSectionsOf(const simulation::ComponentKind& kind) {
   return names;
 }
 
-/// Where the component is not known, every tag that is not one of `AMR` itself.
+/// If the component is unknown, every tag that is not one of `AMR` itself.
 std::vector<std::string> unknownTagsOf(const Element& amr) {
   std::vector<std::string> names;
   const std::vector<std::string> own = amrSchema({}).tagNames();
@@ -337,7 +337,7 @@ AmrSettings readAmr(const Element& section, const simulation::ComponentKind* kin
 simulation::RegridSettings settled(AmrSettings amr, const simulation::Component& component, Diagnostics& diagnostics) {
   std::vector<Criterion>& criteria = amr.regrid.criteria;
   if (!amr.regrid.adaptive) return amr.regrid;
-  const bool followsParticles = hasParticles(component);  // always, and so also where the scene says it
+  const bool followsParticles = hasParticles(component);  // always, so also if the scene says so
   if (followsParticles)
     std::erase_if(criteria, [](const Criterion& one) { return one.variable == cellsWithParticles; });
   if (criteria.empty() && !followsParticles) {

@@ -21,10 +21,10 @@ using simulation::SectionForm;
 
 namespace {
 
-/// Schemas of editors read nothing.
+/// Schemas for editors read nothing.
 struct Unread {};
 
-/// They stay where they are.
+/// The schemas stay at their addresses.
 using Schemas = std::list<Schema<Unread>>;
 
 void addTag(Schema<Unread>& parent, const TagForm& form, const std::string& sentence) {

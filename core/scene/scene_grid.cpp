@@ -88,7 +88,7 @@ void checkSize(const grid::Domain& domain, const Element& element, Diagnostics& 
                                   domain.resolution[1], domain.resolution[2], cells, mostCells));
 }
 
-/// Of a grid of one level.
+/// The domain of a grid of one level.
 void cutIntoPatches(const GridBox& box, const grid::Workers& workers, const Element& element, grid::Domain& domain,
                     Diagnostics& diagnostics) {
   if (!box.patches && !workers.layout) {
@@ -104,12 +104,12 @@ void cutIntoPatches(const GridBox& box, const grid::Workers& workers, const Elem
                                     workers.layout ? " in --layout" : "", counted(domain.resolution[axis], "cell")));
 }
 
-/// Of a grid of several levels: boxes of blocks.
+/// The domain of a grid of several levels: boxes of blocks.
 void groupBlocks(const Element& section, const grid::Workers& workers, grid::Domain& domain, Diagnostics& diagnostics) {
   if (workers.layout) {
     grid::Refinement& refinement = domain.refinement;
     refinement.blocksPerPatch = *workers.layout;
-    for (int axis = 0; axis < 3; ++axis) {  // no more than there are, which keeps the number of their cells an int
+    for (int axis = 0; axis < 3; ++axis) {  // no more than exist, so that the number of their cells fits an int
       const int blocks = std::max(1, domain.resolution[axis] / refinement.blockCells[axis]) << (refinement.levels - 1);
       (*refinement.blocksPerPatch)[axis] = std::min((*workers.layout)[axis], blocks);
     }

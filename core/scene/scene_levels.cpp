@@ -84,14 +84,14 @@ constexpr int mostLevels = 16;         ///< of a tree of blocks,
 constexpr int mostBlocks = 1 << 20;    ///< and the most of its finest blocks along an axis
 constexpr int fewestCellsOfBlock = 4;  ///< along an axis in use
 
-/// A tag of `Regridder` where it is given, else its substitute.
+/// A tag of `Regridder` if it is given, else its substitute.
 Element tagOr(const AmrSettings& amr, const std::string& tag, const Element& other) {
   const auto regridder = amr.tag ? amr.tag->child("Regridder") : std::nullopt;
   const auto given = regridder ? regridder->child(tag) : std::nullopt;
   return given ? *given : other;
 }
 
-/// Reads the Boxes of further Levels, and sees to their blocks.
+/// Reads the Boxes of further Levels, and chooses their blocks.
 class Refiner {
  public:
   Refiner(const Element& grid, const std::vector<LevelSection>& levels, const AmrSettings& amr, grid::Domain& domain,
@@ -171,7 +171,7 @@ class Refiner {
     return diagnostics_.size() == before;
   }
 
-  /// The level that has cells as wide as those of a box: how often those of the first Level are halved.
+  /// The level whose cells are as wide as those of a box: how often those of the first Level are halved.
   std::optional<int> levelOf(const GridBox& box, const LevelSection& section, const Element& element) {
     const std::size_t before = diagnostics_.size();
     const Index3 cells = resolutionOf(box, section, element, diagnostics_);
@@ -231,7 +231,7 @@ class Refiner {
     return twos;
   }
 
-  /// The levels that the run may have, from what the scene says of them.
+  /// The number of levels that the run may have, from the scene.
   int countLevels() {
     const int given = finest_ + 1;
     const bool isAdaptive = amr_.regrid.adaptive;
@@ -287,7 +287,7 @@ class Refiner {
       takeNearestBlock(axis, cells, size, sizes);
   }
 
-  /// Blocks that divide the cells, in place of those that the scene requests.
+  /// Blocks that divide the cells, as an alternative to those that the scene requests.
   void takeNearestBlock(int axis, int cells, int size, const std::vector<int>& sizes) {
     const auto distance = [&](int a, int b) { return std::abs(a - size) < std::abs(b - size); };
     const int nearest = *std::min_element(sizes.begin(), sizes.end(), distance);
@@ -298,7 +298,7 @@ class Refiner {
                     counted(cells, "cell"), "xyz"[axis], nearest));
   }
 
-  /// The even divisors of a number of cells from the fewest of a block on, in their order.
+  /// The even divisors of a number of cells, from the smallest block upwards.
   static std::vector<int> blockSizes(int cells) {
     std::vector<int> sizes;
     const auto add = [&](int size) {

@@ -35,8 +35,8 @@ const input::Schema<LevelSection>& levelSchema();
 Index3 resolutionOf(const GridBox& box, const LevelSection& level, const input::Element& element,
                     input::Diagnostics& diagnostics);
 
-/// Reads how a grid is refined into `domain`, which has all of the first Level but its patches: `levels` are those of
-/// the section `grid`, the first among them.
+/// Reads how a grid is refined into `domain`, which has all of the first Level except its patches: `levels` are those
+/// of the section `grid`, the first among them.
 void readRefinement(const input::Element& grid, const std::vector<LevelSection>& levels, const AmrSettings& amr,
                     grid::Domain& domain, input::Diagnostics& diagnostics);
 

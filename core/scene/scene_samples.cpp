@@ -39,7 +39,7 @@ struct Known {
   }
 };
 
-/// The number of a material by its name or number; -1, with what is wrong, where there is none.
+/// The number of a material by its name or number; -1, with an error, if there is none.
 int numberOf(const std::string& word, const Known& known, std::string& problem) {
   const auto& all = known.materials;
   if (const auto named = std::find(all.begin(), all.end(), word); named != all.end())
@@ -55,7 +55,7 @@ int numberOf(const std::string& word, const Known& known, std::string& problem) 
   return -1;
 }
 
-/// Whether a word can mean the only material, whose name need not be right.
+/// Whether a word may stand for the only material, whatever its name.
 bool isLoneMaterial(const std::string& word, const Known& known) {
   return known.materials.size() == 1 && !input::parse<int>(word).value;
 }
@@ -64,7 +64,7 @@ void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagno
   simulation::SaveRequest& request = variable.request;
   std::string problem;
   variable.material = numberOf(request.material, known, problem);
-  if (variable.material < 0 && isLoneMaterial(request.material, known)) {  // as Uintah takes it
+  if (variable.material < 0 && isLoneMaterial(request.material, known)) {  // as in Uintah
     if (known.noted.insert(request.material).second)
       diagnostics.note(
           request.whereOfMaterial, path,
@@ -90,7 +90,7 @@ void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagno
   request.material.clear();
 }
 
-/// Whether a variable stays.
+/// Whether a variable is kept.
 bool settle(SampledVariable& variable, Known& known, Diagnostics& diagnostics) {
   simulation::SaveRequest& request = variable.request;
   request.label = nameHere(known.names, request.label);
@@ -98,7 +98,7 @@ bool settle(SampledVariable& variable, Known& known, Diagnostics& diagnostics) {
     diagnostics.note(request.where, path, fmt::format("'{}' is left out: no task computes it here", variable.called));
     return false;
   }
-  if (!known.labels.contains(request.label)) return true;  // Phases says so
+  if (!known.labels.contains(request.label)) return true;  // Phases reports it
   if (!request.label.starts_with("c.") && !request.label.starts_with("g."))
     diagnostics.error(request.where, path,
                       fmt::format("found '{}', expected a variable of cells (c.) or nodes (g.)", variable.called));

@@ -107,7 +107,7 @@ std::optional<grid::SidePart> roundPart(const FaceSection& face, const FaceWord&
   if (face.ellipse && face.minorRadius && face.majorRadius && face.angle &&
       areInOrder(*face.minorRadius, *face.majorRadius, word, tag, diagnostics))
     return grid::SidePart::ellipse(axis, side, *origin, *face.minorRadius, *face.majorRadius, *face.angle);
-  return {};  // for a number that is reported already
+  return {};  // for a number that was reported before
 }
 
 std::optional<grid::SidePart> squarePart(const FaceSection& face, const Element& tag, Diagnostics& diagnostics) {
@@ -135,7 +135,7 @@ bool liesInSide(const GivenPart& part, const grid::Domain& domain, Diagnostics& 
   const double at = part.face % 2 == 0 ? domain.lower[axis] : domain.upper[axis];
   const double slack = 1e-9 * std::max({domain.upper[axis] - domain.lower[axis], std::abs(at)});
   const std::size_t before = diagnostics.size();
-  Diagnostics known;  // what readShape has reported already
+  Diagnostics known;  // errors that readShape has reported
   for (const char* name : {"origin", "lower", "upper", "inner_lower", "inner_upper", "outer_lower", "outer_upper"}) {
     if (!part.tag.attribute(name)) continue;
     const auto point = pointOf(part.tag.attribute(name), part.tag, name, known);
@@ -147,7 +147,7 @@ bool liesInSide(const GivenPart& part, const grid::Domain& domain, Diagnostics& 
   return diagnostics.size() == before;
 }
 
-/// The kernel axis of an axis, or -1 where it is left out.
+/// The kernel axis of an axis, or -1 if it is left out.
 int kernelAxisOf(const grid::Level& level, int axis) {
   for (int d = 0; d < level.dimension(); ++d)
     if (level.axis(d) == axis) return d;

@@ -25,7 +25,7 @@ grid::BoundaryKind kindOf(const std::string& var) {
 }
 bool isSymmetry(const std::string& var) { return var == nameOf(grid::BoundaryKind::symmetry); }
 
-/// Labels of Uintah's components of flow, which scenes of others carry along.
+/// Labels of Uintah's flow components, which appear in scenes of other components, too.
 const std::vector<std::string> labelsOfFlow{"Density", "Pressure", "SpecificVol"};
 bool isOfFlow(const std::string& label) {
   return std::find(labelsOfFlow.begin(), labelsOfFlow.end(), label) != labelsOfFlow.end();
@@ -58,7 +58,7 @@ void checkKind(const ConditionSection& condition, const Element& element, const 
     diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
 }
 
-/// Choices that are their own words.
+/// Choices whose values are the words themselves.
 input::Choices<std::string> wordsOf(const std::vector<std::string>& words) {
   input::Choices<std::string> choices;
   for (const std::string& word : words) choices.emplace_back(word, word);
@@ -190,10 +190,10 @@ bool fitsPlane(const grid::BoundaryVariable& label, const grid::BoundaryConditio
          (!label.isVector || (!condition.formula && condition.value[axis] == 0));
 }
 
-/// Where conditions of a face were given: by label, and by the materials that they hold for.
+/// The places where conditions of a face were given: by label, and by the materials that they hold for.
 using SeenConditions = std::map<std::string, std::map<std::string, Location>>;
 
-/// Where a condition of the same variable was given before that holds for some of the same materials.
+/// The place of an earlier condition for the same variable and some of the same materials.
 std::optional<Location> givenBefore(const ConditionSection& given, const Location& where, SeenConditions& seen) {
   auto& places = seen[given.label];
   for (const auto& [id, place] : places)
@@ -202,7 +202,7 @@ std::optional<Location> givenBefore(const ConditionSection& given, const Locatio
   return {};
 }
 
-/// What is read of a face.
+/// The settings of a face.
 struct ReadFace {
   const SideWords& words;
   const Element& sides;                              ///< all of them
@@ -227,7 +227,7 @@ void readOwnCondition(const ConditionSection& given, const Element& tag, const R
   }
 }
 
-/// Adds the condition of a tag, unless its label is none that has an effect.
+/// Adds the condition of a tag, unless its label has no effect.
 void readCondition(const ConditionSection& given, const Element& tag, bool onPlane, const ReadFace& face,
                    Diagnostics& diagnostics) {
   const auto& labels = face.words.labels;
@@ -268,7 +268,7 @@ void readConditions(const FaceSection& given, const Element& tag, const ReadFace
     readCondition(conditions[k], tags[k], onPlane, face, diagnostics);
 }
 
-/// The part of a side with this shape, which is one with those of the same shape before.
+/// The part of a side with this shape; faces with the same shape share a part.
 std::size_t partWith(const grid::SidePart& shape, std::vector<grid::ConditionsOfPart>& parts) {
   const auto same = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.shape == shape; });
   if (same != parts.end()) return same - parts.begin();

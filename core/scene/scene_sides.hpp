@@ -27,7 +27,7 @@ struct FaceSection {
   std::optional<std::string> origin, lower, upper, innerLower, innerUpper, outerLower, outerUpper;
   std::vector<ConditionSection> conditions;
 
-  /// The side that it is, or is a part of.
+  /// The side that it is or belongs to.
   int face() const {
     for (const auto& given : {side, circle, annulus, ellipse, rectangle, rectangulus})
       if (given) return *given;
@@ -41,7 +41,7 @@ struct FacesSection {
 };
 
 const input::Schema<ConditionSection>& conditionSchema();
-/// The conditions of a component as an editor is to see them: of its labels, with its further `var`s.
+/// The conditions of a component for the schemas of editors: of its labels, with its further `var`s.
 input::Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>& labels,
                                              const std::vector<std::string>& furtherVars);
 /// The tag `Face`, with a tag for conditions, which must outlive it.
@@ -56,7 +56,7 @@ struct GivenPart {
 
 /// Whether a face is one side or one part of a side, with the attributes that go with it.
 bool checkFaceWords(const input::Element& tag, input::Diagnostics& diagnostics);
-/// The shape of a face that is a part of a side; nothing where its numbers make none, which goes to the diagnostics.
+/// The shape of a face that is a part of a side; nothing, with an error, if its numbers define none.
 std::optional<grid::SidePart> readShape(const FaceSection& face, const input::Element& tag,
                                         input::Diagnostics& diagnostics);
 /// Refuses parts of sides for components that do not take them.
@@ -64,9 +64,9 @@ void refuseParts(const input::Element& tag, input::Diagnostics& diagnostics);
 /// The conditions of a `Grid` section. Returns the parts of sides that have some.
 std::vector<GivenPart> readFaces(const input::Element& section, const FacesSection& faces, const SideWords& words,
                                  grid::BoundaryConditions& boundaries, input::Diagnostics& diagnostics);
-/// A side of a periodic axis takes no conditions; Uintah overlooks them.
+/// A side of a periodic axis takes no conditions; Uintah ignores them.
 void checkPeriodic(const input::Element& section, const grid::Domain& domain, input::Diagnostics& diagnostics);
-/// Whether parts of sides lie in their sides, none overlaps another one, and all have faces.
+/// Checks that parts of sides lie in their sides, do not overlap, and have faces.
 void checkParts(const std::vector<GivenPart>& parts, const grid::Domain& domain, input::Diagnostics& diagnostics);
 
 }  // namespace tushar::scene

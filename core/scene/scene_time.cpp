@@ -87,7 +87,7 @@ bool covers(const SaveRequest& one, const SaveRequest& other) {
   return one.label == other.label && (one.material.empty() || one.material == other.material);
 }
 
-/// Removes saves that another one includes.
+/// Removes saves that another save includes.
 void takeOutRepeated(std::vector<SaveRequest>& saves, const std::vector<Element>& tags, Diagnostics& diagnostics) {
   if (saves.size() != tags.size()) return;
   std::vector<SaveRequest> kept;
@@ -157,7 +157,7 @@ void readCompression(ArchiveSettings& archive, const Element& element, Diagnosti
     archive.compression = *level.value;
 }
 
-/// Of a path from the root, as Uintah's scenes have on the machines of their authors, its last part.
+/// The last part of an absolute path, which Uintah's scenes use for the machines of their authors.
 std::string nameOf(const std::string& filebase) {
   return filebase.starts_with('/') ? std::filesystem::path(filebase).filename().string() : filebase;
 }

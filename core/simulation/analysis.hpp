@@ -68,7 +68,7 @@ class Analysis {
   /// Completes its files, so that a run that goes on from here finds in them what was sampled so far. Called on the
   /// first rank before each checkpoint is written, and at the end of the run. May throw FileError.
   virtual void flush() {}
-  /// A table of exact values to draw beside the result, one column an array, `x` first; empty where there is none.
+  /// A table of exact values to draw beside the result, one column an array, `x` first; empty if there is none.
   virtual std::vector<output::Array> exactProfile(const grid::Level&) const { return {}; }
 };
 

@@ -24,7 +24,7 @@ void writeGrid(output::Hdf5File& file, const output::GridInfo& grid) {
   file.attribute("/grid", "dimension", grid.dimension);
 }
 
-/// Which blocks are refined, where there are several levels.
+/// Which blocks are refined, if there are several levels.
 void writeTree(output::Hdf5File& file, const grid::Grid& grid) {
   if (grid.levels() == 1) return;
   file.attribute("/grid", "levels", grid.levels());

@@ -36,7 +36,7 @@ class Component {
   /// The gases of the scene, in the order of its material numbers behind all others: materials whose variables belong
   /// to no material here.
   virtual std::vector<std::string> gasNames() const { return {}; }
-  /// Why it cannot run on a grid of several levels, if its kind can; empty where it can: continues `needs a grid of one
+  /// Why it cannot run on a grid of several levels, if its kind can; empty if it can: continues `needs a grid of one
   /// level: `.
   virtual std::string whyOneLevel() const { return ""; }
   /// Where the grid is to be finer, if the scene refines it and does not say where.

@@ -59,7 +59,7 @@ void Outputs::open() {
   folder_ = run_.ranks.broadcast(archive_ ? archive_->folder().string() : "");
   last_ = run_.ranks.broadcast(archive_ ? archive_->lastStep() : -1);
   if (archive_) run_.clock.watch(archive_->folder());
-  std::error_code unseen;  // it may be on a disk of the first rank's node
+  std::error_code unseen;  // it may be on a disk of rank 0's node
   run_.writers = run_.writers.only(std::filesystem::exists(folder_, unseen));
 }
 

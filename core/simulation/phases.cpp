@@ -130,7 +130,7 @@ void Phases::noteMaterials() {
 
 namespace {
 
-/// The numbers that `0`, `0,2` or `1-3` name; none where the text is something else.
+/// The numbers that `0`, `0,2` or `1-3` name; none if the text is something else.
 std::vector<int> numbersIn(const std::string& text) {
   std::vector<int> numbers;
   std::istringstream parts(text);

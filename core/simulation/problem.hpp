@@ -23,11 +23,11 @@ struct Problem {
   ArchiveSettings archive;
   RegridSettings regrid;
   std::unique_ptr<grid::Grid> grid;
-  int threads = 1;         ///< at the most
+  int threads = 1;         ///< at most
   int cellsPerThread = 0;  ///< cells of a rank for each of its threads; 0: however few
   std::unique_ptr<Component> component;
   std::vector<std::unique_ptr<Analysis>> analyses;
-  std::optional<Restart> restart;  ///< where the run goes on; none where it starts
+  std::optional<Restart> restart;  ///< where the run goes on; none if it starts
 };
 
 }  // namespace tushar::simulation

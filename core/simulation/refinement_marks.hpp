@@ -20,7 +20,7 @@ struct BoundCriterion {
 /// The materials that have a variable that tasks write; none if it belongs to none.
 std::vector<std::string> materialsOf(const std::vector<tasks::Task>& tasks, const data::Label& label);
 
-/// The numbers of a cell's variable and those of its two neighbours along an axis; null where there is none.
+/// The numbers of a cell's variable and those of its two neighbours along an axis; null if there is none.
 struct Neighbours {
   const double *below, *middle, *above;
 };
@@ -32,7 +32,7 @@ struct Neighbours {
 double indicatorOf(Criterion::Indicator indicator, std::span<const Neighbours> axes, std::span<const double> spacing,
                    int components);
 
-/// The task that computes tasks::refinementMark by all criteria; 0 where there are none. Those of materials must have
+/// The task that computes tasks::refinementMark by all criteria; 0 if there are none. Those of materials must have
 /// the same.
 tasks::Task markTask(std::vector<BoundCriterion> criteria);
 

@@ -108,7 +108,7 @@ void RunReport::addTasks(Report& report) {
 
 namespace {
 
-/// The greatest momentum that the mass could have by the energy, sqrt(2 m E); 0 where one of them is not known.
+/// The greatest momentum that the mass could have by the energy, sqrt(2 m E); 0 if one of them is not known.
 double greatestMomentum(const Totals& totals, const std::vector<ConservedTotal>& kinds) {
   double mass = 0, energy = 0;
   for (std::size_t k = 0; k < totals.size(); ++k) {

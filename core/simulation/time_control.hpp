@@ -85,7 +85,7 @@ class Milestones {
   /// An interval of 0 [s] means none.
   Milestones(double start, double interval) : start_(start), interval_(interval) {}
 
-  /// The first that has not been passed, s; infinity where there are none.
+  /// The first that has not been passed, s; infinity if there are none.
   double next() const;
   bool isReached(double time) const;
   /// Passes those up to `time` [s].

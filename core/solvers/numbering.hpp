@@ -9,18 +9,18 @@
 
 namespace tushar::solvers {
 
-/// Gives each cell that a rank deals with its number in a global system, as Unknowns wants it: its own cells, then
-/// those of other ranks. On one rank the order is lexicographic, and on several levels that of blocks along the curve,
-/// so that the patches do not matter.
+/// Gives each cell that a rank uses its number in a global system, as Unknowns needs it: its own cells, then those of
+/// other ranks. On one rank the order is lexicographic, and on several levels that of blocks along the curve, so that
+/// the patches do not matter.
 class CellNumbering {
  public:
-  /// Where there is one level, the cells of other ranks that share a face with own ones are known from the start.
+  /// On one level, the cells of other ranks that share a face with own ones are included from the start.
   explicit CellNumbering(const grid::Grid& grid);
 
   int owned() const { return owned_; }
   /// The cells of other ranks: their numbers among those of all ranks.
   const std::vector<int>& ghosts() const { return ghosts_; }
-  /// Makes a cell of a grid of several levels, or its image, one that this rank deals with.
+  /// Adds a cell of a grid of several levels, or its image, to those that this rank uses.
   template <int D>
   void meet(int level, const Index<D>& image) {
     const std::uint64_t among = numberAmongAll(level, expanded(grid_->level(level).template wrapped<D>(image)));
@@ -63,8 +63,8 @@ class CellNumbering {
   /// Patch by patch, so that every rank can compute the numbers of all.
   void numberOwnPatches();
   void numberGhosts(const grid::Patch& patch, const std::vector<int>& firstOf);
-  /// Of a cell of several levels: block by block on one rank, else patch by patch. Throws data::AccessError for one
-  /// that is refined or part of a coarser one.
+  /// The number of a cell on several levels: block by block on one rank, else patch by patch. Throws data::AccessError
+  /// for one that is refined or part of a coarser one.
   std::uint64_t numberAmongAll(int level, const Index3& cell) const;
   Run runAround(int level, const Index3& cell) const;
 
@@ -72,9 +72,9 @@ class CellNumbering {
   int owned_ = 0;
   std::uint64_t first_ = 0;  ///< own cell of several levels, among those of all ranks
   std::vector<int> ghosts_;
-  /// By place of the cell; on several levels only those of other ranks, by number among all.
+  /// Numbers by place of the cell; on several levels only of other ranks' cells, by number among all.
   std::unordered_map<std::uint64_t, int> numbers_;
-  mutable std::optional<Run> last_;  ///< the run that was looked up last
+  mutable std::optional<Run> last_;  ///< the last run that was found
 };
 
 }  // namespace tushar::solvers

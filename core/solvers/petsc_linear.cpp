@@ -17,7 +17,7 @@ double timed(Work&& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// |b - A x| at the end, for where it is the greatest.
+/// |b - A x| at the end, to find where it is largest.
 int worstRow(Mat matrix, Vec b, Vec x) {
   OwnedVec residual;
   check(VecDuplicate(b, residual.address()));
@@ -37,14 +37,14 @@ void note(Outcome& outcome, KSP krylov) {
   outcome.residuals = residualsOf(krylov);
 }
 
-/// Takes out of b what no solution can balance.
+/// Removes the part of b that no solution can balance.
 void balance(Outcome& outcome, MatNullSpace free, Vec b) {
   check(VecSum(b, &outcome.unbalanced));
   check(VecNorm(b, NORM_1, &outcome.loads));
   check(MatNullSpaceRemove(free, b));
 }
 
-/// The tolerance of a residual over |b|. What rounding leaves is not asked for.
+/// The tolerance for the residual over |b|. What rounding leaves is not asked for.
 double toleranceOf(const LinearProblem& problem, const LinearSettings& settings, Vec b) {
   PetscReal size = 0;
   check(VecNorm(b, NORM_2, &size));

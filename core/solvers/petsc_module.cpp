@@ -1,6 +1,6 @@
 #include "core/solvers/petsc_objects.hpp"
 
-// What the library shows to the outside: one solver.
+// The interface of the library: one solver.
 
 namespace tushar::solvers {
 

@@ -12,7 +12,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds(Clock::duration time) { return std::chrono::duration<double>(time).count(); }
 
-/// What PETSc's callbacks work with.
+/// The context of PETSc's callbacks.
 struct Newton {
   NonlinearProblem& problem;
   const NewtonSettings& settings;
@@ -29,7 +29,7 @@ PetscErrorCode evaluateResidual(SNES, Vec u, Vec r, void* context) {
   return guarded(newton.thrown, [&] {
     newton.u.take(u);
     const std::span<double> residual = newton.r.values();
-    // The line search goes back from what is infinite.
+    // The line search backs off from infinite values.
     if (!newton.problem.residual(newton.u.values(), residual))
       std::fill(residual.begin(), residual.end(), std::numeric_limits<double>::infinity());
     newton.r.addUp(r);

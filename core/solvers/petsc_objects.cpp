@@ -23,7 +23,8 @@ PetscErrorCode keepMessage(MPI_Comm, int, const char*, const char*, PetscErrorCo
   return code;
 }
 
-/// Keeps what the program does on SIGTERM, which ends a run with its output written: PETSc takes that signal for
+/// Preserves the program's reaction to SIGTERM, which is to end the run with its output written: PETSc takes that
+/// signal for
 /// itself when it starts, and leaves the system's default when it gives it back.
 class KeptTermination {
  public:
@@ -98,7 +99,7 @@ void PetscMatrix::setNullSpaces(const Unknowns& unknowns) {
     check(MatNullSpaceCreate(ranks_, PETSC_TRUE, 0, nullptr, constant.address()));
     check(MatSetNullSpace(matrix_, constant));
   }
-  int given = unknowns.coordinates.empty() ? 0 : 1;  // on a rank that owns nothing there are none
+  int given = unknowns.coordinates.empty() ? 0 : 1;  // none on a rank that owns nothing
   MPI_Allreduce(MPI_IN_PLACE, &given, 1, MPI_INT, MPI_MAX, ranks_);
   if (given == 0) return;
   OwnedVec places;
@@ -159,9 +160,9 @@ void configure(KSP krylov, const LinearSettings& settings) {
   check(KSPSetNormType(krylov, settings.solver == "preonly" ? KSP_NORM_NONE : KSP_NORM_UNPRECONDITIONED));
   if (settings.solver == "gmres") {
     check(KSPSetPCSide(krylov, PC_RIGHT));
-    // Without it, what is nearly singular breaks down by rounding.
+    // Without it, nearly singular systems fail through rounding.
     check(KSPGMRESSetCGSRefinementType(krylov, KSP_GMRES_CGS_REFINE_IFNEEDED));
-    // PETSc begins anew after 30: where nothing is compressible it then gets nowhere.
+    // PETSc restarts after 30: nearly incompressible systems then do not converge.
     check(KSPGMRESSetRestart(krylov, std::min(settings.maxIterations, 200)));
   }
   PC preconditioner = nullptr;

@@ -51,7 +51,7 @@ class PetscOptionsOfSolve {
   PetscOptionsOfSolve& operator=(const PetscOptionsOfSolve&) = delete;
   ~PetscOptionsOfSolve();
 
-  /// The options of all solves so far that neither a solve nor the start of PETSc has used.
+  /// Options of all solves so far that neither a solve nor the start of PETSc has used.
   static std::vector<std::string> unused();
 
  private:
@@ -64,7 +64,7 @@ class PetscOptionsOfSolve {
 /// A matrix of PETSc that is assembled block by block.
 class PetscMatrix : public Matrix {
  public:
-  /// Empty, with room for the entries that the unknowns announce, and the null spaces that they have.
+  /// An empty matrix with room for the entries that the unknowns declare, and with their null spaces.
   explicit PetscMatrix(const Unknowns& unknowns);
 
   void add(std::span<const int> rows, std::span<const int> columns, std::span<const double> values) override;
@@ -86,7 +86,7 @@ class PetscMatrix : public Matrix {
 
   MPI_Comm ranks_;
   OwnedMat matrix_;
-  OwnedNullSpace rigid_;  ///< motions without strain of the matrix as it was assembled
+  OwnedNullSpace rigid_;  ///< the motions without strain, for the matrix before scaling
 };
 
 /// Solves A x = b as (S A S) y = S b, x = S y. S brings the diagonal to its greatest entry everywhere: unscaled, the
@@ -94,9 +94,9 @@ class PetscMatrix : public Matrix {
 /// force that its rounding would stall a Krylov method.
 class Balance {
  public:
-  /// For a right-hand side like `b`.
+  /// For right-hand sides with the layout of `b`.
   explicit Balance(Vec b);
-  /// Chooses S, and scales the matrix.
+  /// Chooses S and scales the matrix.
   void scale(PetscMatrix& matrix);
   /// Makes solves of `krylov`, whose matrix has been scaled, take the unscaled b and return the unscaled x.
   void attach(KSP krylov);
@@ -118,16 +118,16 @@ class PetscVector {
   OwnedVec vector_;
 };
 
-/// The numbers that a rank sees of a vector over all ranks: its own, then the ghosts.
+/// The part of a vector over all ranks that a rank sees: its own, then the ghosts.
 class GhostedVector {
  public:
   explicit GhostedVector(const Unknowns& unknowns);
   std::span<double> values() { return values_; }
   /// The values of `all`, on this rank and of the ghosts.
   void take(Vec all);
-  /// Sums to `all` what every rank has for its own and for its ghosts.
+  /// Adds to `all` the values of every rank for its own entries and its ghosts.
   void addUp(Vec all);
-  /// Adds up numbers of own and ghost places, in place.
+  /// Adds up the values of own and ghost entries, in place.
   void addUp(std::span<double> values);
 
  private:
@@ -135,7 +135,7 @@ class GhostedVector {
   OwnedVec vector_;
 };
 
-/// Method, preconditioner and tolerances, then what the options say.
+/// Sets method, preconditioner and tolerances, then applies the options.
 void configure(KSP krylov, const LinearSettings& settings);
 
 /// Runs `work`, called by PETSc; an exception waits until PETSc has returned.
@@ -157,10 +157,10 @@ PetscErrorCode searchAlongStep(SNESLineSearch search, void* context);
 /// Why a solve ended, in words, and PETSc's word for it.
 std::string reasonOf(KSPConvergedReason reason);
 std::string reasonOf(SNES snes);
-/// The norms of the residual that a Krylov method has kept.
+/// The residual norms that a Krylov method has recorded.
 std::vector<double> residualsOf(KSP krylov);
 
-/// Number of the unknown whose residual is the greatest; -1 where another rank has it.
+/// Number of the unknown with the largest residual; -1 if it is on another rank.
 int worstOf(Vec residual);
 
 Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,

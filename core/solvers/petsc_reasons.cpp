@@ -2,7 +2,7 @@
 
 #include "core/solvers/petsc_objects.hpp"
 
-// Why solves end. A reason that has no words here keeps PETSc's own.
+// Why solves end. A reason without words here keeps PETSc's.
 
 namespace tushar::solvers {
 

@@ -30,7 +30,7 @@ inline double remainderOf(const Outcome& outcome) {
   return greatest > 0 ? outcome.residuals.back() / greatest : 0;
 }
 
-/// Where the residual is the greatest, the end of a sentence, the same on all ranks: `mine` [m] on the rank that has
+/// The place of the largest residual, as the end of a sentence, the same on all ranks: `mine` [m] on the rank that has
 /// it.
 std::string worstPlace(const mpi::Communicator& ranks, const std::optional<Vec3>& mine, const std::string& what);
 

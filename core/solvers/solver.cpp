@@ -20,7 +20,7 @@ constexpr const char* library = "libtushar_petsc.so";
 
 std::atomic<bool> wasLoaded = false;
 
-/// Lazily bound, so that what PETSc brings along is only resolved where it is used.
+/// Lazily bound, so that symbols of PETSc's dependencies are resolved only when they are used.
 const Solver& load() {
   void* handle = dlopen(library, RTLD_LAZY | RTLD_LOCAL);
   if (!handle) {

@@ -9,18 +9,18 @@
 
 namespace tushar::solvers {
 
-/// The unknowns of a system that a rank deals with, in blocks: one block for each cell or node. A rank numbers the
-/// blocks that it owns from 0 on, and goes on with those of other ranks that it needs.
+/// The unknowns of a system that a rank uses, in blocks: one block for each cell or node. A rank numbers the blocks
+/// that it owns from 0 on, and goes on with those of other ranks that it needs.
 struct Unknowns {
-  const mpi::Communicator* ranks = &mpi::Communicator::alone();  ///< those that solve together
+  const mpi::Communicator* ranks = &mpi::Communicator::alone();  ///< the ranks that solve together
   int block = 1;                                                 ///< unknowns of a cell or node
   int owned = 0;                                                 ///< blocks of this rank
   std::vector<int> ghosts;   ///< blocks of other ranks: their numbers among the blocks of all, rank after rank
-  std::vector<int> entries;  ///< of each owned block row: at most so many blocks are not zero
+  std::vector<int> entries;  ///< of each owned block row: the most blocks that are not zero
   /// The positions of the owned blocks, `block` numbers each [m]: gives multigrid the rigid motions of a solid. Empty:
   /// none.
   std::vector<double> coordinates;
-  bool constantIsFree = false;  ///< a constant added to the solution makes another one: that of mean 0 is taken
+  bool constantIsFree = false;  ///< a constant added to a solution gives another: the one of mean 0 is chosen
 };
 
 /// A matrix that is being assembled.
@@ -39,14 +39,14 @@ struct LinearSettings {
   std::string petsc;  ///< options in PETSc's own language
 };
 
-/// How a solve went.
+/// The outcome of a solve.
 struct Outcome {
   bool converged = false;
   std::string reason;             ///< why it ended, in words, and PETSc's word for it
   int newtonIterations = 0;       ///< 0 of a linear solve
   int krylovIterations = 0;       ///< in all
-  std::vector<double> residuals;  ///< norm after each iteration, from the start on; of Newton's method, where it is one
-  std::vector<double> krylovResiduals;  ///< of the linear solve that ended Newton's method, if one did
+  std::vector<double> residuals;  ///< norm at the start and after each iteration; of Newton's method, if it is one
+  std::vector<double> krylovResiduals;  ///< of the linear solve whose failure ended Newton's method, if one did
   int worst = -1;  ///< number of the unknown with the greatest residual at the end; -1: of another rank
   double assembly = 0, setup = 0, solve = 0;  ///< s: matrix, preconditioner, iterations
   /// Where a constant is free: the sum of b, which was taken out before the solve, and that of |b|.
@@ -55,7 +55,7 @@ struct Outcome {
 
 /// A x = b.
 struct LinearProblem {
-  std::function<void(Matrix&)> assemble;  ///< fills A; may fill b, too
+  std::function<void(Matrix&)> assemble;  ///< fills A; may also fill b
   std::span<const double> rightHandSide;  ///< b of the owned unknowns, read once A is filled
   double scale = 0;                       ///< above 0: the tolerance is relative to this where |b| is greater
 };
@@ -64,8 +64,8 @@ struct LinearProblem {
 class NonlinearProblem {
  public:
   virtual ~NonlinearProblem() = default;
-  /// r(u), where the ghosts in r are what the rank adds to the rows of others. False if there is no residual at such a
-  /// u, so that a smaller step must be tried.
+  /// r(u); the ghosts of r are added to the rows of other ranks. False if there is no residual at such a u, so that a
+  /// smaller step must be tried.
   virtual bool residual(std::span<const double> u, std::span<double> r) = 0;
   /// dr/du at the u of the last residual.
   virtual void tangent(Matrix& matrix) = 0;
@@ -73,7 +73,7 @@ class NonlinearProblem {
   virtual bool isNegligible(std::span<const double> /*u*/, std::span<const double> /*r*/) const { return false; }
 };
 
-/// When Newton's iterations end, as in Uintah's implicit MPM.
+/// When Newton's iteration ends, as in Uintah's implicit MPM.
 struct NewtonSettings {
   LinearSettings linear{"gmres", "gamg", 1e-8, 1000, ""};
   double displacement = 1e-10;  ///< square of the last change of u over that of the greatest
@@ -93,18 +93,18 @@ class Solver {
   /// throws.
   virtual Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
                         std::span<double> u) const = 0;
-  /// See the functions of these names.
+  /// See the free functions of these names.
   virtual void addUp(const Unknowns& unknowns, std::span<double> values) const = 0;
   virtual std::vector<std::string> unusedOptions() const = 0;
   virtual std::string version() const = 0;
 };
 
-/// Every rank gets, for the blocks that it owns and for its ghosts, the sum of what all ranks have for them.
+/// Every rank gets, for the blocks that it owns and for its ghosts, the sums over all ranks.
 void addUp(const Unknowns& unknowns, std::span<double> values);
 
 /// Whether a scene has needed the solver so far.
 bool isLoaded();
-/// Options for PETSc that were given and that no solve has used so far.
+/// Options for PETSc that no solve has used so far.
 std::vector<std::string> unusedOptions();
 
 /// The version of PETSc that would solve, or why it cannot be loaded.

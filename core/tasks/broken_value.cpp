@@ -106,7 +106,7 @@ class Search {
     return warehouse_.variable(Generation::fresh, written_.variable, patch).stored.offset(at);
   }
   /// The patch that a cell, or the node at its lower corner, belongs to. Where other levels are behind a node, it is
-  /// that of one of the cells before it; its number is -1 where there is none.
+  /// that of one of the cells before it; its number is -1 if there is none.
   Patch ownerOf(Index3 at, const Level& level) const {
     for (int d = 0; d < 3; ++d) at[d] = std::min(at[d], level.cells().upper[d] - 1);
     for (int corner = 0; isNode() && corner < 1 << level.dimension(); ++corner) {

@@ -97,7 +97,7 @@ class PlannerOfPatch {
         });
   }
 
-  /// Cells of a box of a level, but for those of a hole, that are refined.
+  /// Cells of a box of a level, except for those of a hole, that are refined.
   void addMeans(const Level& level, const Box& wanted, const Box& hole, int coarseCells) {
     if (level.number() + 1 == grid_.levels()) return;
     const int dimension = level.dimension();

@@ -251,7 +251,7 @@ std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, co
   return parts;
 }
 
-/// The shares of ranks that cost the same; nothing where there are only cells, which are shared by number.
+/// The shares of ranks that cost the same; nothing if there are only cells, which are shared by number.
 grid::RankOffsets sharesOf(const grid::Grid& grid, const grid::BlockTiling& next, const mpi::Communicator& ranks,
                            const Luggage& luggage, const PatchCosts& costs) {
   if (ranks.isAlone() || !luggage.hasMaterials()) return {};

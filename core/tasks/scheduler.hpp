@@ -14,7 +14,7 @@ namespace tushar::tasks {
 struct StepInfo {
   int step = 0;
   double time = 0;         ///< s
-  double delT = 0;         ///< s; 0 where it has no meaning
+  double delT = 0;         ///< s; 0 if it has no meaning
   int repeats = 0;         ///< of this step so far
   bool mayRepeat = false;  ///< whether a NumericalError has the step repeated, instead of being thrown
 };

@@ -36,7 +36,7 @@ struct Work {
   }
 
   Rows<D, K> w;                          ///< primitive values of cells
-  std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, per axis; none where cells are constant
+  std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, per axis; none if cells are constant
   Rows<D, K> flux;                       ///< through lower faces, of one axis at a time
   std::vector<double> least;             ///< of a row: least density and p + p_inf at faces
 };

@@ -11,12 +11,12 @@ namespace tushar::euler {
 template <int D>
 void checkObjects(const Level& level, const Settings& settings);
 
-/// rho, rho v and E at a point: of the last object that owns it; nothing where none does. Throws InputError where
+/// rho, rho v and E at a point: of the last object that owns it; nothing if none does. Throws InputError where
 /// density or p + p_inf is not positive or the state not finite.
 template <int D>
 std::optional<State<D>> stateAt(const Level& level, const Settings& settings, const Vec3& point);
 
-/// The share that a gas has of the volume at a point: of the last object that owns it; 0 where none does.
+/// The share that a gas has of the volume at a point: of the last object that owns it; 0 if none does.
 double shareAt(const Settings& settings, const Vec3& point);
 
 /// Throws InputError: a cell at `point` has no gas at the start.

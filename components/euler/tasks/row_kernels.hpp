@@ -68,7 +68,7 @@ void halfStepRow(const G& gas, const Pointers<D, kGases<G>>& lower, const Pointe
 }
 
 /// Changes primitive values by a change of the conserved ones; lowers `least` to the density and p + p_inf, or
-/// what a law has in its place, found, and below 0 where a gas of several has less than nothing.
+/// what a law has in its place, found, and below 0 if a gas of several has less than nothing.
 template <int D, class G>
 void changeRow(const G& gas, const Pointers<D, kGases<G>>& change, int count, const Pointers<D, kGases<G>>& values,
                double* least) {

@@ -171,7 +171,7 @@ class ScalarFlux {
 
 /// A scalar f goes with the mass of the gas: (rho f)' = rho f - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, with the
 /// mass fluxes of the step times f at the faces. So what cells hold of it changes by what flows through sides of the
-/// grid alone, a uniform f stays as it is, and no value leaves the range of those before, but for round-off.
+/// grid alone, a uniform f stays as it is, and no value leaves the range of those before, except for round-off.
 template <int D>
 void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::Gas& gas, bool hasSlopes,
                  const ScalarBefore<D>& before, double time, double dt, CellView<double> held,

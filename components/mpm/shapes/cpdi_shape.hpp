@@ -46,7 +46,7 @@ struct ConvectedShape {
 
     Index<D> first;
     std::array<Corner, corners> corner;
-    double inverseRadius = 0;  ///< 1/m; 0 where nothing is axisymmetric
+    double inverseRadius = 0;  ///< 1/m; 0 if nothing is axisymmetric
 
     Stencil(const Level& level, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent)
         : Stencil(CellFrame<D>(level, cell), cell, x, extent) {}
@@ -120,7 +120,7 @@ using CpdiShape = ConvectedShape<D>;
 template <int D>
 using AxisymmetricCpdiShape = ConvectedShape<D, true>;
 
-/// S_i / r of a node, 1/m; 0 where nothing is axisymmetric.
+/// S_i / r of a node, 1/m; 0 if nothing is axisymmetric.
 template <class Stencil, int D = Stencil::dimension>
 requires(Stencil::corners > 0) double hoopOf(const Stencil& stencil, const Index<D>& node) {
   return Stencil::axisymmetric ? stencil.inverseRadius * stencil.valueAt(node) : 0.0;

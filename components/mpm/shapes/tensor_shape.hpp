@@ -102,7 +102,7 @@ using AxisymmetricLinearShape = TensorShape<D, LinearAxis, true>;
 template <int D>
 using AxisymmetricGimpShape = TensorShape<D, GimpAxis, true>;
 
-/// S_i / r of a node, 1/m; 0 where nothing is axisymmetric.
+/// S_i / r of a node, 1/m; 0 if nothing is axisymmetric.
 template <class Stencil, int D = Stencil::dimension>
 double hoopOf(const Stencil& stencil, const Index<D>& node) {
   if constexpr (!Stencil::axisymmetric) return 0;

@@ -106,7 +106,7 @@ class DiffusionBeside {
   const euler::Rows<D>& w_;
 };
 
-/// T and v of the gas in the cells of the work's box; where there is none, numbers that nothing uses.
+/// T and v of the gas in the cells of the work's box; if there is none, numbers that nothing uses.
 template <int D>
 void findTemperatures(const euler::Gas& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
                       euler::Rows<D>& w) {

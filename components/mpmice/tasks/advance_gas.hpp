@@ -197,7 +197,7 @@ class WallExchange {
   double dt_;
 };
 
-/// rho, v, p of the gas in the cells of the work's box; where there is none, of some gas that moves nowhere: what flows
+/// rho, v, p of the gas in the cells of the work's box; if there is none, of some gas that moves nowhere: what flows
 /// from there is closed off.
 template <int D, class G>
 void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,

@@ -36,7 +36,7 @@ inline Eigen::VectorXd temperaturesAfter(const WarmThings& things, const std::ve
   for (Eigen::Index a = 0; a < count; ++a) {
     system(a, a) += things.capacity[a];
     for (Eigen::Index b = a + 1; b < count; ++b, ++pair) {
-      // Beyond that all is one temperature but for 1e-8 of the difference, and round-off would show.
+      // Beyond that all is one temperature except for 1e-8 of the difference, and round-off would show.
       constexpr double stiffest = 1e8;
       const double flow = std::min(pairs[pair] * dt * things.volume[a] * things.volume[b],
                                    stiffest * (things.capacity[a] + things.capacity[b]));

@@ -9,7 +9,7 @@ namespace tushar::mpmice {
 inline constexpr int gasNearby = 3;
 
 /// The gas of a cell with some room: that at its centre or, as scenes leave out the bodies' shapes, at the nearest
-/// centre of a cell that has one. Throws InputError where there is none.
+/// centre of a cell that has one. Throws InputError if there is none.
 template <int D>
 euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const Index<D>& cell) {
   const auto at = [&](const Index<D>& of) {

@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// The gas itself, per volume of the gas, in all cells; where there is none, some gas that nothing reads.
+/// The gas itself, per volume of the gas, in all cells; if there is none, some gas that nothing reads.
 template <int D>
 struct GasAlone {
   euler::StateViews<D, const double> state;

@@ -94,7 +94,7 @@ struct KnownWalls {
 };
 
 /// Force of the gas along an axis on the walls at the lower face of a cell, N; from its gas and from that of the
-/// cell below, where there is one.
+/// cell below, if there is one.
 template <int D>
 double forceAt(const Level& level, const FreeSpace<D>& space, const KnownWalls<D>& walls, double reference,
                const Index<D>& cell, int axis) {

@@ -6,7 +6,7 @@
 
 namespace tushar::input {
 
-/// An axis-aligned box (m); empty where `max` is not above `min`.
+/// An axis-aligned box (m); empty if `max` is not above `min`.
 struct Box3 {
   Vec3 min = Vec3::Zero();
   Vec3 max = Vec3::Zero();
@@ -22,7 +22,7 @@ struct Box3 {
 class GeometryPiece {
  public:
   virtual ~GeometryPiece() = default;
-  /// Whether a body has a particle there, by Uintah's rule: faces belong to the body (but for `Parallelepiped` and
+  /// Whether a body has a particle there, by Uintah's rule: faces belong to the body (except for `Parallelepiped` and
   /// `Torus`).
   virtual bool contains(const Vec3& point) const = 0;
   /// As contains(), without the upper flat faces: of two pieces that share a face, exactly one owns a point on it.

@@ -12,7 +12,7 @@ namespace tushar::input {
 
 namespace {
 
-/// A label, which readGeometry looks up itself.
+/// A label, which readGeometry reads itself.
 template <class T>
 Schema<T> shapeSchema(const std::string& name, const std::string& sentence) {
   Schema<T> schema(name, sentence);
@@ -65,7 +65,7 @@ void checkCone(const Cone& cone, const Element& element, Diagnostics& diagnostic
 void checkParallelepiped(const Parallelepiped& shape, const Element& element, Diagnostics& diagnostics) {
   const auto edges = shape.edges();
   const double scale = edges.col(0).norm() * edges.col(1).norm() * edges.col(2).norm();
-  if (std::abs(edges.determinant()) > 1e-12 * scale) return;  // 1e-12: what rounding leaves of a flat one
+  if (std::abs(edges.determinant()) > 1e-12 * scale) return;  // 1e-12: the rounding error of a flat one
   diagnostics.error(element, "p1, p2, p3 and p4 lie in one plane, so the <parallelepiped> has no volume");
 }
 

@@ -7,10 +7,10 @@
 
 namespace tushar::input {
 
-// `contains` takes faces as Uintah does, with its formulas in its order, so that rounding decides alike: those of
-// boxes, cylinders, cones and spheres belong to them, of a parallelepiped only the far ones, of a torus none; an
-// ellipsoid's reaches 1e-12 (of the sum) beyond it. `owns` leaves out the flat upper faces (max, top, far from p1), as
-// those of cells.
+// `contains` treats faces as Uintah does, with the same formulas in the same order, so that rounding has the same
+// effect: the faces of boxes, cylinders, cones and spheres belong to them; of a parallelepiped only the far ones do, of
+// a torus none; an ellipsoid's reaches 1e-12 (of the sum) beyond it. `owns` leaves out the flat upper faces (max, top,
+// far from p1), as for cells.
 
 /// min <= p <= max along each axis.
 struct Box : GeometryPiece {
@@ -58,7 +58,7 @@ struct Cone : GeometryPiece {
   static const Schema<Cone>& schema();
 };
 
-/// A cone of one radius. The flags say on which of its surfaces a pressure acts.
+/// A cone with the same radius at both ends. The flags say on which of its surfaces a pressure acts.
 struct Cylinder : GeometryPiece {
   Vec3 bottom = Vec3::Zero();
   Vec3 top = Vec3::Zero();

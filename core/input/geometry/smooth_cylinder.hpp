@@ -13,10 +13,10 @@ namespace tushar::input {
 /// `smoothcyl`.
 struct SmoothCylinder : GeometryPiece {
   enum class Scheme { pieSlices, constantVolumes };
-  /// A particle of it.
+  /// One of its particles.
   struct Particle {
     Vec3 at;                                              ///< m
-    Eigen::Matrix<double, 3, 3, Eigen::DontAlign> edges;  ///< one a column: around, outwards, along the axis, m
+    Eigen::Matrix<double, 3, 3, Eigen::DontAlign> edges;  ///< columns: around, outwards, along the axis, m
     double volume;                                        ///< m^3
   };
 

@@ -31,7 +31,7 @@ class Surface : public GeometryPiece {
   Triangles triangles_;
   Box3 bounds_;
   std::size_t bins_;                        ///< along y and along z
-  std::vector<std::vector<int>> crossing_;  ///< triangles of each bin of lines along x
+  std::vector<std::vector<int>> crossing_;  ///< triangles in each bin of lines along x
 };
 
 /// Why triangles do not form a closed surface: a sentence about an edge that an odd number of them share; otherwise

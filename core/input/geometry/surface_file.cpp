@@ -17,9 +17,9 @@ namespace tushar::input {
 
 namespace {
 
-constexpr std::size_t headerBytes = 84, facetBytes = 50;  ///< of a binary file: 80 letters and a count; a facet
+constexpr std::size_t headerBytes = 84, facetBytes = 50;  ///< of a binary file: 80 characters and a count; a facet
 
-/// The contents of a file, or why it cannot be used.
+/// The content of a file, or why it cannot be used.
 struct Read {
   Triangles triangles;
   std::string problem;
@@ -54,7 +54,7 @@ Read readBinary(const std::string& bytes) {
   return read;
 }
 
-/// `vertex x y z` three times within each `facet`; what else such a file says follows from that.
+/// `vertex x y z` three times within each `facet`; the rest of such a file follows from that.
 Read readText(const std::string& text) {
   Read read;
   std::istringstream lines(text);
@@ -100,7 +100,7 @@ std::optional<std::string> slurp(const std::string& path) {
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-/// Three numbers a line; empty lines count for nothing. `problem` says which line is not so.
+/// Three numbers a line; empty lines are ignored. `problem` says which line is not so.
 template <class Number>
 std::vector<std::array<Number, 3>> readTriples(const std::string& text, std::string& problem) {
   std::vector<std::array<Number, 3>> triples;
@@ -117,7 +117,7 @@ std::vector<std::array<Number, 3>> readTriples(const std::string& text, std::str
   return triples;
 }
 
-/// Uintah's two files.
+/// The pair of files that Uintah reads.
 Read joinPoints(const std::string& points, const std::string& corners) {
   Read read;
   const auto places = readTriples<double>(points, read.problem);

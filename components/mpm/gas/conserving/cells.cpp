@@ -9,7 +9,7 @@ namespace {
 /// Harmonic mean; 0 if the signs differ.
 double harmonicMean(double a, double b) { return a * b > 0 ? 2 * a * b / (a + b) : 0.0; }
 
-/// 0 where a velocity difference is below .05 c, 1 from .15 c on.
+/// 0 if a velocity difference is below .05 c, 1 from .15 c on.
 double sensor(double difference, double soundSpeed) {
   if (!(soundSpeed > 0)) return 1;
   return std::clamp(10 * (difference / soundSpeed - 0.05), 0.0, 1.0);

@@ -111,7 +111,7 @@ void interpolateParticlesToGrid(const Patch& patch, const Gas&, const ParticlesT
   gatherOnGrid<D>(patch, transfer, [](const Index<D>&, double) {});
 }
 
-/// gatherOnGrid, and the volume of the boxes in each cell over the cell's own: 1 where they tile the gas.
+/// gatherOnGrid, and the volume of the boxes in each cell over the cell's own: 1 if they tile the gas.
 template <int D>
 void interpolateAndMeasureFill(const Patch& patch, const Gas&, const ParticlesToGrid<D>& transfer,
                                CellView<double> fill, Maximum& greatest) {

@@ -16,7 +16,7 @@ template <int D>
 struct Gathering {
   Vec<D> momentum = Vec<D>::Zero(), position = Vec<D>::Zero();
   double mass = 0, volume = 0;
-  Vec<D> normal = Vec<D>::Zero();  ///< out of the body whose mass changes most; 0 where none does
+  Vec<D> normal = Vec<D>::Zero();  ///< out of the body whose mass changes most; 0 if none does
   std::size_t steepest = 0;        ///< that body
 };
 
@@ -55,7 +55,7 @@ bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) 
   return traction < -leastTraction;
 }
 
-/// Out of a body at a node; 0 where its mass does not change.
+/// Out of a body at a node; 0 if its mass does not change.
 template <int D>
 Vec<D> normalOf(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
                 std::size_t m, const Index<D>& node) {

@@ -174,7 +174,7 @@ constexpr std::array implicitOnly{"with_gauss_solver",
                                   "delT_increase_factor",
                                   "temperature_solve"};
 
-/// Uintah shrinks domains with a corner farther from the middle than so many cells, but for axisymmetric ones. Here
+/// Uintah shrinks domains with a corner farther from the middle than so many cells, except for axisymmetric ones. Here
 /// none reaches farther than a cell along an axis, so that its corners are at most 3^(1/2) cells away.
 void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("cpdi_lcrit");

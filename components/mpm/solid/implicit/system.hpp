@@ -14,7 +14,7 @@ struct PointSources {
   const Patch* patch = nullptr;
   Placed<D> placed;
   const Vec<D>* velocity = nullptr;       ///< m/s
-  const Vec<D>* acceleration = nullptr;   ///< m/s^2; null where a run starts: 0
+  const Vec<D>* acceleration = nullptr;   ///< m/s^2; null if a run starts: 0
   const Vec<D>* externalForce = nullptr;  ///< N
 };
 
@@ -47,7 +47,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   /// counts as that of a strain of 1.
   bool isNegligible(std::span<const double> u, std::span<const double> r) const override;
 
-  /// The acceleration of each node when a run starts: (f + m g - sum_p V_p sigma_p grad S) / m, 0 where prescribed,
+  /// The acceleration of each node when a run starts: (f + m g - sum_p V_p sigma_p grad S) / m, 0 if prescribed,
   /// m/s^2. Newmark's rule needs it: a load that acts from the start would otherwise lose half a step of its momentum.
   std::vector<double> startingAcceleration();
 

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Copies a state variable out of the numbers that each particle keeps for its model; 0 where the model has none.
+/// Copies a state variable out of the numbers that each particle keeps for its model; 0 if the model has none.
 template <class T>
 void showState(const Patch&, const Material& material, std::string_view name, int stateSize,
                ParticleView<const double> state, ParticleView<T> values) {

@@ -8,9 +8,9 @@ namespace tushar::mpm::solid {
 
 /// Stresses of particles that follow each other in memory: those that they keep, else those of F.
 struct StressSource {
-  const Matrix3* stress = nullptr;       ///< Pa; null where it is a function of F alone
-  const double* volume = nullptr;        ///< m^3; not null where `stress` is not
-  const Matrix3* deformation = nullptr;  ///< F, 1; not null where `stress` is
+  const Matrix3* stress = nullptr;       ///< Pa; null if it is a function of F alone
+  const double* volume = nullptr;        ///< m^3; not null if `stress` is not
+  const Matrix3* deformation = nullptr;  ///< F, 1; not null if `stress` is
 };
 
 /// V sigma (N m) of `count` particles from `first` on; `startVolume(p)` is V0, m^3, for stresses of F.

@@ -120,7 +120,7 @@ struct OldParticles {
 template <int D>
 struct NewParticles {
   std::vector<Vec<D>>&x, &velocity;
-  std::vector<double>* mass;  ///< null where particles do not keep it
+  std::vector<double>* mass;  ///< null if particles do not keep it
   std::vector<double>&density, &internalEnergy, &divergence;
 
   static NewParticles from(auto& take, bool keepsMass) {

@@ -128,7 +128,7 @@ class GursonReturn {
     while (end < 1e3 && after(end).second < 0) end *= 2;
     return after(rootBetween([&](double strain) { return after(strain).second; }, 0.0, end)).first;
   }
-  /// 0 where the dilatation t goes with the plastic strain z of the deviator by the normal of the surface,
+  /// 0 if the dilatation t goes with the plastic strain z of the deviator by the normal of the surface,
   /// 2 t q/sigma_y = z sigma_y dPhi/dp, or where the surface ends without any deviator.
   double associated(const Result& result, double trial) const {
     const double yield = yield_stress_(result.plasticStrain), f = porosity(result.dilatation, result.plasticStrain);

@@ -25,7 +25,7 @@ void exchangeMomentum(const Patch& patch, const std::vector<Material>&, const st
     if (contact.actsTwice || moment == Moment::end) applyContact<D>(patch, contact, time, dt, records, planes);
 }
 
-/// A force on the nodes, N, of each material; none where no material transmits force.
+/// A force on the nodes, N, of each material; none if no material transmits force.
 template <int D>
 using TransmittedForces = std::vector<std::optional<NodeView<Vec<D>>>>;
 

@@ -177,8 +177,8 @@ class Scatter {
   const Vec<D>*x_, *velocity_;
   const double* mass_;
   StressSource stresses_;
-  const double* viscosity_ = nullptr;       ///< null where there is none
-  const Vec<D>* external_force_ = nullptr;  ///< null where there is none
+  const double* viscosity_ = nullptr;       ///< null if there is none
+  const Vec<D>* external_force_ = nullptr;  ///< null if there is none
   bool has_stress_ = false;
   const NodeView<NodeRecord>& record_;
 };
@@ -223,7 +223,7 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
 
 /// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i,
 /// f_i = sum_p S_i f_p - V_p (sigma_p - q_p I) grad S_i; where axisymmetric, the hoop stress pulls inwards with S_i /
-/// r. Complete on all own nodes of the patch that are touched; what is not touched is 0 where `clearsAll`, else
+/// r. Complete on all own nodes of the patch that are touched; what is not touched is 0 if `clearsAll`, else
 /// undefined.
 template <class Shape, int D = Shape::dimension>
 void interpolateParticlesToGrid(const Patch& patch, const Material& material, const Vec3& commonSize, bool clearsAll,

@@ -57,7 +57,7 @@ struct Precedence {
     }
   }
 
-  /// The material with most mass of those that meet at a node, or the rigid one; -1 where fewer than two meet.
+  /// The material with most mass of those that meet at a node, or the rigid one; -1 if fewer than two meet.
   template <int D>
   int leader(const std::vector<NodeView<const NodeRecord>>& records, const Index<D>& node) const {
     double total = 0, most = 0, mostOfRigid = 1e-90;
@@ -188,7 +188,7 @@ void separateBodies(const Patch& patch, const std::vector<Material>& materials, 
     measureProminence<Shape>(patch, commonSize, static_cast<int>(m), nodes, normals, of[m]);
 }
 
-/// The mean of p.color by mass at the nodes of a patch; 0 where there is no mass.
+/// The mean of p.color by mass at the nodes of a patch; 0 if there is no mass.
 template <class Shape, int D = Shape::dimension>
 void interpolateColor(const Patch& patch, const Material&, const Vec3& commonSize, const Placed<D>& particles,
                       ParticleView<const double> mass, ParticleView<const double> color,
