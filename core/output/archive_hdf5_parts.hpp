@@ -26,7 +26,8 @@ class Hdf5Parts {
     std::byte* to;
     std::size_t others = 0;  ///< at its end, which another part or rank has and adds to the sum
   };
-  /// Reads parts in any order; contiguous ones are read together, and numbers that several have are read once. DamageError where the numbers that all ranks read are not those that were written.
+  /// Reads parts in any order; contiguous ones are read together, and numbers that several have are read once.
+  /// DamageError where the numbers that all ranks read are not those that were written.
   void read(std::vector<Part> parts) const;
 
  private:
