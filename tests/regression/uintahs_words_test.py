@@ -142,6 +142,22 @@ class UintahsWords(unittest.TestCase):
                 for material in ("billet", "die"):
                     self.assertGreater(len(columns(archive, "p.mass", material=material)["p.mass [kg]"]), 0)
 
+    def test_what_uintahs_implicit_steps_do_with_heat_is_noted_or_refused(self):
+        def checked(tags):
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, "scene.ups")
+                path.write_text((ROOT / BEAM).read_text().replace("<MPM>", "<MPM>" + tags, 1))
+                return run(path, options=("--check",))
+
+        kept = "<interpolateParticleTempToGridEveryStep>false</interpolateParticleTempToGridEveryStep>"
+        self.assertNotIn("first step", checked(kept).err)
+        conducting = checked(kept + "<DoImplicitHeatConduction>true</DoImplicitHeatConduction>").err
+        self.assertIn("not from those of the first step as in Uintah", conducting)
+        self.assertEqual(checked("<DoMechanics>true</DoMechanics>").code, 0)
+        refused = checked("<DoMechanics>false</DoMechanics>")
+        self.assertEqual(refused.code, 3)
+        self.assertIn("heat alone is conducted by the component implicit_heat", refused.err)
+
     def test_materials_may_share_a_name(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "scene.ups")

@@ -53,7 +53,9 @@ TEST(Checkpoints, HoldStateTimeAndTotalsOfTheStart) {
   written.step();
   Checkpoints(written, outputs).write();
   Problem rest = withCheckpoints(1);
-  rest.restart = Restart{outputs.folder(), 2, {}};
+  rest.restart.emplace();
+  rest.restart->archive = outputs.folder();
+  rest.restart->step = 2;
   test::CoolingRun read(std::move(rest));
   Outputs outputsOfRest(read, "");
 

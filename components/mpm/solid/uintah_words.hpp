@@ -29,7 +29,6 @@ inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"CanAddMPMMaterial", "all materials are there from the start"},
     {"DeleteGeometryObjects", "shapes are not kept"},
     {"computeNodalHeatFlux", "nothing depends on it"},
-    {"interpolateParticleTempToGridEveryStep", "temperatures always come from the particles"},
     {"testForNegTemps_mpm", "nothing depends on it"},
     {"InsertParticlesFile", "belongs to InsertParticles"},
     {"water_damping_coef", "belongs to coupled_flow_analysis"},

@@ -170,6 +170,7 @@ constexpr std::array implicitOnly{"with_gauss_solver",
                                   "DoImplicitHeatConduction",
                                   "DoTransientImplicitHeatConduction",
                                   "DoMechanics",
+                                  "interpolateParticleTempToGridEveryStep",
                                   "delT_decrease_factor",
                                   "delT_increase_factor",
                                   "temperature_solve"};

@@ -60,6 +60,25 @@ void declareSteps(Schema<Section>& schema) {
       .value("delT_increase_factor", &Section::increaseFactor, 2, "1", "how much longer", input::atLeast(1));
 }
 
+/// In Uintah, nodes then keep the temperatures of the first step, from which every step conducts anew.
+void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagnostics) {
+  const auto given = element.child("interpolateParticleTempToGridEveryStep");
+  const auto conducts = element.child("DoImplicitHeatConduction");
+  if (given && given->text() == "false" && conducts && conducts->text() == "true")
+    diagnostics.note(*given,
+                     "heat is conducted from the temperatures that the particles have in each step, not from those of "
+                     "the first step as in Uintah");
+}
+
+/// What is always so here.
+void addFixedHeat(Schema<Section>& mpm) {
+  mpm.custom("interpolateParticleTempToGridEveryStep", noteFrozenTemperature,
+             {"interpolateParticleTempToGridEveryStep"},
+             "true or false: temperatures of nodes come from the particles in every step")
+      .forms({input::choiceForm({"interpolateParticleTempToGridEveryStep"}, {"true", "false"})});
+  requireSwitch(mpm, "DoMechanics", "solids move; heat alone is conducted by the component implicit_heat");
+}
+
 const Schema<Section>& sectionSchema() {
   static const Schema<Section> schema = [] {
     Schema<Section> mpm("MPM", "The Material Point Method for solids, with implicit time steps.");
@@ -104,6 +123,7 @@ const Schema<Section>& sectionSchema() {
           "UseGradientEnhancedVelocityProjection"})
       mpm.ignored(tag, "as in Uintah, only explicit steps use it");
     addForeignTags(mpm);
+    addFixedHeat(mpm);
     refuseSwitch(mpm, "use_CBDI_boundary_condition", "a pressure is shared among the particles at its surface");
     return mpm;
   }();
@@ -195,6 +215,17 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: only with <time_integrator> explicit");
 }
 
+/// In Uintah's implicit steps heat strains metals, beside what the equation of state makes of it.
+void noteThermalStrain(const Element& root, Diagnostics& diagnostics) {
+  for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material")) {
+    const auto model = material.child("constitutive_model");
+    const auto given = model ? model->child("coeff_thermal_expansion") : std::nullopt;
+    if (given && input::parse<double>(given->text()).value != 0.0)
+      diagnostics.note(*given, "heat acts on the stress by the equation of state alone; in Uintah's implicit steps it "
+                               "strains the metal as well");
+  }
+}
+
 /// Boundary conditions that implicit steps would ignore: those of one material out of several, and a heat flux.
 void refuseConditions(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
@@ -245,6 +276,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   refuseExplicitOnly(problem, root, diagnostics);
   if (read.sharesVolume) refuseVolumesOfStates(problem, root, diagnostics);
   refuseConditions(problem, root, diagnostics);
+  if (read.heat) noteThermalStrain(root, diagnostics);
   if (diagnostics.size() > before) return {};
   return [read, problem, where = root.child("MPM")->where()](const Level& level) {
     if (read.axisymmetric) refuseCellsAround(level, where);
