@@ -166,7 +166,7 @@ void SolidMpm<Shape>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) cons
                         record, particles, computes(p::affineMoment));
 }
 
-/// The velocity that stresses follow, where that is not the one of the motion; `moving` reads that of the particles.
+/// The velocity that stresses follow, if it is not that of the motion; `moving` reads that of the particles.
 template <class Shape>
 void SolidMpm<Shape>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) const {
   const int reach = Shape::reach;

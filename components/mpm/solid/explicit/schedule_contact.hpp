@@ -4,7 +4,7 @@
 #include "components/mpm/solid/explicit/tasks/separate_bodies.hpp"
 #include "components/mpm/solid/explicit/tasks/transmit_force.hpp"
 
-// What contact, and materials that transmit its forces, add to the schedule of SolidMpm.
+// The part of the schedule of SolidMpm for contact and for materials that transmit its forces.
 
 namespace tushar::mpm::solid {
 

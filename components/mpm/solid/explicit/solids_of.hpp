@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Reads variables as they were at the start of the step, or as the step has them.
+/// Reads variables from the start of the step, or as the step has computed them.
 struct Reads {
   bool isNew;
 
@@ -17,7 +17,7 @@ struct Reads {
 };
 inline constexpr Reads readsOld{false}, readsNew{true};
 
-/// What the schedule needs from shape functions.
+/// Properties of shape functions that the schedule needs.
 struct ShapeTraits {
   bool haveSizes = false;  ///< they depend on the sizes of particles
   bool deform = false;     ///< they follow F
@@ -36,7 +36,7 @@ class SolidsOf : public Solids {
   bool measuresWork() const override { return true; }
 
  protected:
-  /// Forces, volumes and stresses on the nodes, for what shows or measures them.
+  /// Forces, volumes and stresses on the nodes, for outputs and measurements.
   virtual void scheduleShowOnGrid(TaskList& tasks, Reads stressed) const = 0;
   void scheduleApplyExternalLoads(TaskList& tasks) const;
   void scheduleCornerLoads(TaskList& tasks) const;

@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// The solid keeps the velocity that a face has, and does not pass a symmetry plane.
+/// The solid has the velocity of a face, and does not cross a symmetry plane.
 template <class Shape, int D = Shape::dimension>
 void prescribeFaces(ImplicitSystem<Shape>& system, double dt) {
   const Level& level = system.nodes().level();
@@ -49,7 +49,7 @@ std::vector<PointSources<Shape>> sourcesOf(const RankPatches& patches, const std
   return sources;
 }
 
-/// Why Newton's method failed, where the residual was greatest, and what to try.
+/// Why Newton's method failed, where the residual was largest, and what to try.
 template <class Shape>
 NumericalError failureOf(const solvers::Outcome& outcome, const ImplicitSystem<Shape>& system) {
   constexpr int D = Shape::dimension;
