@@ -81,7 +81,7 @@ void declareWorkers(CLI::App& app, Arguments& arguments) {
       "most blocks of a patch");
   app.add_option_function<int>(
          "--nthreads", [&](int count) { setThreads(count, arguments.workers); },
-         "threads to run on; by default as many as there are cores for, and as the grid is worth")
+         "number of threads; by default one per available core, fewer for a small grid")
       ->check(CLI::Range(1, 1024));
   app.add_option("--writers", arguments.run.writers,
                  "ranks that write outputs and checkpoints; by default one on each node. The files do not depend on it")
@@ -95,8 +95,8 @@ void declareWorkers(CLI::App& app, Arguments& arguments) {
 /// Declares all options of sus; `arguments` must outlive `app`.
 void declare(CLI::App& app, Arguments& arguments) {
   app.footer(
-      "Exit codes: 0 done, 1 failure (files, memory, a defect of sus), 2 bad command line, 3 bad scene,\n"
-      "            4 a value became impossible during the run, 5 interrupted (output written)");
+      "Exit codes: 0 done, 1 failure (files, memory, a bug in sus), 2 bad command line, 3 bad scene,\n"
+      "            4 a value became unphysical during the run, 5 interrupted (output written)");
   app.add_option("scene", arguments.scene, "the scene to run (.ups), or with --restart the folder of a run (.uda)");
   CLI::Option* restart = app.add_flag("--restart", arguments.restart,
                                       "continue the run of a .uda, in that folder, from its last intact checkpoint");
@@ -125,7 +125,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("--check,--validate", arguments.check,
                "check the scene and compute its initial state; run and write nothing");
   app.add_option("--dry-run", arguments.dryRun,
-                 "compile the tasks of one of so many ranks and print what they need; run nothing")
+                 "compile the tasks of one rank of this many and print what they need; run nothing")
       ->check(CLI::Range(1, 10'000'000));
   app.add_flag("--schedule", arguments.schedule,
                "print the tasks in order, what they read and write, what is left out");

@@ -42,7 +42,7 @@ const input::Schema<FluxSettings>& fluxSchema() {
           .required("min", &Extent::start, "m", "its lower corner")
           .required("max", &Extent::end, "m", "its upper corner");
   static const input::Schema<Boxes> boxes =
-      input::Schema<Boxes>("controlVolumes", "Where it looks.").list("box", &Boxes::list, box, "a box", 1);
+      input::Schema<Boxes>("controlVolumes", "The control volumes.").list("box", &Boxes::list, box, "a box", 1);
   static const input::Schema<FluxSettings> schema = [] {
     input::Schema<FluxSettings> tags("Module", "The mass of a gas in boxes, and what flows through their sides.");
     tags.requiredAttribute("name", &FluxSettings::name, "1", "controlVolFluxes")

@@ -57,7 +57,7 @@ const Schema<ExactSolutionSettings>& exactSolutionSchema() {
                     "a variable of cells (c.) or nodes (g.) that belongs to no material")
           .ours()
           .optionalChoice("component", &ExactSolutionSettings::component, {{"x", 0}, {"y", 1}, {"z", 2}},
-                          "which one, of a variable that is a vector")
+                          "the component of a vector variable")
           .ours()
           .required("value", &ExactSolutionSettings::value, "SI unit of the variable", "its exact value")
           .ours();

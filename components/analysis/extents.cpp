@@ -68,15 +68,15 @@ const Schema<ExtentList>& linesSchema() {
       extentSchema("line", "A line along an axis.")
           .value("stepSize", &Extent::step, 0, "m",
                  "distance of the cells that are written, rounded up to cells; 0: every cell", input::nonNegative());
-  static const Schema<ExtentList> schema =
-      Schema<ExtentList>("lines", "Where it looks.").list("line", &ExtentList::list, line, "a line along an axis", 1);
+  static const Schema<ExtentList> schema = Schema<ExtentList>("lines", "The lines that are sampled.")
+                                               .list("line", &ExtentList::list, line, "a line along an axis", 1);
   return schema;
 }
 
 const Schema<ExtentList>& planesSchema() {
   static const Schema<Extent> plane = extentSchema("plane", "A part of a plane across an axis.");
   static const Schema<ExtentList> schema =
-      Schema<ExtentList>("planes", "Where it looks.")
+      Schema<ExtentList>("planes", "The planes that are sampled.")
           .list("plane", &ExtentList::list, plane, "a part of a plane across an axis", 1);
   return schema;
 }

@@ -47,7 +47,7 @@ const Schema<Variables>& variablesSchema() {
       Schema<Variable>("analyze", "A particle variable.")
           .location(&Variable::where, "label")
           .requiredAttribute("label", &Variable::label, "1", "its name, such as p.velocity")
-          .ignoredAttribute("matl", "the material is that of the module");
+          .ignoredAttribute("matl", "the material is given by the module");
   static const Schema<Variables> schema = Schema<Variables>("Variables", "What is written.")
                                               .list("analyze", &Variables::list, variable, "a particle variable", 1);
   return schema;

@@ -45,8 +45,8 @@ simulation::ComponentKind kind() {
                input::atMost(1))
         .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime())
         .value("refinement_tolerance", &Settings::refinementTolerance, 0, "K",
-               "on an adaptive grid cells get finer where a straight line between them is wrong by more; 0: only a "
-               "<Variable> of <AMR> says where",
+               "on an adaptive grid, cells are refined where linear interpolation between them errs by more; 0: only a "
+               "<Variable> of <AMR> refines",
                input::nonNegative());
     input::refuseOtherValues(section, "time_integrator", {"explicit"},
                              "for implicit steps, use <SimulationComponent type=\"implicit_heat\"/>");

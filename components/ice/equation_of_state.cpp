@@ -71,12 +71,12 @@ const Schema<euler::Water::Numbers>& waterSchema() {
   static const Schema<Numbers> schema =
       Schema<Numbers>("EOS", "1 / rho = vo (1 - ko p + L (a p + T - To)^2), c_p = co + b (To - T) at p = 0.")
           .foreignAttribute("type", "Thomsen_Hartka_water")
-          .required("a", &Numbers::a, "K/Pa", "by which To falls", input::positive())
-          .required("b", &Numbers::b, "J/(kg K^2)", "by which c_p falls", input::nonNegative())
+          .required("a", &Numbers::a, "K/Pa", "fall of To with the pressure", input::positive())
+          .required("b", &Numbers::b, "J/(kg K^2)", "fall of c_p with the temperature", input::nonNegative())
           .required("co", &Numbers::heat, "J/(kg K)", "c_p at To and p = 0", input::positive())
           .required("ko", &Numbers::stiffness, "1/Pa", "compressibility at To and p = 0", input::positive())
           .required("To", &Numbers::temperature, "K", "where water is densest at p = 0", input::positive())
-          .required("L", &Numbers::bend, "1/K^2", "by which it expands", input::positive())
+          .required("L", &Numbers::bend, "1/K^2", "growth of the volume away from To", input::positive())
           .required("vo", &Numbers::volume, "m^3/kg", "volume per mass at To and p = 0", input::positive());
   return schema;
 }

@@ -25,7 +25,7 @@ struct EquationOfState {
 /// Reads the `<EOS>` of a `<material>`. Every problem goes to the diagnostics.
 EquationOfState readEquationOfState(const input::Element& material, input::Diagnostics& diagnostics);
 
-/// The types that it knows, in Uintah's words except for stiffened_gas.
+/// Its types, with Uintah's names except for stiffened_gas.
 const std::vector<std::string>& equationsOfState();
 
 }  // namespace tushar::ice

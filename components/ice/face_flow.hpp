@@ -19,12 +19,12 @@ struct IceSettings {
   solvers::LinearSettings solver = {};
 };
 
-/// Whether a cell has no slopes, as it has a body in it or beside it; none if all have theirs.
+/// Whether a cell has no slopes because of a body in or beside it; an empty function if all have slopes.
 template <int D>
 using IsFlat = std::function<bool(const Index<D>&)>;
 
-/// The gas before a step, beyond sides of the grid too, and what sides give at their faces. A face is named by an axis
-/// and the cell above it.
+/// The gas before a step, also beyond sides of the grid, and the values that sides prescribe at their faces. A face is
+/// named by an axis and the cell above it.
 template <int D>
 class GasBefore {
  public:
@@ -38,7 +38,7 @@ class GasBefore {
         is_flat_(std::move(isFlat)),
         old_(cells) {}
 
-  /// From now on the gas in the cells of `box`.
+  /// Moves to the gas in the cells of `box`.
   void hold(const Box& box, const euler::StateViews<D, const double>& before) {
     old_.hold(box);
     gas_.withLaw([&](const auto& law) { euler::recover<D>(law, level_, before, old_); });
@@ -54,7 +54,7 @@ class GasBefore {
   void fillWithPressure(const CellView<const double>& pressure, euler::Rows<D>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double) { return pressure[cell]; });
   }
-  /// The same with the old pressure and what it changes by.
+  /// As above, with the old pressure and its change.
   void fillWithChange(const CellView<const double>& change, euler::Rows<D>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double old) { return old + change[cell]; });
   }
@@ -161,7 +161,7 @@ class FaceFlow : public GasBefore<D> {
         hasSlopes_(method.method.reconstruction != euler::Reconstruction::firstOrder),
         ahead_(this->old()) {}
 
-  /// From now on the faces of the cells in `box`, from the state in two more layers.
+  /// Moves to the faces of the cells in `box`, from the state in two more layers.
   void hold(const Box& box, const euler::StateViews<D, const double>& before) {
     GasBefore<D>::hold(box.grown(2, D), before);
     ahead_ = this->old();

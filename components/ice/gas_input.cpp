@@ -65,7 +65,7 @@ void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagn
   }
 }
 
-/// A pressure that is given does not count, as in Uintah: says so where it is another one than follows.
+/// A given pressure is ignored, as in Uintah: says so where it is another one than follows.
 void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
   if (!body.pressure) return;
   if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;
@@ -89,7 +89,7 @@ std::optional<Element> dirichletOf(const Element& face, const grid::BoundaryVari
   return {};
 }
 
-/// Of density, pressure and temperature two make the third: a face that has all three must have one that fits.
+/// Two of density, pressure and temperature determine the third: a face that has all three must have one that fits.
 void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagnostics) {
   const auto sides = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   if (!sides) return;

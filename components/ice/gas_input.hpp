@@ -27,14 +27,14 @@ struct MassExchange {
   double startTime = 0;  ///< s
 };
 
-/// How the pressure is solved for, where sound is not to limit the steps.
+/// How the pressure is solved for if sound must not limit the steps.
 struct ImplicitPressure {
   Location where;             ///< in the scene
   double soundSpeedKnob = 0;  ///< part of the speed of sound that limits the steps
   solvers::LinearSettings solver;
 };
 
-/// A gas, as the sections of a scene of Uintah's ICE have it.
+/// A gas as described by the sections of a scene for Uintah's ICE.
 struct GasScene {
   Location where;                         ///< of <CFD>, in the scene
   euler::Settings gas;                    ///< the method, the gas and its state at the start

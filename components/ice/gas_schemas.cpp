@@ -22,8 +22,8 @@ const Schema<AdvectionSection>& advectionSchema() {
               "type", &AdvectionSection::reconstruction,
               {{"FirstOrder", euler::Reconstruction::firstOrder}, {"SecondOrder", euler::Reconstruction::musclHancock}},
               "constant cells, or cells with van Leer's slopes and a half step")
-          .ignoredAttribute("useCompatibleFluxes", "all that a cell has flows with its mass")
-          .ignoredAttribute("compatibleFluxes", "all that a cell has flows with its mass");
+          .ignoredAttribute("useCompatibleFluxes", "all quantities of a cell are carried with its mass")
+          .ignoredAttribute("compatibleFluxes", "all quantities of a cell are carried with its mass");
   return schema;
 }
 
@@ -132,7 +132,7 @@ const Schema<IceSection>& iceSchema() {
     tags.section("customInitialization", &IceSection::start, customStartSchema(), "the state at the start by formulas");
     tags.section("fixedPressureGradient", &IceSection::push, pushSchema(), "a force that drives a flow")
         .section("turbulence", &IceSection::eddies, eddiesSchema(), "viscosity of eddies smaller than cells");
-    input::refuseTag(tags, "wallShearStress", "at a wall with a Velocity the gas sticks");
+    input::refuseTag(tags, "wallShearStress", "the gas does not slip along a wall with a Velocity");
     input::refuseTag(tags, "ADD_HEAT", "give <temperature> a formula at the start");
     input::refuseSwitch(tags, "applyHydrostaticPressure", "give <density> a formula at the start");
     return tags;
@@ -157,7 +157,7 @@ const Schema<GasBody>& bodySchema() {
         .value("velocity", &GasBody::velocity, input::VectorExpression(), "m/s", "velocity at the start",
                input::WithoutTime())
         .optional("volumeFraction", &GasBody::share, "1",
-                  "share of the gas in the volume, where several gases share the region; one gas fills it",
+                  "volume fraction of the gas, if several gases share the region; a single gas fills it",
                   input::between(0, 1), input::WithoutTime())
         .optional("pressure", &GasBody::pressure, "Pa", "has no effect: it follows from density and temperature")
         .ignored("res", "a cell has the gas at its middle")
@@ -171,10 +171,10 @@ const Schema<GasMaterial>& materialSchema() {
   static const Schema<GasMaterial> schema = [] {
     Schema<GasMaterial> tags("material", "A gas, and where it is at the start.");
     tags.attributeValue("name", &GasMaterial::name, "", "1", "its name")
-        .ignoredAttribute("index", "gases are counted in their order")
+        .ignoredAttribute("index", "gases are numbered in their order")
         .custom("EOS", readState, {"EOS"},
                 "the equation of state, by its type: ideal_gas p = (gamma - 1) c_v rho T; stiffened_gas; of explosives "
-                "and liquids JWL, JWLC, Murnaghan and Thomsen_Hartka_water, to which <gamma> means nothing")
+                "and liquids JWL, JWLC, Murnaghan and Thomsen_Hartka_water, for which <gamma> has no effect")
         .forms({{.tags = {"EOS"}, .demands = {{"type", equationsOfState()}}, .atLeast = 1, .repeats = false}})
         .required("gamma", &GasMaterial::gamma, "1", "ratio of specific heats", input::greaterThan(1))
         .required("specific_heat", &GasMaterial::specificHeat, "J/(kg K)", "c_v", input::positive())
@@ -247,7 +247,7 @@ const Schema<PropertiesSection>& propertiesSchema() {
                                 fmt::format("more than {} gases are not available", euler::kMostGases));
           });
   static const Schema<PropertiesSection> schema =
-      Schema<PropertiesSection>("MaterialProperties", "What there is.")
+      Schema<PropertiesSection>("MaterialProperties", "The materials of the scene.")
           .requiredSection("ICE", &PropertiesSection::ice, list)
           .section("exchange_properties", &PropertiesSection::exchange, exchangeSchema())
           .ignored("MPM", "the solids of a scene that has them");
@@ -256,8 +256,8 @@ const Schema<PropertiesSection>& propertiesSchema() {
 
 const Schema<ConstantsSection>& constantsSchema() {
   static const Schema<ConstantsSection> schema =
-      Schema<ConstantsSection>("PhysicalConstants", "Quantities that hold everywhere.")
-          .value("gravity", &ConstantsSection::gravity, Vec3::Zero(), "m/s^2", "acceleration of all that has mass")
+      Schema<ConstantsSection>("PhysicalConstants", "Physical constants.")
+          .value("gravity", &ConstantsSection::gravity, Vec3::Zero(), "m/s^2", "acceleration of gravity")
           .value("reference_pressure", &ConstantsSection::referencePressure, 0, "Pa",
                  "the pressure on solids where there is no gas; a gas alone does not depend on it",
                  input::nonNegative());

@@ -9,7 +9,7 @@
 #include "components/ice/start.hpp"
 #include "core/input/schema.hpp"
 
-// The sections of a scene of Uintah's ICE, as they are written.
+// The sections of a scene for Uintah's ICE, as they are written.
 
 namespace tushar::ice {
 

@@ -37,9 +37,9 @@ class Ice : public euler::Euler<D> {
  protected:
   const IceSettings& acting() const { return acting_; }
   bool keepsFaceMasses() const override { return !scalars_.empty(); }
-  /// What the gas carries along, behind its step.
+  /// Advection of scalars, after the step of the gas.
   void scheduleScalars(TaskList& tasks) const;
-  /// The limits that it has for the steps.
+  /// The limits of scalars on the time step.
   void scheduleStepsOfScalars(TaskList& tasks) const;
   /// Viscosity and conduction, behind the step of the gas, and a force that pushes it.
   void scheduleDiffusion(TaskList& tasks) const;
@@ -53,8 +53,8 @@ class Ice : public euler::Euler<D> {
   Vec3 push_;  ///< N/m³
 };
 
-/// The same in steps that sound does not limit: the pressure at the end of a step is the solution of a linear system,
-/// and mass, momentum and energy flow by it.
+/// One step that sound does not limit: the pressure at the end of a step is the solution of a linear system, and mass,
+/// momentum and energy flow by it.
 template <int D>
 class ImplicitIce : public Ice<D> {
  public:

@@ -7,7 +7,7 @@
 #include "components/ice/gas_schemas.hpp"
 #include "core/input/refuse.hpp"
 
-// The section Models: what the gas carries along.
+// The section Models: scalars that the gas carries along.
 
 namespace tushar::ice {
 
@@ -42,8 +42,9 @@ const Schema<ScalarRegion>& interiorSchema() {
   static const Schema<ScalarRegion> schema = [] {
     Schema<ScalarRegion> tags("geom_object", "A region in which a scalar rises in each step.");
     input::addShape(tags, &ScalarRegion::where, &ScalarRegion::shape, "the region: cells whose middle is inside")
-        .required("scalar", &ScalarRegion::value, "1", "what it rises by in each step", input::WithoutTime())
-        .value("maxScalar", &ScalarRegion::most, std::numeric_limits<double>::max(), "1", "as far as it rises");
+        .required("scalar", &ScalarRegion::value, "1", "increase in each step", input::WithoutTime())
+        .value("maxScalar", &ScalarRegion::most, std::numeric_limits<double>::max(), "1",
+               "upper limit of the increase");
     return tags;
   }();
   return schema;
@@ -68,8 +69,8 @@ struct PassiveScalarSection {
 
 const Schema<ScalarSection>& scalarSchema() {
   static const Schema<ScalarConstants> constants = [] {
-    Schema<ScalarConstants> tags("constants", "Numbers of a scalar.");
-    tags.value("diffusivity", &ScalarConstants::diffusivity, 0, "m^2/s", "by which it spreads", input::nonNegative())
+    Schema<ScalarConstants> tags("constants", "Constants of a scalar.");
+    tags.value("diffusivity", &ScalarConstants::diffusivity, 0, "m^2/s", "diffusion coefficient", input::nonNegative())
         .ignored("AMR_Refinement_Criteria",
                  "a <Variable> of <Refinement_Criteria_Thresholds> says where cells are finer")
         .ignored("initialize_diffusion_knob", "nothing spreads before the first step");
@@ -84,7 +85,7 @@ const Schema<ScalarSection>& scalarSchema() {
           .list("geom_object", &RegionList::list, startSchema(),
                 "a region; where regions overlap, the last one counts; they must cover the grid", 1);
   static const Schema<RegionList> interior =
-      Schema<RegionList>("interiorSources", "Where it rises.")
+      Schema<RegionList>("interiorSources", "Regions in which the scalar rises.")
           .list("geom_object", &RegionList::list, interiorSchema(), "a region", 1);
   static const Schema<ScalarSection> schema = [] {
     Schema<ScalarSection> tags("scalar", "A number per mass that the gas carries along.");
@@ -93,7 +94,7 @@ const Schema<ScalarSection>& scalarSchema() {
         .section("constants", &ScalarSection::constants, constants)
         .requiredSection("initialization", &ScalarSection::start, start)
         .section("interiorSources", &ScalarSection::interior, interior)
-        .ignored("test_conservation", "totalSum_scalar-NAME is there for whoever saves it");
+        .ignored("test_conservation", "totalSum_scalar-NAME is computed if it is saved");
     input::refuseSwitch(tags, "reinitializeDomain", "a run starts with <initialization>");
     input::refuseTag(tags, "exponentialDecay", "a scalar that decays is its start times a function of time");
     return tags;
@@ -162,7 +163,7 @@ double ScalarRegion::at(const Vec3& point) const {
 
 const Schema<ModelsSection>& modelsSchema() {
   static const Schema<ModelsSection> schema =
-      Schema<ModelsSection>("Models", "What the gas carries along.")
+      Schema<ModelsSection>("Models", "Quantities that the gas carries along.")
           .custom(
               "Model",
               [](ModelsSection& models, const Element& section, Diagnostics& diagnostics) {

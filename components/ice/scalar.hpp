@@ -15,8 +15,8 @@ namespace tushar::ice {
 struct ScalarRegion {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
-  input::Expression value;  ///< of the scalar, or what it rises by in each step
-  double most = 0;          ///< as far as it rises
+  input::Expression value;  ///< of the scalar, or its increase in each step
+  double most = 0;          ///< upper limit of the increase
   bool isSine = false, isLinear = false;
   Vec3 waves = Vec3::Zero();  ///< sin(2 pi waves_a d_a) along each axis, d from 0 to 1 through the region
   Vec3 slope = Vec3::Zero();  ///< slope . d more than the value
@@ -31,7 +31,7 @@ struct ScalarSettings {
   std::string name;
   double diffusivity = 0;              ///< m²/s
   std::vector<ScalarRegion> start;     ///< where they overlap, the last one counts
-  std::vector<ScalarRegion> interior;  ///< where it rises in each step
+  std::vector<ScalarRegion> interior;  ///< sources: regions where it rises in each step
 };
 
 /// A scalar and the names of its variables, which keep their place while tasks have them.
@@ -58,8 +58,8 @@ class CarriedScalar {
   std::array<std::string, 4> words_;
   BoundaryLabel<double> atSides_{words_[0]};
   CellLabel<double> value_{words_[1], "1", "a number per mass that the gas carries along"};
-  CellLabel<double> held_{words_[2], "kg/m^3", "what a volume holds of it"};
-  ReductionLabel<Sum> total_{words_[3], "kg", "what all cells hold of it"};
+  CellLabel<double> held_{words_[2], "kg/m^3", "amount of the scalar per volume"};
+  ReductionLabel<Sum> total_{words_[3], "kg", "amount of the scalar in all cells"};
 };
 
 using CarriedScalars = std::vector<std::shared_ptr<const CarriedScalar>>;

@@ -17,10 +17,10 @@ const Schema<VortexList>& vorticesSchema() {
   static const Schema<Vortex> vortex =
       Schema<Vortex>("vortex", "A vortex.")
           .requiredChoice("axis", &Vortex::axis, {{"X", 0}, {"Y", 1}, {"Z", 2}, {"x", 0}, {"y", 1}, {"z", 2}},
-                          "around which the gas turns")
-          .required("origin", &Vortex::origin, "m", "a point of the axis")
+                          "axis of rotation")
+          .required("origin", &Vortex::origin, "m", "a point on the axis")
           .required("strength", &Vortex::strength, "kg/(m s)", "C in v = C r / (rho R^2) exp(-r^2 / (2 R^2))")
-          .required("radius", &Vortex::radius, "m", "R; beyond it nothing turns", input::positive());
+          .required("radius", &Vortex::radius, "m", "R; there is no rotation beyond it", input::positive());
   static const Schema<VortexList> schema =
       Schema<VortexList>("vortices", "Vortices, added to the velocity at the start.")
           .list("vortex", &VortexList::list, vortex, "a vortex", 1);

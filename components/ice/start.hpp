@@ -6,7 +6,7 @@
 #include "core/base/vec.hpp"
 #include "core/input/schema.hpp"
 
-// What Uintah's ICE calls customInitialization: a state at the start by formulas.
+// Uintah's customInitialization: an initial state by formulas.
 
 namespace tushar::ice {
 

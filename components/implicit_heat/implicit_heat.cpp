@@ -2,7 +2,6 @@
 
 #include "core/input/schema.hpp"
 #include "core/numerics/cell_system.hpp"
-#include "core/numerics/checked_formula.hpp"
 #include "core/numerics/composite_diffusion.hpp"
 #include "core/simulation/by_dimension.hpp"
 #include "core/solvers/input.hpp"
@@ -11,7 +10,7 @@ namespace tushar::implicit_heat {
 
 template <int D>
 void ImplicitHeat<D>::scheduleInitialize(TaskList& tasks) const {
-  tasks.perPatch("implicit_heat::initialize", initialize<D>, with(settings_), computes(c::temperature));
+  tasks.perPatch("implicit_heat::initialize", heat::initialize<D>, with(settings_), computes(c::temperature));
 }
 
 template <int D>
@@ -23,22 +22,16 @@ void ImplicitHeat<D>::scheduleTimeAdvance(TaskList& tasks) const {
 
 template <int D>
 void ImplicitHeat<D>::scheduleDiagnostics(TaskList& tasks) const {
-  tasks.perPatch("implicit_heat::sumEnergy", sumEnergy<D>, with(settings_), requiresOld(c::temperature),
+  tasks.perPatch("implicit_heat::sumEnergy", heat::sumEnergy<D>, with(settings_), requiresOld(c::temperature),
                  computes(totalEnergy));
-}
-
-template <int D>
-void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature) {
-  numerics::CheckedFormula{settings.temperature, "Heat/temperature", "K"}.fill<D>(patch, temperature);
-  numerics::CheckedFormula{settings.conductivity, "Heat/thermal_conductivity", "W/(m K)"}.requirePositive<D>(patch);
 }
 
 namespace {
 
-/// From T at theta dt in `newTemperature` to T at dt: all of the step changes T as its first part did.
+/// Extrapolates T from theta dt, in `newTemperature`, to dt.
 template <int D>
-void goOn(const RankPatches& patches, double theta, const std::vector<CellView<const double>>& temperature,
-          const std::vector<CellView<double>>& newTemperature) {
+void extrapolate(const RankPatches& patches, double theta, const std::vector<CellView<const double>>& temperature,
+                 const std::vector<CellView<double>>& newTemperature) {
   for (std::size_t p = 0; p < patches.size(); ++p)
     forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
       newTemperature[p][cell] = temperature[p][cell] + (newTemperature[p][cell] - temperature[p][cell]) / theta;
@@ -68,15 +61,9 @@ void conduct(const RankPatches& patches, const mpi::Communicator& ranks, const S
   const solvers::Outcome outcome = system.solve(settings.solver, temperature, equationOf);
   system.requireConvergence(outcome, "the conduction of heat", "Heat", "c.temperature", ", or a smaller <delt_max>");
   system.take(newTemperature);
-  if (theta < 1) goOn<D>(patches, theta, temperature, newTemperature);
+  if (theta < 1) extrapolate<D>(patches, theta, temperature, newTemperature);
   iterationsTaken.add(outcome.krylovIterations);
   solvers::addTimes(outcome, assembly, setup, solution);
-}
-
-template <int D>
-void sumEnergy(const Patch& patch, const Settings& settings, CellView<const double> temperature, Sum& energy) {
-  const double capacity = settings.capacity() * patch.level().cellVolume();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) { energy.add(capacity * temperature[cell]); });
 }
 
 namespace {

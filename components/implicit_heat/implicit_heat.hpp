@@ -1,31 +1,21 @@
 #pragma once
 
+#include "components/heat/heat.hpp"
 #include "core/core.hpp"
-#include "core/input/expression.hpp"
 #include "core/simulation/catalogue.hpp"
 #include "core/solvers/report.hpp"
 
 namespace tushar::implicit_heat {
 
-namespace c {
-inline constexpr CellLabel<double> temperature{"c.temperature", "K", "temperature", Bound::finite};
-}
-namespace boundary {
-inline constexpr BoundaryLabel<double> temperature{"Temperature"};
-}
-inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "J", "heat in all cells, from 0 K"};
+namespace c = heat::c;
+namespace boundary = heat::boundary;
+using heat::totalEnergy;
 inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "iterations of the linear solve"};
 
-/// The `Heat` section, for implicit steps.
-struct Settings {
-  input::Expression conductivity{1.0};  ///< k, W/(m K)
-  double density = 1;                   ///< rho, kg/m³
-  double specificHeat = 1;              ///< c, J/(kg K)
-  input::Expression temperature{0.0};   ///< at the start, K
-  double theta = 1;                     ///< part of the new temperature in the flux
+/// The `Heat` section, for implicit steps, which do not use `cfl` and `refinementTolerance`.
+struct Settings : heat::Settings {
+  double theta = 1;  ///< part of the new temperature in the flux
   solvers::LinearSettings solver;
-
-  double capacity() const { return density * specificHeat; }  ///< rho c, J/(m³ K)
 };
 
 /// Heat conduction, rho c dT/dt = div(k grad T), implicit in time, centred in space, in D dimensions: stable with any
@@ -47,11 +37,6 @@ class ImplicitHeat : public Component {
   Settings settings_;
 };
 
-/// T at the centre of each cell, from the scene's formula. Throws InputError if it is not finite, or k is not greater
-/// than 0.
-template <int D>
-void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature);
-
 /// rho c (T' - T) / dt = div(k grad T*) with T* = theta T' + (1 - theta) T: a linear system for T* in all cells, whose
 /// T' = T + (T* - T) / theta.
 /// theta = 1: backward Euler, of first order in time, and on one level no T' is outside the range of T and the faces;
@@ -62,10 +47,6 @@ void conduct(const RankPatches& patches, const mpi::Communicator& ranks, const S
              const std::vector<CellView<const double>>& temperature,
              const std::vector<CellView<double>>& newTemperature, Maximum& iterationsTaken, Maximum& assembly,
              Maximum& setup, Maximum& solution);
-
-/// Heat in the patch's cells [J].
-template <int D>
-void sumEnergy(const Patch& patch, const Settings& settings, CellView<const double> temperature, Sum& energy);
 
 /// The description of this component for sus.
 simulation::ComponentKind kind();

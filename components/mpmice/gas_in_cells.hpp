@@ -48,7 +48,7 @@ template <int D>
                             double density, double last) {
   const Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
   throw NumericalError(
-      fmt::format("the gas beside a body became impossible: {:.6g} kg/m^3 and {:.6g} Pa in the free {:.3g} of the cell "
+      fmt::format("the gas beside a body became unphysical: {:.6g} kg/m^3 and {:.6g} Pa in the free {:.3g} of the cell "
                   "at ({:g}, {:g}, {:g}) m",
                   density, gas.pressureOf(density, last), free, at[0], at[1], at[2]),
       "", "c.density", level.cellNumber<D>(cell));

@@ -159,7 +159,7 @@ simulation::ComponentKind kind(bool areRigid) {
   kind.takesPartsOfSides = true;
   kind.describe = [](std::ostream& out) {
     ice::describeGas(out);
-    out << "Where it is about bodies, instead:\n";
+    out << "For bodies, instead:\n";
     mpm::solid::describe(out);
   };
   kind.nodesBeyond = mpm::solid::nodesBeyond;

@@ -131,7 +131,7 @@ void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& material
                         requiresOld(delT), modifies(p::temperature));
 }
 
-/// What went from the gas to bodies since the start, and through them; each only if something asks for it.
+/// The exchange of the gas with bodies since the start, and its leak through them; each only if something needs it.
 template <int D>
 void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) const {
   tasks.perPatch("mpmice::addImpulse", addToSum<D, Vec<D>>, requiresNew(c::impulse<D>),

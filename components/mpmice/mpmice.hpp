@@ -38,7 +38,7 @@ class GasAround : public mpm::solid::Surroundings {
 template <int D>
 class MpmIce : public Component {
  public:
-  /// `solids` are those that `gas` is around.
+  /// `gas` surrounds `solids`.
   MpmIce(std::shared_ptr<const GasAround<D>> gas, std::unique_ptr<mpm::solid::Solids> solids)
       : gas_(std::move(gas)), solids_(std::move(solids)) {}
 

@@ -12,13 +12,13 @@ template <int D>
 struct ParticleBox {
   Vec<D> middle, edges;
 
-  /// Length along an axis, in cells, of what lies in the cell `k`.
+  /// Length along an axis, in cells, of its part in the cell `k`.
   double lengthIn(int axis, int k) const {
     const double lower = std::max(middle[axis] - 0.5 * edges[axis], double(k));
     const double upper = std::min(middle[axis] + 0.5 * edges[axis], k + 1.0);
     return std::max(0.0, upper - lower);
   }
-  /// Length along an axis of what lies above the lower face of the cell `k`.
+  /// Length along an axis of its part above the lower face of the cell `k`.
   double lengthAbove(int axis, int k) const {
     return std::clamp(middle[axis] + 0.5 * edges[axis] - k, 0.0, edges[axis]);
   }

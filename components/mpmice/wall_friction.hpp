@@ -11,7 +11,7 @@ namespace tushar::mpmice {
 /// neighbour that shares its own.
 inline double layerOf(double free) { return free < smallFreeVolume ? 1 + free : free; }
 
-/// How a cell's walls drag along its gas, at each face: viscosity times the wall's area along its surface over the
+/// The drag of a cell's walls on its gas, at each face: viscosity times the wall's area along its surface over the
 /// distance from there to the middle of the gas, per volume of the cell.
 template <int D>
 class CellFriction {

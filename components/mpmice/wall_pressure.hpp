@@ -10,7 +10,7 @@ namespace tushar::mpmice {
 inline double shockPressure(const euler::Gas& gas, double density, double last, double closing) {
   const double before = gas.pressureOf(density, last), volume = 1 / density;
   const double energy = gas.energyOf(density, last) * volume;
-  // Behind the shock p = p_0 + closing² / (v_0 - v): which density has it?
+  // Behind the shock p = p_0 + closing² / (v_0 - v): solves for the density.
   const auto behind = [&](double rho) { return before + closing * closing / (volume - 1 / rho); };
   const auto isTooLow = [&](double rho) {
     const double pressure = behind(rho);

@@ -11,7 +11,7 @@ namespace tushar::data {
 /// all that it has lent hold together no more than `bound()` bytes. Not for several threads at once.
 class BufferPool {
  public:
-  /// Makes room for `bytes` in a buffer, from the pool where it has one that fits; the first `keep` bytes stay as they
+  /// Makes room for `bytes` in a buffer, from the pool if it has one that fits; the first `keep` bytes stay as they
   /// were.
   void reserve(Buffer& buffer, std::size_t bytes, std::size_t keep = 0);
   /// Lends a buffer of at least `bytes` for a short time; it may hold much more.

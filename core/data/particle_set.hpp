@@ -52,7 +52,7 @@ class ParticleSet {
   void reset(const grid::Patch& patch, int reach);
 
   int owned() const { return owned_; }
-  /// Whether this place holds a particle that the patch has or reads.
+  /// Whether this place holds a particle that the patch owns or reads.
   bool covers(int place) const {
     return (place >= 0 && place < owned_) || (place >= ghosts_.first && place < ghosts_.last);
   }
@@ -152,7 +152,7 @@ class ParticleSet {
   ParticleRange ghosts_;  ///< from the least place of a ghost to behind the greatest
   int owned_ = 0;
   bool has_ghosts_ = false;
-  mutable std::map<int, TouchedRows> touched_;  ///< by how far beyond the cells, as far as asked for
+  mutable std::map<int, TouchedRows> touched_;  ///< by distance beyond the cells, up to the largest requested
 };
 
 }  // namespace tushar::data

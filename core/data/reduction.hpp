@@ -17,13 +17,13 @@ namespace tushar::data {
 class Reason {
  public:
   constexpr Reason() = default;
-  /// Takes a literal of at most 31 letters.
+  /// Takes a literal of at most 31 characters.
   template <std::size_t N>
   constexpr Reason(const char (&words)[N]) {
     static_assert(N <= std::tuple_size_v<decltype(letters_)>, "a reason has at most 31 letters");
     for (std::size_t k = 0; k < N; ++k) letters_[k] = words[k];
   }
-  /// Takes any text, cut off after 31 letters.
+  /// Takes any text, cut off after 31 characters.
   static Reason of(std::string_view words) {
     Reason reason;
     words.copy(reason.letters_.data(), reason.letters_.size() - 1);
@@ -84,7 +84,7 @@ struct Sum {
     addExactly(error, x);
     rest += x;
   }
-  /// Afterwards each part is what the one before rounds off, so that equal sums are equal bits.
+  /// Afterwards each part is the rounding error of the one before, so that equal sums have equal bits.
   void merge(const Sum& other) {
     add(other.value);
     double x = other.error;

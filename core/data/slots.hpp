@@ -34,9 +34,9 @@ SharedSlots slotsOfGrid(const grid::Grid& grid, const Label& label, int ghost);
 /// For the faces of patches beyond which other levels begin.
 SharedSlots slotsOfRims(const grid::Grid& grid);
 
-/// For so many particles on each patch. Slots of `base` (which may be null) stay where the particles fit; a patch that
-/// has outgrown its slot gets one behind the others, with room for an eighth more. Where the memory would then be more
-/// than a quarter larger than it need be, all are laid out anew.
+/// Slots for given numbers of particles on each patch. Slots of `base` (which may be null) stay where the particles
+/// fit; a patch that has outgrown its slot gets one behind the others, with room for an eighth more. Where the memory
+/// would then be more than a quarter larger than it need be, all are laid out anew.
 SharedSlots slotsThatFit(const SharedSlots& base, const std::vector<std::size_t>& counts);
 
 }  // namespace tushar::data

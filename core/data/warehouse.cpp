@@ -143,7 +143,7 @@ void Warehouse::allocateParticles(Generation generation, int number, Generation 
   allocate(storage(generation, number), *label, where.slots, valuesWithCopies(where, number));
 }
 
-/// Those that are read beyond their patches get room for the copies that there have been.
+/// Variables that are read beyond their patches get room for as many copies as before.
 std::size_t Warehouse::valuesWithCopies(const Layout& layout, int number) const {
   return layout.slots->end + (table_->ghost(number) > 0 ? layout.mostCopies : 0);
 }

@@ -125,19 +125,18 @@ Kind fromFile(const std::string& name, const std::string& sentence, const std::s
 }
 
 Kind surface() {
-  return fromFile(
-      "tri", "The inside of a closed surface of triangles.",
-      "a file beside the scene: STL (text or binary) if it ends in .stl, else what NAME.pts, a point `x y z` a line, "
-      "and NAME.tri, three numbers of points (from 0) a line, hold together",
-      [](const std::string& path, const Element& tag, Diagnostics& diagnostics) -> PiecePtr {
-        Triangles triangles = readTriangles(path, tag, diagnostics);
-        return triangles.empty() ? nullptr : std::make_shared<Surface>(std::move(triangles));
-      });
+  return fromFile("tri", "The inside of a closed surface of triangles.",
+                  "a file next to the scene: STL (text or binary) if its name ends in .stl; otherwise the pair "
+                  "NAME.pts, a point `x y z` per line, and NAME.tri, the numbers (from 0) of three points per line",
+                  [](const std::string& path, const Element& tag, Diagnostics& diagnostics) -> PiecePtr {
+                    Triangles triangles = readTriangles(path, tag, diagnostics);
+                    return triangles.empty() ? nullptr : std::make_shared<Surface>(std::move(triangles));
+                  });
 }
 
 Kind polygon() {
   return fromFile("line_segment", "A polygon in the plane z = 0, within 1e-5 m of it.",
-                  "a file beside the scene: a corner `x y` a line, one after the other around it",
+                  "a file next to the scene: a corner `x y` per line, in order around the polygon",
                   [](const std::string& path, const Element& tag, Diagnostics& diagnostics) -> PiecePtr {
                     std::vector<Vec3> corners = readPolygon(path, tag, diagnostics);
                     return corners.empty() ? nullptr : std::make_shared<Polygon>(std::move(corners));

@@ -51,7 +51,7 @@ const Schema<TimeSettings>& timeSchema() {
           .value("clamp_time_to_output", &TimeSettings::clampTimeToOutput, false, "1",
                  "shorten steps so that outputs are at multiples of outputInterval")
           .value("recompute_timestep", &TimeSettings::recomputeTimeStep, false, "1",
-                 "if a value becomes impossible, undo the step and repeat it with half the time step, up to 20 times")
+                 "if a value becomes unphysical, undo the step and repeat it with half the time step, up to 20 times")
           .ours()
           .value("initial_delt_range", &TimeSettings::initialDeltRange, 0, "s",
                  "time up to which delt_init holds; the first step at least", input::nonNegative())

@@ -4,7 +4,7 @@
 
 namespace tushar::ice {
 
-/// What is wrong with a scene of several gases, or cannot be with them.
+/// Checks a scene of several gases, and refuses what is not available with them.
 void checkMixture(const std::vector<GasMaterial>& materials, const input::Element& root, const GasScene& scene,
                   input::Diagnostics& diagnostics);
 

@@ -5,7 +5,7 @@
 
 namespace tushar::ice {
 
-/// What a step does to the cells of one block after the other, once the pressure at its end is known.
+/// The update of the cells in a step, block by block, once the pressure at its end is known.
 template <int D>
 class ImplicitStep {
  public:
@@ -19,7 +19,7 @@ class ImplicitStep {
         middle_(flow_.old()),
         flux_(flow_.old()) {}
 
-  /// From now on the cells of `block`, whose pressures change by `change` [Pa].
+  /// Moves to the cells of `block`, whose pressures change by `change` [Pa].
   void hold(const Box& block, const euler::StateViews<D, const double>& before, const CellView<const double>& change) {
     flow_.hold(block, before);
     change_ = &change;
@@ -63,12 +63,12 @@ class ImplicitStep {
   }
   euler::Rows<D>& flux() { return flux_; }
 
-  /// Adds the weight of what is at both faces of each cell of a block across an axis, and its work on what flows
-  /// through them, so that gas at rest in layers stays at rest.
+  /// Adds gravity at both faces of each cell of a block across an axis, and its work on the flow through them, so that
+  /// gas at rest in layers stays at rest.
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh) {
     addGravity(block, axis, fresh, [](const Index<D>&) { return true; });
   }
-  /// The same in the cells that `takes(cell)` says.
+  /// As above, only in the cells for which `takes(cell)` holds.
   template <class Takes>
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh, Takes&& takes) {
     const double g = flow_.gravity()[axis];
@@ -119,7 +119,7 @@ class ImplicitStep {
     const bool fine = w[euler::kDensity] > 0 && flow_.gas().heat(w[euler::kDensity], w[euler::kPressure<D>]) > 0;
     return fine ? w : flow_.old().state(cell);
   }
-  /// What flow, pressure and gravity change in a cell in half a step.
+  /// The change of a cell by flow, pressure and gravity in half a step.
   void goHalfway(const Index<D>& cell) {
     if (flow_.isFlat(cell)) return;
     const euler::State<D> w = flow_.old().state(cell);

@@ -26,7 +26,7 @@ void initializeScalar(const Patch& patch, const CarriedScalar* scalar, CellView<
   });
 }
 
-/// What a step reads of a scalar f and of the gas that carries it.
+/// Variables of a scalar f and of its carrier gas that a step reads.
 template <int D>
 struct ScalarBefore {
   CellView<const double> density, held;
@@ -97,7 +97,7 @@ class ScalarAtFaces {
   double perMass(const Index<D>& cell, int axis) const {
     return dt_ * level_.inverseSpacing(axis) / before_.density[cell];
   }
-  /// By how much the differences shrink so that what stays in the cell is within the limits.
+  /// The factor on the differences that keeps the rest of the cell within the limits.
   double shrinkage(const Index<D>& cell, const Faces& change, double least, double most) const {
     double rest = 1, gone = 0;
     for (int d = 0; d < D; ++d)
@@ -169,9 +169,9 @@ class ScalarFlux {
   double time_;
 };
 
-/// A scalar f goes with the mass of the gas: (rho f)' = rho f - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, with the
-/// mass fluxes of the step times f at the faces. So what cells hold of it changes by what flows through sides of the
-/// grid alone, a uniform f stays as it is, and no value leaves the range of those before, except for round-off.
+/// A scalar f is advected with the mass of the gas: (rho f)' = rho f - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, with
+/// the mass fluxes of the step times f at the faces. So what cells hold of it changes by what flows through sides of
+/// the grid alone, a uniform f stays as it is, and no value leaves the range of those before, except for round-off.
 template <int D>
 void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::Gas& gas, bool hasSlopes,
                  const ScalarBefore<D>& before, double time, double dt, CellView<double> held,

@@ -18,7 +18,7 @@ struct SolveTotals {
   }
 };
 
-/// What a solve gives: p' - p and p', Pa.
+/// The result of a solve: p' - p and p', Pa.
 struct PressureViews {
   CellView<double> change, atEnd;
 
@@ -27,7 +27,7 @@ struct PressureViews {
   }
 };
 
-/// The equation of what a cell's pressure changes by, p' - p, of the internal energy
+/// The equation for the change of a cell's pressure, p' - p, of the internal energy
 /// (rho e)' = rho e - dt div((rho e + p) u_f) + dt v . grad p, with u_f of p', the enthalpy at faces and v . grad p
 /// before the step. In gas rho e + p = gamma (p + p_inf) / (gamma - 1), so that with d = p' - p, and u_f of d = 0,
 ///
@@ -97,9 +97,9 @@ numerics::CellEquation<D> equationByLaw(const Level& level, const FaceFlow<D>& f
   return equation;
 }
 
-/// Solves for what the pressure changes by in the step in all cells [Pa], from the state before it, where the last
-/// step's pressure is a first guess, and gives the pressure at the end. The residual is how far the gas would miss that
-/// pressure, so the tolerance is relative to the greatest pressure where that is less than the right-hand side.
+/// Solves for the change of pressure in the step in all cells [Pa], from the state before it; the last step's pressure
+/// is the first guess; gives the pressure at the end. The residual is how far the gas would miss that pressure, so the
+/// tolerance is relative to the greatest pressure where that is less than the right-hand side.
 /// Throws NumericalError if the solver gives up.
 template <int D>
 void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, const euler::Settings& method,

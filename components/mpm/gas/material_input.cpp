@@ -70,7 +70,8 @@ const Schema<Relaxation>& relaxationSchema() {
       Schema<Relaxation>("relaxation", "A source of heat, de/dt = -rate (e - internal_energy), integrated exactly.")
           .required("rate", &Relaxation::rate, "1/s", "how fast", input::nonNegative())
           .ours()
-          .required("internal_energy", &Relaxation::internalEnergy, "J/kg", "what the gas goes to", input::positive())
+          .required("internal_energy", &Relaxation::internalEnergy, "J/kg", "internal energy that the gas relaxes to",
+                    input::positive())
           .ours();
   return schema;
 }
@@ -113,8 +114,8 @@ input::Expression pressureOf(const GasObjectSection& object, const input::Expres
 const Schema<GasProperties>& gasProperties() {
   static const Schema<GasList> list = Schema<GasList>("MPM", "The materials of the Material Point Method.")
                                           .list("material", &GasList::materials, materialSchema(), "a material", 1);
-  static const Schema<GasProperties> schema =
-      Schema<GasProperties>("MaterialProperties", "What there is.").requiredSection("MPM", &GasProperties::mpm, list);
+  static const Schema<GasProperties> schema = Schema<GasProperties>("MaterialProperties", "The materials of the scene.")
+                                                  .requiredSection("MPM", &GasProperties::mpm, list);
   return schema;
 }
 

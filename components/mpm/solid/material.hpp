@@ -18,7 +18,7 @@ struct Body {
   input::VectorExpression velocity;    ///< m/s
   input::Expression temperature;       ///< K
   double color = 0;
-  int levels = 1;  ///< sizes of particles that fill its shape; negative: none sticks out of it
+  int levels = 1;  ///< sizes of particles that fill its shape; negative: none protrudes from it
   /// Rows of A, and b: its particles start at A X + b (m) where they else would at X.
   Vec3 affineRow0 = Vec3::UnitX(), affineRow1 = Vec3::UnitY(), affineRow2 = Vec3::UnitZ(), affineShift = Vec3::Zero();
   std::shared_ptr<const Seeds> seeds;  ///< where its particles start; null: in equal parts of cells
@@ -71,11 +71,11 @@ struct Material {
   MaterialConstants constants() const { return {density, specificHeat, meltTemperature, roomTemperature}; }
   /// The density of a particle at F = I, kg/m^3; bodies that start under pressure have `density` at the start.
   double undeformedDensity() const { return density * model->initialVolumeRatio(); }
-  /// Whether particles may lose strength, so that they bear less than the constitutive model says.
+  /// Whether particles may lose strength and then bear less than the stress of the constitutive model.
   bool isDamageable() const { return erosion.acts() || !std::holds_alternative<NoDamage>(damage); }
 };
 
-/// Most numbers that a particle of any of the materials keeps for its model.
+/// Largest number of state variables of any material's model.
 inline int largestStateOf(const std::vector<Material>& materials) {
   int size = 0;
   for (const Material& material : materials) size = std::max(size, material.model->stateSize());

@@ -42,11 +42,11 @@ std::vector<std::string> modelNames() {
   return names;
 }
 
-/// Older words of Uintah's for models that are here.
+/// Uintah's older names of models that exist here.
 const std::map<std::string, std::string> otherWords{
     {"arenisca", "Arenisca"}, {"cnh_damage", "UCNH"}, {"cnhp_damage", "comp_neo_hook_plastic"}};
 
-/// Models of Uintah's that are missing here, and what there is instead.
+/// Uintah's models that are missing here, and their nearest substitutes.
 const std::vector<std::pair<std::string, std::string>> lackingModels{
     {"membrane", "comp_neo_hook for bodies as thick as a cell"},
     {"three_factor_mooney", "comp_mooney_rivlin"},
@@ -87,12 +87,12 @@ std::string typeOf(const Element& tag) {
   return other == otherWords.end() ? type : other->second;
 }
 
-/// Whether a temperature can make bodies of a model longer: as in Uintah, of its neo-Hookean ones.
+/// Whether a model has thermal expansion: as in Uintah, of its neo-Hookean ones.
 template <class M>
 inline constexpr bool expands =
     std::is_same_v<M, CompNeoHook> || std::is_same_v<M, Ucnh> || std::is_same_v<M, CompNeoHookPlastic>;
 
-/// Of a model with that bulk modulus, Pa.
+/// Thermal expansion of a model with that bulk modulus, Pa.
 template <class M>
 std::shared_ptr<const Model> expandingIfAsked(const M& model, double bulkModulus, const Material& material) {
   if (material.thermalExpansion > 0)
@@ -101,7 +101,7 @@ std::shared_ptr<const Model> expandingIfAsked(const M& model, double bulkModulus
   return std::make_shared<ModelOf<M>>(model);
 }
 
-/// A model as the particles of a material use it.
+/// The model of a material for use by its particles.
 template <class M>
 std::shared_ptr<const Model> modelFrom(const M& model, const Material& material) {
   if constexpr (requires { model.yieldSpreads; })
@@ -166,10 +166,10 @@ Schema<Body> bodyTags() {
       .value("velocity", &Body::velocity, input::VectorExpression(), "m/s", "velocity at the start")
       .value("temperature", &Body::temperature, input::Expression(293.0), "K", "temperature at the start",
              input::nonNegative())
-      .value("color", &Body::color, 0, "1", "a number that its particles keep, p.color")
+      .value("color", &Body::color, 0, "1", "a number that is stored on its particles as p.color")
       .value("numLevelsParticleFilling", &Body::levels, 1, "1",
-             "sizes of particles, each half of the one before, that fill the shape up to its surface; negative: none "
-             "sticks out of it",
+             "sizes of particles, each half of the one before, that fill the shape up to its surface; negative: no "
+             "particle protrudes from it",
              input::between(-8, 8))
       .value(
           "affineTransformation_A0", &Body::affineRow0, Vec3::UnitX(), "1",
@@ -197,7 +197,7 @@ const Schema<Body>& bodySchema() {
   return schema;
 }
 
-/// Tags of Uintah's in a material that change nothing here, and those that are missing.
+/// Uintah's tags in a material that have no effect here, and those that are not available.
 void acceptUintahsTags(Schema<Material>& tags) {
   for (const char* tag : {"water_density", "porosity", "permeability", "initial_pore_pressure"})
     tags.ignored(tag, "belongs to coupled_flow_analysis");
@@ -212,13 +212,13 @@ void acceptUintahsTags(Schema<Material>& tags) {
 const Schema<Material>& materialSchema() {
   static const Schema<Material> schema = [] {
     Schema<Material> material("material", "A material and the bodies made of it.");
-    material.attributeValue("name", &Material::name, "", "1", "its name; material0, material1, … where none is given")
+    material.attributeValue("name", &Material::name, "", "1", "its name; material0, material1, … by default")
         .required("density", &Material::density, "kg/m^3", "density at the start", input::positive())
         .value("specific_heat", &Material::specificHeat, 0, "J/(kg K)", "c_v", input::nonNegative())
         .value("thermal_conductivity", &Material::thermalConductivity, 0, "W/(m K)", "conductivity",
                input::nonNegative())
         .value("melt_temp", &Material::meltTemperature, 295e10, "K",
-               "temperature at which it melts; it never does where none is given, as in Uintah", input::positive())
+               "melting temperature; without it, it never melts, as in Uintah", input::positive())
         .value("room_temp", &Material::roomTemperature, 294, "K", "temperature of the constants of damage",
                input::nonNegative())
         .value("linear_thermal_expansion_coef", &Material::thermalExpansion, 0, "1/K",
@@ -236,10 +236,10 @@ const Schema<Material>& materialSchema() {
         .value("possible_alpha_material", &Material::mayLeadContact, true, "1",
                "contacts of type friction_LR, friction_LRVar and specified_friction: normals may point out of this "
                "material; false: it slides on others only where two others meet")
-        .custom("constitutive_model", readModel, {"constitutive_model"}, "how it answers to being deformed",
+        .custom("constitutive_model", readModel, {"constitutive_model"}, "stress as a function of deformation",
                 describeModels)
         .forms({input::onceForm("constitutive_model", modelAlternatives, 1)})
-        .custom("damage_model", readDamage, {"damage_model", "erosion"}, "how it fails, and what it bears then",
+        .custom("damage_model", readDamage, {"damage_model", "erosion"}, "its failure, and its strength after it",
                 describeDamage)
         .forms(damageForms())
         .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start", 1);
@@ -258,7 +258,7 @@ void noteCommonNames(const MaterialProperties::List& list, const Element& elemen
                        fmt::format("a second material is called '{0}': this one is saved as '{0}.{1}'", name, m));
 }
 
-/// Contacts name materials that there are; numbers too many in <materials> mean nothing, as in Uintah.
+/// Checks that contacts name existing materials; excess numbers in <materials> are ignored, as in Uintah.
 void checkContacts(const MaterialProperties::List& list, const Element& element, Diagnostics& diagnostics) {
   const int count = static_cast<int>(list.materials.size());
   for (const Element& tag : element.children("contact"))
@@ -290,7 +290,7 @@ const Schema<MaterialProperties>& propertiesSchema(bool besideGas) {
           .check(noteCommonNames)
           .check(checkContacts);
   static const auto make = [] {
-    return Schema<MaterialProperties>("MaterialProperties", "What there is.")
+    return Schema<MaterialProperties>("MaterialProperties", "The materials of the scene.")
         .requiredSection("MPM", &MaterialProperties::mpm, list);
   };
   static const Schema<MaterialProperties> alone = make();

@@ -26,7 +26,7 @@ Vec3 inCells(const Level& level) {
   return inverse;
 }
 
-/// A particle of a cell while it is being filled.
+/// A particle of a cell that is being filled.
 struct Filling {
   Vec3 at, spacing;  ///< m
   double share;      ///< of its extent in that of the largest, 1
@@ -45,7 +45,7 @@ bool overlaps(const Filling& one, const Vec3& point) {
   return ((point - one.at).array().abs() <= 0.5 * one.spacing.array()).all();
 }
 
-/// Adds particles of a 2^-k-th of the size where those that are there leave room.
+/// Adds particles of 2^-k times the size where the existing ones leave room.
 template <int D>
 void fillGaps(const Level& level, const Body& body, const Index<D>& cell, int k, std::vector<Filling>& particles) {
   Body finer = body;
@@ -61,7 +61,7 @@ void fillGaps(const Level& level, const Body& body, const Index<D>& cell, int k,
 }
 
 /// The particles of a cell, in `levels` sizes, each half of the one before; where the number is negative, those that
-/// stick out of the shape give way to smaller ones.
+/// protrude from the shape are replaced by smaller ones.
 template <int D>
 std::vector<Filling> fill(const Level& level, const Body& body, const Index<D>& cell) {
   std::vector<Filling> particles;

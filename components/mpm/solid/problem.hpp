@@ -10,7 +10,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Everything that a scene says about its solids.
+/// The solids of a scene.
 struct Problem {
   Method method;
   std::vector<Material> materials;
@@ -18,7 +18,7 @@ struct Problem {
   Start start;
   std::shared_ptr<const PrescribedDeformation> motion = nullptr;  ///< of all bodies; null: by forces
   std::shared_ptr<const Surroundings> surroundings = nullptr;     ///< null: nothing surrounds them
-  std::vector<InputProblem> notes = {};                           ///< on bodies without particles
+  std::vector<InputProblem> notes = {};                           ///< notes on bodies without particles
 };
 
 /// Solids of any shape function, by explicit or implicit steps.
@@ -40,7 +40,7 @@ class Solids : public Component {
 
  protected:
   Problem problem_;
-  int state_size_;  ///< most numbers that a particle keeps for its model
+  int state_size_;  ///< largest number of state variables of any model
   ParticleLabel<double> state_{"p.modelState", "SI units", "internal variables of the constitutive model"};
   std::vector<std::shared_ptr<const StateView>> state_views_;
 };

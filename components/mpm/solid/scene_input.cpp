@@ -13,8 +13,8 @@ using input::Schema;
 
 const Schema<PhysicalConstants>& constantsSchema(bool besideGas) {
   static const auto make = [] {
-    Schema<PhysicalConstants> tags("PhysicalConstants", "Quantities that hold everywhere.");
-    tags.value("gravity", &PhysicalConstants::gravity, Vec3::Zero(), "m/s^2", "acceleration of all that has mass");
+    Schema<PhysicalConstants> tags("PhysicalConstants", "Physical constants.");
+    tags.value("gravity", &PhysicalConstants::gravity, Vec3::Zero(), "m/s^2", "acceleration of gravity");
     for (const char* tag : {"reference_point", "viscosity", "ideal_gas_constant", "pressure"})
       tags.ignored(tag, "belongs to components of flow");
     return tags;
@@ -35,7 +35,7 @@ std::vector<simulation::SectionForm> sectionForms(const input::SchemaBase& mpm) 
 
 namespace {
 
-/// One size for the particles of all bodies, where they agree.
+/// One size for the particles of all bodies, if they agree.
 void settleSizes(Problem& problem) {
   const Index3 first = problem.materials.front().bodies.front().particlesPerCell;
   for (int axis = 0; axis < 3; ++axis) problem.method.commonSize[axis] = 1.0 / first[axis];

@@ -9,9 +9,9 @@ namespace tushar::mpm::solid {
 class Surroundings {
  public:
   virtual ~Surroundings() = default;
-  /// Whether they change p.temperature.
+  /// Whether the surroundings change p.temperature.
   virtual bool exchangesHeat() const { return false; }
-  /// After the tasks that make the particles of `materials`, which outlive the list.
+  /// Adds tasks after those that make the particles of `materials`, which outlive the list.
   virtual void scheduleStart(TaskList& tasks, const std::vector<Material>& materials) const = 0;
   /// After the task that gives g.record velocities and masses, and before forces accelerate nodes: computes
   /// g.surroundingForce.

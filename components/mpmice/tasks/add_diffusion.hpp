@@ -77,7 +77,7 @@ class DiffusionBeside {
       }
     return 0.25 * level_.inverseSpacing(axis) * sum;
   }
-  /// How far apart, in cells, the gas of two cells is along an axis.
+  /// Distance, in cells, between the gas of two cells along an axis.
   double distance(const Index<D>& cell, const Index<D>& below, int axis) const {
     if (isBeyond(cell, axis) || isBeyond(below, axis)) {
       const bool isUpper = isBeyond(cell, axis);  // the mirror image is as far away from the side

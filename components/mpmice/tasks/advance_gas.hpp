@@ -32,7 +32,7 @@ struct UnsharedGas {
   }
 };
 
-/// What the gas of a cell gives to walls in a step, per volume of the cell.
+/// Momentum and energy that the gas of a cell gives to walls in a step, per volume of the cell.
 template <int D>
 struct Given {
   Vec<D> impulse = Vec<D>::Zero();  ///< N s/m³
@@ -67,7 +67,7 @@ class WallExchange {
     return isUpperSide ? space_.aperture(cell - Index<D>::unit(axis), axis, 1) : space_.aperture(cell, axis, 0);
   }
 
-  /// Adds to the content of a cell what walls at its faces push, and what gas flows in behind walls that move. Returns
+  /// Adds to a cell the momentum and work of walls at its faces, and the gas that flows in behind moving walls. Returns
   /// what the gas gives to the walls.
   Given<D> addTo(const Index<D>& cell, const euler::StateViews<D, double>& held) const {
     Given<D> given;
@@ -138,7 +138,7 @@ class WallExchange {
     return cells_.free[face] < 1 || cells_.free[below] < 1 || step_.swept[face][axis] != 0;
   }
 
-  /// Gas follows a wall that draws back, and makes way for one that comes, with all it holds: what the covered share of
+  /// Gas follows a receding wall, and makes way for an advancing one, with all its contents: what the covered share of
   /// the face would sweep less what bodies swept.
   void flow(const Index<D>& cell, int axis, int side, double wallVelocity,
             const euler::StateViews<D, double>& held) const {
@@ -276,7 +276,7 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
   if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, work.flux, *flow);
 }
 
-/// Adds what walls near a block do, and its power.
+/// Adds the forces of walls near a block, and their power.
 template <int D>
 void addWalls(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, double perStep,
               const euler::StateViews<D, double>& fresh, const OfferedExchange<D>& offered, Sum& power) {
@@ -288,7 +288,7 @@ void addWalls(const WallExchange<D>& exchange, const NearBodies<D>& near, const 
   });
 }
 
-/// Throws NumericalError for an impossible state of the gas away from bodies.
+/// Throws NumericalError for an unphysical state of the gas away from bodies.
 template <int D>
 void refuseFarGas(const Patch& patch, const euler::Gas& gas, const NearBodies<D>& near, const GasInCells<D>& cells,
                   const euler::StateViews<D, double>& fresh) {
@@ -299,7 +299,7 @@ void refuseFarGas(const Patch& patch, const euler::Gas& gas, const NearBodies<D>
   });
 }
 
-/// A step of a block with bodies in it or around: `euler`'s, through open faces alone, and what walls do. Returns
+/// A step of a block with bodies in or around it: `euler`'s, through open faces alone, and what walls do. Returns
 /// whether the gas away from bodies can be; beside them small cells have still to share.
 template <int D, class Flux, class Shape, class G>
 bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells<D>& cells,
@@ -354,7 +354,7 @@ void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, co
       fine &= euler::canBe<D>(law, block, fresh.held);
     });
   };
-  // Other laws are looked up cell by cell: they cost more than that themselves.
+  // Other laws are looked up cell by cell; the look-up costs less than the laws themselves.
   if (gas.law)
     advance(gas);
   else

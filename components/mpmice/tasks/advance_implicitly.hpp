@@ -7,7 +7,7 @@
 
 namespace tushar::mpmice {
 
-/// The gas before a step, and what its pressure changes by.
+/// The gas before a step, and its change of pressure.
 template <int D>
 struct GasInStep {
   GasInCells<D> cells;

@@ -47,7 +47,7 @@ inline Eigen::VectorXd temperaturesAfter(const WarmThings& things, const std::ve
     }
   }
   for (Eigen::Index a = 0; a < count; ++a)
-    if (!(things.capacity[a] > 0)) system(a, a) = 1;  // what is not there
+    if (!(things.capacity[a] > 0)) system(a, a) = 1;  // participants that are absent
   const Eigen::VectorXd heat = things.capacity.cwiseProduct(things.temperature);
   return system.ldlt().solve(heat);
 }

@@ -16,7 +16,7 @@ void findBoxes(const Patch& patch, const mpm::solid::Material&, ParticleView<con
   for (int p = 0; p < edges.owned(); ++p) edges[p] = edgesOf<D>(patch.level(), size[p], deformation[p]);
 }
 
-/// Where the particles of a material are, and how large, on a patch and around it.
+/// Positions and sizes of the particles of a material on a patch and around it.
 template <int D>
 struct Boxes {
   ParticleView<const Vec<D>> x, edges;
@@ -81,7 +81,7 @@ struct FreeShares {
       }
     });
   }
-  /// Where bodies overlap there is no room, not less than none.
+  /// Where bodies overlap the free volume is 0, not negative.
   void settle() const {
     forEach<D>(volume.box(), [&](const Index<D>& cell) { volume[cell] = std::max(0.0, volume[cell]); });
   }
@@ -139,7 +139,7 @@ void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const Partic
   });
 }
 
-/// Where a particle is, not farther from the cell in which it started the step than patches see: time steps keep it
+/// The position of a particle, limited to the distance from its starting cell that patches see: time steps keep it
 /// nearer.
 template <int D>
 Vec<D> withinReach(const Vec<D>& coordinates, const Vec<D>& edges) {

@@ -10,7 +10,8 @@
 
 namespace tushar::mpmice {
 
-/// What the gas of each cell gives to walls in a step, and what flows through open faces, where something needs it.
+/// Momentum, work and heat that the gas of each cell gives to walls in a step, and the flow through open faces, if
+/// needed.
 template <int D>
 struct OfferedExchange {
   std::optional<CellView<Vec<D>>> impulse;
@@ -43,7 +44,7 @@ void addHeatToSum(const Patch& patch, CellView<const double> heat, const std::op
              [&](const Index<D>& cell) { now[cell] = before[cell] + heat[cell] + (walls ? (*walls)[cell] : 0); });
 }
 
-/// Nothing has been given yet.
+/// No exchange at the start.
 template <int D, class T>
 void startSum(const Patch&, CellView<T> sum) {
   if constexpr (std::is_same_v<T, double>)

@@ -74,7 +74,7 @@ class SmallCells {
   double scoreOf(const Index<D>& cell, const Index<D>& at) const {
     const double room = state_.free[at], own = state_.free[cell];
     if (!(room > own) || room < leastFreeVolume) return -1;
-    if (room < smallFreeVolume && state_.held.density[at] == 0) return -1;  // a hole that nothing has got into
+    if (room < smallFreeVolume && state_.held.density[at] == 0) return -1;  // an empty hole
     double score = room >= smallFreeVolume ? 100 : 0;
     int apart = 0, axis = 0;
     for (int d = 0; d < D; ++d)
@@ -148,8 +148,8 @@ std::pair<double, double> densityAndLast(const euler::Gas& gas, const Index<D>& 
   return {mass / free, gas.last(mass / free, internal / free)};
 }
 
-/// Looks at what a cell holds after a step. Throws NumericalError where it cannot be, so that the step is repeated with
-/// a smaller time step; in a small cell it waits as in a hole.
+/// Checks the contents of a cell after a step. Throws NumericalError where it cannot be, so that the step is repeated
+/// with a smaller time step; in a small cell it waits as in a hole.
 template <int D>
 void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, const NewGas<D>& fresh) {
   const double free = fresh.free[cell];
@@ -183,7 +183,7 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     const Index<D> centre = small.targetOf(cell);
     if (!(centre == cell)) merged.add(1);
     shareAt<D>(small, state, cell, centre, fresh.held);
-    if (state.free[centre] < narrowFreeVolume) fresh.free[cell] = 0;  // a hole: what it holds waits until there is room
+    if (state.free[centre] < narrowFreeVolume) fresh.free[cell] = 0;  // a hole keeps its contents until there is room
   });
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) { checkGas<D>(level, settings.gas.gas, cell, fresh); });
 }

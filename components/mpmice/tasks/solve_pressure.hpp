@@ -80,7 +80,8 @@ void guessPressure(const Patch& patch, const Settings& settings, const GasInCell
   });
 }
 
-/// How fast walls go at the start of the step, and how much they yield: of the mass that belongs to the face.
+/// The speed of walls at the start of the step, and their acceleration by pressure: of the mass that belongs to the
+/// face.
 template <int D>
 void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                     const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
@@ -129,8 +130,8 @@ ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
   };
 }
 
-/// The equation of what the pressure of a cell's gas changes by: that of `ice`, through open shares g of faces, with
-/// walls of shares w that sweep with v_w:
+/// The equation for the change of pressure of a cell's gas: that of `ice`, through open shares g of faces, with walls
+/// of shares w that sweep with v_w:
 ///
 ///   (phi + dt² sum w gamma P y / h) d - dt sum g gamma P_f loss_f (d_n - d) / h
 ///       = -dt sum +- (g gamma P_f u_f + w gamma P v_w) / h + (gamma - 1) dt / 2 sum +- g v (p_n - p) / h.
@@ -176,7 +177,7 @@ numerics::CellEquation<D> pressureEquationBeside(const ice::FaceFlow<D>& flow, c
   return equation;
 }
 
-/// Solves for what the pressure of the gas changes by in the step [Pa], and gives that at the end.
+/// Solves for the change of the gas's pressure in the step [Pa], and gives the pressure at the end.
 /// Throws NumericalError if the solver gives up.
 template <int D>
 void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings,

@@ -41,7 +41,7 @@ class InputError(SusError):
 
 
 class NumericalError(SusError):
-    """Exit code 4: a value became impossible during the run. `run.archive` holds the outputs up to there."""
+    """Exit code 4: a value became unphysical during the run. `run.archive` holds the outputs up to there."""
 
 
 class Interrupted(SusError):

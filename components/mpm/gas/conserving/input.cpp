@@ -14,8 +14,8 @@ const Schema<Remap>& remapSchema() {
       Schema<Remap>("remap", "One new particle per cell, with the mass, momentum and energy of what lies in it.")
           .value("every", &Remap::every, 4, "1", "steps", input::positive())
           .ours()
-          .value("overfilled", &Remap::overfilled, 0.02, "1", "or once a cell holds this share more than its volume",
-                 input::nonNegative())
+          .value("overfilled", &Remap::overfilled, 0.02, "1",
+                 "or once the particles of a cell exceed its volume by this fraction", input::nonNegative())
           .ours();
   return schema;
 }

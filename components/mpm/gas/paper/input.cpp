@@ -40,7 +40,7 @@ const Schema<Redistribution>& redistributeSchema() {
 
 const Schema<GasDynamics>& methodSchema() {
   static const Schema<Viscosity> viscosity =
-      Schema<Viscosity>("artificial_viscosity", "Of Monaghan & Pongracic (1985), (16) of the paper.")
+      Schema<Viscosity>("artificial_viscosity", "The viscosity of Monaghan & Pongracic (1985), (16) of the paper.")
           .value("quadratic", &Viscosity::quadratic, 0.6, "1", "C_q", input::nonNegative())
           .ours()
           .value("linear", &Viscosity::linear, 2.75, "1", "C_l", input::nonNegative())

@@ -13,7 +13,7 @@ namespace tushar::mpm::solid {
 
 namespace {
 
-/// Whether all that strains is stored, and known from F: then StrainEnergy is exact, however much a step strains.
+/// Whether all work of strain is stored, and follows from F: then StrainEnergy is exact, however much a step strains.
 bool storesAllStrain(const Problem& problem) {
   return !problem.start.solution &&
          std::all_of(problem.materials.begin(), problem.materials.end(), [](const Material& material) {
@@ -54,7 +54,7 @@ std::unique_ptr<simulation::Analysis> makeModule(const Component& component, con
 }  // namespace
 
 simulation::AnalysisKind energyBudgetKind() {
-  return simulation::plainModule("energyBudget", "where the energy of solids came from and where it went",
+  return simulation::plainModule("energyBudget", "sources and sinks of the energy of solids",
                                  "The energy budget of solids in the report.", makeModule);
 }
 

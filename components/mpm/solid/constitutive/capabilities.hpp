@@ -177,7 +177,7 @@ struct OwnViscosity {
 
 // Heat.
 
-/// Constants of the material beside those of the model, filled in after the model has been read. Offer it where the
+/// Constants of the material besides those of the model, filled in after the model has been read. Offer it where the
 /// model needs the density, the specific heat or the melting temperature.
 struct ConstantsOfMaterial {
   struct Name {
@@ -221,7 +221,7 @@ struct TemperatureChange {
   }
 };
 
-/// Specific heat, J/(kg K), where it is not that of the material.
+/// Specific heat, J/(kg K), if it is not that of the material.
 struct HeatCapacity {
   struct Name {
     int heatCapacity;

@@ -48,8 +48,7 @@ struct ElasticPlastic {
        {"p.sigmaDev2", "Pa", "stress deviator of the Maxwell element 3", 9},
        {"p.sigmaDev3", "Pa", "stress deviator of the Maxwell element 4", 9},
        {"p.sigmaDev4", "Pa", "stress deviator of the Maxwell element 5", 9}}};
-  static constexpr std::array<StateVariable, 1> absentVariables{
-      {{"p.porosity", "1", "share of pores: there are none"}}};
+  static constexpr std::array<StateVariable, 1> absentVariables{{{"p.porosity", "1", "porosity, which is 0"}}};
   static constexpr std::string_view name = isHp ? "elastic_plastic_hp" : "elastic_plastic";
   static constexpr bool strainEnergyIsRate = true;
 
@@ -156,17 +155,17 @@ struct ElasticPlastic {
     input::Schema<Self> tags{name, "Metals at large strain and high rate."};
     tags.required("bulk_modulus", &Self::bulkModulus, "Pa", "K", input::positive())
         .required("shear_modulus", &Self::shearModulus, "Pa", "G", input::positive())
-        .value("taylor_quinney_coeff", &Self::heatedShare, 0.9, "1", "share of the plastic work that heats",
+        .value("taylor_quinney_coeff", &Self::heatedShare, 0.9, "1", "fraction of the plastic work that becomes heat",
                input::between(0, 1))
-        .value("initial_material_temperature", &Self::initialTemperature, 294, "K", "where heat adds no pressure",
-               input::nonNegative());
+        .value("initial_material_temperature", &Self::initialTemperature, 294, "K",
+               "temperature at which heat adds no pressure", input::nonNegative());
     typedTag(tags, "flow_model", &Self::flow, "the yield stress", true);
     typedTag(tags, "equation_of_state", &Self::equationOfState, "the mean stress; default_hyper if left out", false);
     typedTag(tags, "deviatoric_stress_model", &Self::deviatorModel,
              "how the stress deviator grows; hypoElastic if left out", false);
     typedTag(tags, "shear_modulus_model", &Self::shear, "the shear modulus; constant_shear if left out", false);
-    typedTag(tags, "melting_temp_model", &Self::melting, "where there is no shear stress; constant_Tm if left out",
-             false);
+    typedTag(tags, "melting_temp_model", &Self::melting,
+             "the temperature from which on there is no shear stress; constant_Tm if left out", false);
     tags.value(
         "compute_specific_heat", &Self::computesHeat, false, "1",
         "the heat of plastic work and viscosity is divided by that of <specific_heat_model>; conduction takes the "
@@ -187,7 +186,7 @@ struct ElasticPlastic {
         .ignored("isothermal", "Uintah does not read it either")
         .ignored("check_failure", "Uintah does not read it either")
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
-        .ignored("evolve_damage", "a <damage_model> does it where there is one")
+        .ignored("evolve_damage", "a <damage_model> has this effect")
         .ignored("do_melting", "above <melt_temp> there is no shear stress, as in Uintah");
     declarePores(tags);
     for (const char* tag : {"critical_porosity", "check_TEPLA_failure_criterion", "check_max_stress_failure"})
@@ -213,16 +212,17 @@ struct ElasticPlastic {
   static void declarePores(input::Schema<ElasticPlastic>& tags) {
     using Self = ElasticPlastic;
     tags.value("evolve_porosity", &Self::poresEvolve, true, "1", "of gurson: pores grow, close and open")
-        .value("initial_mean_porosity", &Self::initialPorosity, 0.002, "1", "of gurson: share of pores at the start",
+        .value("initial_mean_porosity", &Self::initialPorosity, 0.002, "1", "of gurson: porosity at the start",
                input::between(0, 0.9))
         .value("initial_std_porosity", &Self::porosityDeviation, 0.002, "1", "of gurson: its standard deviation",
                input::nonNegative())
         .choice("initial_porosity_distrib", &Self::porositySpreads, {{"constant", false}, {"gauss", true}}, false,
-                "of gurson: how the pores at the start differ from particle to particle; other numbers than Uintah "
-                "draws")
-        .value("frac_nucleation", &Self::nucleating, 0.1, "1", "of gurson: share of pores that open",
+                "of gurson: how the porosity at the start differs from particle to particle; random numbers differ "
+                "from Uintah's")
+        .value("frac_nucleation", &Self::nucleating, 0.1, "1", "of gurson: porosity that nucleates in all",
                input::nonNegative())
-        .value("meanstrain_nucleation", &Self::nucleationStrain, 0.3, "1", "of gurson: plastic strain at which they do")
+        .value("meanstrain_nucleation", &Self::nucleationStrain, 0.3, "1",
+               "of gurson: mean plastic strain at which it nucleates")
         .value("stddevstrain_nucleation", &Self::nucleationDeviation, 0.1, "1", "of gurson: its standard deviation",
                input::nonNegative());
   }

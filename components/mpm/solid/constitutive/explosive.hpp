@@ -21,7 +21,7 @@ struct Murnaghan {
   double relativeVolume(double p) const { return std::pow(1 + exponent * compressibility * p, -1 / exponent); }
 };
 
-/// The isentrope of what has burned, p = A exp(-R1 J) + B exp(-R2 J) + C J^-(1 + omega): Lee, Hornig & Kury, Adiabatic
+/// The isentrope of the products, p = A exp(-R1 J) + B exp(-R2 J) + C J^-(1 + omega): Lee, Hornig & Kury, Adiabatic
 /// Expansion of High Explosive Detonation Products, UCRL-50422 (1968).
 struct Jwl {
   double a = 0, b = 0, c = 0;  ///< A, B, C, Pa

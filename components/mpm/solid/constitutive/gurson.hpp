@@ -29,11 +29,11 @@ struct GursonPlastic {
        Base::stateVariables[1],
        Base::stateVariables[2],
        Base::stateVariables[3],
-       {"p.porosity", "1", "share of pores"},
+       {"p.porosity", "1", "porosity"},
        {"p.plasticDilatation", "1", "plastic change of the volume by the volume"},
        {"p.plasticWork", "J/m^3", "work of the plastic flow in the last step"}}};
 
-  Base base;  ///< the same without pores
+  Base base;  ///< the same for the metal without pores
 
   static const input::Schema<GursonPlastic>& schema() {
     static const input::Schema<GursonPlastic> schema(name, "Metals with pores: see elastic_plastic_hp.");

@@ -75,7 +75,7 @@ struct JwlppMpm {
   /// F at the end of a step in which J grows at a constant rate, to 1e-9: with u = -ln(1 - F), du/dt = G p^b, by the
   /// fourth-order method of Kutta, Z. Math. Phys. 46 (1901) 435, with steps halved as often as needed.
   double burn(double before, const Deformation& d) const {
-    constexpr double wanted = 1e-9, done = 30;  // exp(-done) is left: nothing
+    constexpr double wanted = 1e-9, done = 30;  // exp(-done) of it is left: nothing
     const double start = d.oldDeformationGradient.determinant();
     const double growth = std::log(d.deformationGradient.determinant() / start);
     const auto slope = [&](double s, double u) {
@@ -107,7 +107,8 @@ struct JwlppMpm {
   static input::Schema<JwlppMpm> makeSchema() {
     using Self = JwlppMpm;
     input::Schema<Self> tags("jwlpp_mpm", "An explosive that burns where it is compressed: JWL++.");
-    tags.required("ignition_pressure", &Self::ignitionPressure, "Pa", "above it a particle burns", input::positive())
+    tags.required("ignition_pressure", &Self::ignitionPressure, "Pa", "pressure above which a particle burns",
+                  input::positive())
         .required("murnaghan_K", &Self::compressibility, "1/Pa", "of the explosive, 1/(bulk modulus)",
                   input::positive())
         .required("murnaghan_n", &Self::exponent, "1", "of the explosive: exponent of the density", input::positive())
@@ -119,7 +120,8 @@ struct JwlppMpm {
         .required("jwl_om", &Self::omega, "1", "of the products", input::nonNegative())
         .required("reaction_G", &Self::rate, "1/(s Pa^b)", "factor of the rate of burning", input::nonNegative())
         .required("reaction_b", &Self::power, "1", "exponent of the pressure in the rate", input::nonNegative())
-        .value("max_burned_fraction", &Self::greatestFraction, 1, "1", "no more burns", input::between(0, 1))
+        .value("max_burned_fraction", &Self::greatestFraction, 1, "1", "fraction at which burning stops",
+               input::between(0, 1))
         .value("useInitialStress", &Self::startsUnderPressure, false, "1", "bodies start under <initial_pressure>")
         .value("initial_pressure", &Self::initialPressure, 0, "Pa", "pressure at the start", input::nonNegative())
         .ignored("jwl_rho0", "the material's density is used, as in Uintah");

@@ -13,7 +13,7 @@ struct ArtificialViscosity {
   double quadratic = 2.0;  ///< A2
 };
 
-/// Constants that a scene gives for a material beside those of its constitutive model.
+/// Constants that a scene gives for a material besides those of its constitutive model.
 struct MaterialConstants {
   double density = 0;            ///< at the start of the run, kg/m^3
   double specificHeat = 0;       ///< J/(kg K)

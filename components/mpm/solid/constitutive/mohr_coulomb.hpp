@@ -40,7 +40,7 @@ struct MohrCoulomb : IsotropicModuli {
   double cohesion = 0;       ///< c, Pa
   double frictionAngle = 0;  ///< phi, degrees
   double dilationAngle = 0;  ///< psi, degrees
-  bool isWet = false;        ///< the cohesion follows from the content of water and the rate
+  bool isWet = false;        ///< the cohesion follows from the water content and the rate
   double strength = 0;       ///< A1, Pa
   double waterExponent = 0;  ///< B1, 1
   double waterContent = 1;   ///< W, 1
@@ -109,7 +109,7 @@ struct MohrCoulomb : IsotropicModuli {
     const double faster = shear > referenceRate ? std::pow(shear / referenceRate, rateExponent) : 1;
     return sensitivity * strength * std::pow(waterContent, -waterExponent) * faster;
   }
-  /// The share of the pores that water fills at a suction, Pa.
+  /// The fraction of the pores that water fills at a suction, Pa.
   double saturation(double suction) const {
     return std::pow(1 + std::pow(retentionAlpha * suction, retentionN), -retentionM);
   }

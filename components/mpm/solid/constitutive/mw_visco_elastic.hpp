@@ -10,8 +10,9 @@
 
 namespace tushar::mpm::solid {
 
-/// A spring beside a Maxwell element, each with a deviator and a pressure; Simo & Hughes, Computational Inelasticity
-/// (1998), section 10.2. sigma = s_e + s_v - (p_e + p_v) I with ds_e/dt = 2 G_e dev D, dp_e/dt = -K_e tr D,
+/// A spring in parallel with a Maxwell element, each with a deviator and a pressure; Simo & Hughes, Computational
+/// Inelasticity (1998), section 10.2. sigma = s_e + s_v - (p_e + p_v) I with ds_e/dt = 2 G_e dev D, dp_e/dt = -K_e tr
+/// D,
 /// ds_v/dt = 2 G_v (dev D - s_v/eta_d), dp_v/dt = -K_v (tr D + 3 p_v/eta_v), as in Uintah. The stresses rotate with
 /// the material; Uintah's do not.
 struct MwViscoElastic {
@@ -34,7 +35,7 @@ struct MwViscoElastic {
   static const input::Schema<MwViscoElastic>& schema() {
     using Self = MwViscoElastic;
     static const input::Schema<Self> schema =
-        input::Schema<Self>("mw_visco_elastic", "A spring beside a Maxwell element.")
+        input::Schema<Self>("mw_visco_elastic", "A spring in parallel with a Maxwell element.")
             .required("e_shear_modulus", &Self::springShear, "Pa", "G_e of the spring", input::nonNegative())
             .required("e_bulk_modulus", &Self::springBulk, "Pa", "K_e of the spring", input::nonNegative())
             .required("ve_shear_modulus", &Self::maxwellShear, "Pa", "G_v of the Maxwell element", input::positive())

@@ -114,7 +114,7 @@ struct NonlocalDruckerPrager {
   double plasticIncrement(double excess, double hardening) const {
     return std::max(excess / (stiffness() + hardening), 0.0);
   }
-  /// By how much the trial stress falls towards a surface that stays where it is, by the plastic strain, Pa.
+  /// The fall of the trial stress towards a fixed surface per plastic strain, Pa.
   double stiffness() const { return (shearModulus + 9 * bulkModulus * friction * dilation) / flowScale(); }
   /// Length of the gradient of the flow potential, 1.
   double flowScale() const { return std::sqrt(0.5 + 3 * dilation * dilation); }
@@ -141,7 +141,7 @@ struct NonlocalDruckerPrager {
     tags.check(checkConstants);
     return tags;
   }
-  /// Softening that outruns the fall of the trial stress leaves no stress on the surface.
+  /// If softening is faster than the fall of the trial stress, no stress is on the surface.
   static void checkConstants(const NonlocalDruckerPrager& read, const input::Element& element,
                              input::Diagnostics& diagnostics) {
     const double softest = read.localModulus + std::min(read.nonlocalModulus, 0.0), limit = -read.stiffness();

@@ -37,7 +37,7 @@ struct ViscoPlastic {
        {"p.yield", "Pa", "yield stress"},
        {"p.drag", "Pa", "drag stress"},
        {"p.localized", "1", "1 once it has failed"},
-       {"p.varf", "1", "what the stress (Pa) or strain exceeds when it fails"},
+       {"p.varf", "1", "stress (Pa) or strain beyond which it fails"},
        {"p.backstress", "Pa", "back stress", 9}}};
   static constexpr std::string_view name = "visco_plastic";
   static constexpr bool strainEnergyIsRate = true;

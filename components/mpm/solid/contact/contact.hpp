@@ -21,8 +21,8 @@ struct Motion {
   Vec3 centre = Vec3::Zero();           ///< m
   Vec3 angularVelocity = Vec3::Zero();  ///< 1/s
 
-  /// Velocity at a point, m/s, that brings it in dt to where it should be: the chord of its circle where the axis is
-  /// nearly one of the grid's (cos > 0.99), omega x r where it is oblique, as in Uintah.
+  /// Velocity of a point, m/s, that moves it in dt to its prescribed position: the chord of its circle where the axis
+  /// is nearly one of the grid's (cos > 0.99), omega x r where it is oblique, as in Uintah.
   Vec3 at(const Vec3& point, double dt) const;
 };
 
@@ -32,31 +32,32 @@ struct Contact {
     singleVelocity,     ///< they move as one: no slip, no separation
     specified,          ///< they follow a master, whose velocity may be given over time
     friction,           ///< they part freely and slide with Coulomb's friction
-    planeFriction,      ///< the same along the plane that separates their particles (see SeparatingPlane)
+    planeFriction,      ///< the same, along the plane that separates their particles (see SeparatingPlane)
     specifiedFriction,  ///< they part from a master, whose velocity may be given, and slide on it along such planes
   };
 
   Type type = Type::singleVelocity;
-  std::vector<int> materials;  ///< that take part; empty: all
+  std::vector<int> materials;  ///< the materials that take part; empty: all
   int master = 0;
   std::array<bool, 3> direction{false, false, true};     ///< along x, y, z the others follow the master
-  bool directionIsGiven = false;                         ///< by the scene
+  bool directionIsGiven = false;                         ///< whether the scene gives it
   double stopTime = std::numeric_limits<double>::max();  ///< s
   Vec3 velocityAfterStop = Vec3::Zero();                 ///< m/s
   Profile<Vec3> profile;                                 ///< the master's velocity, m/s; empty: it is free
   Profile<Vec3> centres, angularVelocity;                ///< m, 1/s: the master turns; empty: it does not
 
   bool actsTwice = true;  ///< on the velocities that came from the particles, too
-  int excluded = -1;      ///< where this material is, nothing follows a master or moves as one; -1: none
+  int excluded = -1;      ///< at nodes with this material, nothing follows a master or moves as one; -1: none
 
   double friction = 0;              ///< coefficient mu
   Profile<double> frictionOfColor;  ///< mu over p.color of the master instead of time; empty: mu is `friction`
-  bool onlyOnApproach = false;      ///< friction: what the stress presses together may part
+  bool onlyOnApproach = false;      ///< friction: bodies that the stress presses together may separate
   bool normalsInCells =
       false;  ///< friction: mass gradients are taken per cell, not per m, as axisymmetric ones in Uintah
-  bool keepsMomentum = false;   ///< friction: one normal for all, who are pressed where the stresses of all press
-  double separationFactor = 0;  ///< friction: farther apart than so many cells they do not touch
-  double volumeConstraint = 0;  ///< friction: the share of the volume around a node that must be filled for a contact
+  bool keepsMomentum = false;   ///< friction: one normal for all, which are pressed if the stresses of all press
+  double separationFactor = 0;  ///< friction: bodies farther apart than this many cells do not touch
+  double volumeConstraint =
+      0;  ///< friction: the fraction of the volume around a node that must be filled for a contact
 
   bool concerns(int material) const;
   /// Whether the others follow or meet a master.
@@ -71,7 +72,7 @@ struct Contact {
 
 /// The stage of the step whose velocity the records hold.
 enum class Moment {
-  start,  ///< what came from the particles
+  start,  ///< interpolated from the particles
   end,    ///< v* after the forces
 };
 
@@ -88,7 +89,7 @@ void followMaster(const Patch& patch, const Contact& contact, double time, doubl
 template <int D>
 Vec<D> masterVelocity(const Patch& patch, const Contact& contact, const std::optional<Motion>& motion, double dt,
                       const Records& records, const Index<D>& node);
-/// Below it a share of the mass at a node is what rounding has left of a body.
+/// A smaller fraction of the mass at a node is a rounding error.
 inline constexpr double leastShare = 1e-14;
 
 /// Whether a material is at a node: a particle whose edge is as far from it as shape functions reach may leave 1e-30 of
@@ -99,13 +100,13 @@ bool isPresent(const Records& records, int material, const Index<D>& node) {
   for (const auto& record : records) total += record[node][lane::mass];
   return total > 0 && records[material][node][lane::mass] >= leastShare * total;
 }
-/// Whether the material that keeps a contact from acting is at a node.
+/// Whether the material that disables a contact is at a node.
 template <int D>
 bool isExcluded(const Contact& contact, const Records& records, const Index<D>& node) {
   return contact.excluded >= 0 && records[contact.excluded][node][lane::mass] != 0;
 }
 
-/// The changes of velocity in a step other than those by stresses and loads.
+/// The changes of velocity in a step by other causes than stresses and loads.
 struct Acceleration {
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
   double damping = 0;           ///< 1/s

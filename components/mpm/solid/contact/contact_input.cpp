@@ -44,7 +44,7 @@ const input::Choices<Kind> kinds{{"null", Kind::none},
 const input::Lacking lackingKinds{
     {"penalty", "friction_bard"}, {"nodal_svf", "single_velocity"}, {"fluid", "single_velocity"}};
 
-/// Whether bodies slide and part.
+/// Whether bodies slide and separate.
 bool slides(Kind kind) { return kind == Kind::friction || kind == Kind::conservingFriction || kind == Kind::approach; }
 
 /// Whether bodies slide along the planes that separate their particles.
@@ -85,7 +85,8 @@ const Schema<FrictionTable>& frictionTableSchema() {
           .required("mu", &FrictionEntry::friction, "1", "coefficient there", input::nonNegative());
   static const Schema<FrictionTable> schema =
       Schema<FrictionTable>("variable_friction", "Friction by the color of the master.")
-          .list("entry", &FrictionTable::entries, entry, "colors ascend; straight between two, constant beyond", 2)
+          .list("entry", &FrictionTable::entries, entry,
+                "in the order of increasing color; linear between two entries, constant beyond", 2)
           .check([](const FrictionTable& table, const Element& element, Diagnostics& diagnostics) {
             input::refuseDescent(table.entries, &FrictionEntry::color, element.children("entry"),
                                  "its color is not above that of the previous one", diagnostics);
@@ -93,11 +94,11 @@ const Schema<FrictionTable>& frictionTableSchema() {
   return schema;
 }
 
-/// What contacts along planes need and cannot have.
+/// Checks what contacts along planes need and cannot have.
 void checkPlanes(const ContactSection& read, const Element& element, Diagnostics& diagnostics) {
   const bool byColor = read.kind == Kind::colorFriction;
   if (byColor && !read.frictionTable)
-    diagnostics.error(element, "missing tag <variable_friction> in <contact>: friction_LRVar takes its mu from there");
+    diagnostics.error(element, "missing tag <variable_friction> in <contact>: friction_LRVar takes its mu from it");
   if (byColor && !element.child("master_material"))
     diagnostics.error(element,
                       "missing tag <master_material> in <contact>: friction_LRVar takes its mu from that color");
@@ -125,16 +126,17 @@ void checkContact(const ContactSection& read, const Element& element, Diagnostic
   checkPlanes(read, element, diagnostics);
 }
 
-/// The kinds of contact, and who takes part.
+/// The kinds of contact, and the materials that take part.
 void addKinds(Schema<ContactSection>& contact) {
   requiredChoiceOrRefusal(
       contact, "type", &ContactSection::kind, kinds, lackingKinds,
-      "not at all; as one body; they follow a master, on which no stress acts, or which moves as prescribed (two "
-      "words for it); they part freely and slide with friction as in Uintah, which tests the pressure of each body by "
-      "itself (two words for it); the same, but all have one normal and are pressed where the stresses of all press, "
-      "which keeps momentum; as in Uintah, but only while they approach each other; they part freely, keep momentum "
+      "no contact; as one body; they follow a master, on which no stress acts, or whose motion is prescribed (two "
+      "names for it); they separate freely and slide with friction as in Uintah, which tests the pressure of each body "
+      "by itself (two names for it); the same, but all have one normal and are pressed if the stresses of all press, "
+      "which conserves momentum; as in Uintah, but only while they approach each other; they separate freely, conserve "
+      "momentum "
       "and slide with friction along the plane that separates their particles, found by logistic regression (Nairn, "
-      "Hammerquist & Smith 2020); the same with mu by the color of the master; they part from such a master, and "
+      "Hammerquist & Smith 2020); the same with mu by the color of the master; they separate from such a master, and "
       "slide on it along such planes");
   contact.optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; else all")
       .optional("OneOrTwoStep", &ContactSection::steps, "1",
@@ -143,7 +145,7 @@ void addKinds(Schema<ContactSection>& contact) {
                 input::between(1, 2))
       .optional("ExcludeMaterial", &ContactSection::excluded, "1",
                 "rigid, specified, single_velocity: does not act where this material is", input::nonNegative())
-      .ignored("vel_fields", "an old word for materials");
+      .ignored("vel_fields", "an older name of materials");
 }
 
 /// The motion of the master, for contacts that have one.
@@ -164,7 +166,7 @@ void addMaster(Schema<ContactSection>& contact) {
       .value("include_rotation", &ContactSection::turns, false, "1",
              "specified: the master turns, too; the lines of <filename> are `time vx vy vz cx cy cz wx wy wz`, with a "
              "point of the axis (m) and the angular velocity (1/s)")
-      .ignored("rigid_material", "an old word for master_material");
+      .ignored("rigid_material", "an older name of master_material");
 }
 
 void addFriction(Schema<ContactSection>& contact) {
@@ -173,8 +175,8 @@ void addFriction(Schema<ContactSection>& contact) {
                 input::nonNegative())
       .section("variable_friction", &ContactSection::frictionTable, frictionTableSchema())
       .value("separation_factor", &ContactSection::separationFactor, 9.9e99, "1",
-             "friction, approach (friction_LR and its like need none): bodies farther apart than so many cells do not "
-             "touch",
+             "friction, approach (friction_LR and its like need none): bodies farther apart than this many cells do "
+             "not touch",
              input::positive())
       .value("volume_constraint", &ContactSection::volumeConstraint, 0, "1",
              "friction, approach (friction_LR and its like need none): share of the volume around a node that bodies "
@@ -214,7 +216,7 @@ std::vector<double> readTable(const Element& tag, const std::string& path, std::
   return numbers;
 }
 
-/// Gives a contact the motion of its master, by a file.
+/// Gives a contact the motion of its master from a file.
 void readMotion(const Element& tag, const ContactSection& read, Contact& contact, Diagnostics& diagnostics) {
   const std::string path = (std::filesystem::path(tag.where().file).parent_path() / read.profileFile).string();
   const std::size_t columns = read.turns ? 10 : 4;

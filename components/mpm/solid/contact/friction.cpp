@@ -8,10 +8,10 @@ namespace {
 
 /// Below it a traction is round-off, Pa.
 constexpr double leastTraction = 1e-12;
-/// Mass gradients below it are not made normals of length 1, kg/m.
+/// Smaller mass gradients, kg/m, are not normalised.
 constexpr double leastGradient = 1e-15;
 
-/// All bodies that take part, seen from a node.
+/// All bodies that take part, at one node.
 template <int D>
 struct Gathering {
   Vec<D> momentum = Vec<D>::Zero(), position = Vec<D>::Zero();
@@ -55,7 +55,7 @@ bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) 
   return traction < -leastTraction;
 }
 
-/// Out of a body at a node; 0 if its mass does not change.
+/// The normal out of a body at a node; 0 if its mass has no gradient.
 template <int D>
 Vec<D> normalOf(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
                 std::size_t m, const Index<D>& node) {
@@ -82,13 +82,13 @@ bool arePressed(const Level& level, const Contact& contact, const Records& recor
   return true;
 }
 
-/// How far the others' mass lies from the body's at a node, m.
+/// The distance between the other bodies' mass and the body's at a node, m.
 template <int D>
 double separation(const Gathering<D>& all, const Vec<D>& position, double mass) {
   return ((all.position - position) / (all.mass - mass) - position / mass).norm();
 }
 
-/// What brings the greatest strain that a change of velocity makes in a step, over all bodies at the node, down to 1/2.
+/// The factor that limits the largest strain by a change of velocity in a step, over all bodies at the node, to 1/2.
 template <int D>
 double strainLimit(const Level& level, const Vec<D>& change, double dt, double massRatio) {
   double strain = 0;

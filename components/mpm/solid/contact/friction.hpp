@@ -17,7 +17,7 @@ struct Touch {
 template <int D>
 struct FrictionImpulse {
   Vec<D> change = Vec<D>::Zero();  ///< of the velocity, m/s
-  double heat = 0;                 ///< kinetic energy that friction takes, J/kg
+  double heat = 0;                 ///< kinetic energy dissipated by friction, J/kg
 };
 
 /// A body that is pressed against others or approaches them does not pass through, and slides by what friction with the
@@ -25,7 +25,7 @@ struct FrictionImpulse {
 template <int D>
 FrictionImpulse<D> frictionImpulse(const Touch<D>& touch, double mu);
 
-/// The surface of a body, as the nodes see it.
+/// The surface of a body at the nodes.
 template <int D>
 struct ContactSurface {
   NodeView<const Vec<D>> massGradient;  ///< sum_p m_p grad S_i: out of the body, kg/m; axisymmetric kg/m^4
@@ -45,8 +45,8 @@ template <int D>
 using Surfaces = std::vector<ContactSurface<D>>;
 using FrictionHeats = std::vector<std::optional<NodeView<double>>>;
 
-/// Applies the impulses of friction to all materials that take part, where their volumes and distance are as the
-/// contact says. A change that would strain a cell by more than a half is cut down to that. Adds the heat to `heat`.
+/// Applies the impulses of friction to all materials that take part, where their volumes and distance satisfy the
+/// contact. A change that would strain a cell by more than a half is cut down to that. Adds the heat to `heat`.
 ///
 /// As in Uintah the normal of a body is half the difference of its mass gradient and of the mean, by mass, of those of
 /// all others, in axisymmetric scenes per cell, and its own stress says whether it is pressed, so that of three bodies,

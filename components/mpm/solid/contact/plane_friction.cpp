@@ -12,7 +12,7 @@ namespace {
 
 constexpr int mostSteps = 51;
 constexpr double tolerance = 1e-7;
-/// Below it the mass of a body at a node is nothing, kg; as in Uintah.
+/// A body's mass at a node below this is ignored, kg; as in Uintah.
 constexpr double leastMass = 1e-16;
 
 /// A step of the regression: (J^T J + lambda) change = J^T (c - f) - lambda phi.

@@ -22,12 +22,12 @@ struct SidedParticle {
 template <int D>
 Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double width);
 
-/// How a body sees a plane that separates bodies at nodes.
+/// The plane that separates bodies at nodes, from the side of one body.
 template <int D>
 struct SeparatingPlane {
   /// Out of the body, of length 1, where it has most mass of those that meet at the node; 0 elsewhere.
   std::optional<NodeView<const Vec<D>>> normal;
-  /// How far its particles reach along that normal, m: the farthest of the body with most mass, the nearest of others.
+  /// The extent of its particles along that normal, m: the farthest of the body with most mass, the nearest of others.
   std::optional<NodeView<const double>> prominence;
   std::optional<NodeView<const double>> color;  ///< mean of its p.color by mass
 
@@ -49,8 +49,7 @@ inline constexpr double noProminence = -std::numeric_limits<double>::max();
 template <int D>
 void slideAlongPlanes(const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes);
 
-/// The master moves as `motion` says, or as it does; what overlaps and approaches it is stopped, and slowed by
-/// friction.
+/// The master moves by `motion`, or freely; bodies that overlap and approach it are stopped, and slowed by friction.
 template <int D>
 void slideOnMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
                    const SeparatingPlanes<D>& planes);

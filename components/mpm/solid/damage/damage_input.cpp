@@ -30,7 +30,7 @@ const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
   using Self = JohnsonCookDamage;
   static const Schema<Self> schema = [] {
     Schema<Self> tags("damage_model",
-                      "Johnson's and Cook's; a particle fails where p.damage is 1 (in Uintah nothing does).");
+                      "Johnson and Cook's damage; a particle fails when p.damage reaches 1 (in Uintah none does).");
     tags.required("D1", &Self::d1, "1", "fracture strain without stress")
         .required("D2", &Self::d2, "1", "factor of exp(D3 s*)")
         .required("D3", &Self::d3, "1", "factor of the triaxiality")
@@ -47,7 +47,8 @@ const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
 const Schema<HancockMackenzieDamage>& HancockMackenzieDamage::schema() {
   using Self = HancockMackenzieDamage;
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("damage_model", "Hancock's and Mackenzie's, p.damage: as in Uintah no particle fails by it.");
+    Schema<Self> tags("damage_model",
+                      "Hancock and Mackenzie's damage, p.damage; as in Uintah no particle fails by it.");
     tags.ignored("critical_scalar_damage", "as in Uintah no particle fails by this damage");
     declareStart(tags);
     return tags;
@@ -58,7 +59,7 @@ const Schema<HancockMackenzieDamage>& HancockMackenzieDamage::schema() {
 const Schema<BrittleDamage>& BrittleDamage::schema() {
   using Self = BrittleDamage;
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("damage_model", "Of brittle materials: the stress falls once a threshold is passed.");
+    Schema<Self> tags("damage_model", "Damage of brittle materials: the stress falls once a threshold is passed.");
     tags.value("brittle_damage_initial_threshold", &Self::threshold, 57, "Pa^(1/2)", "r_0", input::positive())
         .value("brittle_damage_fracture_energy", &Self::fractureEnergy, 11.2, "J/m^2", "G_f", input::positive())
         .value("brittle_damage_constant_D", &Self::shape, 0.1, "1", "shape of the softening", input::positive())
@@ -98,7 +99,7 @@ void declareThreshold(Schema<Self>& tags) {
               Distribution::constant, "how the threshold differs from particle to particle")
       .value("failure_seed", of<Self>(&Base::seed), 0, "1", "other numbers, other thresholds; not those of Uintah")
       .choice("scaling", of<Self>(&Base::scalesWithVolume), {{"none", false}, {"kayenta", true}}, false,
-              "small particles bear more: (reference_volume / volume)^(1/exponent)")
+              "small particles are stronger: (reference_volume / volume)^(1/exponent)")
       .optional("reference_volume", of<Self>(&Base::referenceVolume), "m^3", "where nothing is scaled",
                 input::positive())
       .optional("exponent", of<Self>(&Base::exponent), "1", "of the scaling; Weibull's modulus if left out",
@@ -181,7 +182,7 @@ const Schema<Erosion>& erosionSchema() {
                {"AllowNoShear", Algorithm::allowNoShear},
                {"PreserveStress", Algorithm::preserveStress}},
               "a failed particle bears pressure only, nothing, mean stress only, or is only marked")
-          .value("char_time", &Erosion::relaxationTime, 1e-99, "s", "time in which lost stress fades to 1/e",
+          .value("char_time", &Erosion::relaxationTime, 1e-99, "s", "time in which the lost stress decays to 1/e",
                  input::positive());
   return schema;
 }

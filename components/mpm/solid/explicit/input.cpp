@@ -46,9 +46,10 @@ struct MpmSection {
   std::string deformationFile;
 };
 
-/// What works against compression and motion.
+/// Artificial viscosity and damping.
 void addDissipation(Schema<MpmSection>& mpm) {
-  mpm.value("artificial_viscosity", &MpmSection::artificialViscosity, false, "1", "pressure against compression")
+  mpm.value("artificial_viscosity", &MpmSection::artificialViscosity, false, "1",
+            "artificial viscosity: a pressure that opposes compression")
       .value("artificial_viscosity_coeff1", &MpmSection::linearViscosity, 0.2, "1", "factor of c |D| h",
              input::nonNegative())
       .value("artificial_viscosity_coeff2", &MpmSection::quadraticViscosity, 2, "1", "factor of D^2 h^2",
@@ -56,14 +57,14 @@ void addDissipation(Schema<MpmSection>& mpm) {
       .optional("artificial_viscosity_heating", &MpmSection::viscosityHeats, "1",
                 "the work of the artificial viscosity heats elastic_plastic and elastic_plastic_hp: true by default, "
                 "if there is one")
-      .value("artificial_damping_coeff", &MpmSection::damping, 0, "1/s", "acceleration against the velocity",
-             input::nonNegative());
+      .value("artificial_damping_coeff", &MpmSection::damping, 0, "1/s",
+             "damping: an acceleration opposed to the velocity", input::nonNegative());
 }
 
-/// What keeps single particles and nodes from ruling the run.
+/// Limits for single particles and nodes.
 void addLimits(Schema<MpmSection>& mpm) {
   mpm.value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
-            "no particle may be as light as that (Uintah removes them)", input::nonNegative())
+            "every particle must be heavier (Uintah removes lighter ones)", input::nonNegative())
       .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
              "lighter nodes are only accelerated by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
@@ -73,7 +74,7 @@ void addLimits(Schema<MpmSection>& mpm) {
              "of L dt up to power n instead");
 }
 
-/// When stresses are brought forward, and how velocities go from the grid to the particles.
+/// When stresses are updated, and how velocities go from the grid to the particles.
 void addUpdates(Schema<MpmSection>& mpm) {
   mpm.choice("stress_update", &MpmSection::stressUpdate,
              {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
@@ -85,7 +86,7 @@ void addUpdates(Schema<MpmSection>& mpm) {
       .value("UseGradientEnhancedVelocityProjection", &MpmSection::projectsGradient, false, "1",
              "particles add their velocity gradient to the velocity that they give to nodes; without heat conduction")
       .value("pic_fraction", &MpmSection::picFraction, 0, "1",
-             "share of the grid's own velocity in what particles get; the rest is FLIP", input::between(0, 1))
+             "fraction of PIC in the velocity update of particles; the rest is FLIP", input::between(0, 1))
       .ours()
       .value("apic", &MpmSection::affine, false, "1",
              "affine particle-in-cell: particles take the grid's velocity and a moment of it that keeps rotation")
@@ -94,17 +95,17 @@ void addUpdates(Schema<MpmSection>& mpm) {
              "of older versions of Uintah: true is <stress_update> musl");
 }
 
-/// Bodies that are driven through a deformation.
+/// Prescribed deformation of bodies.
 void addPrescribedDeformation(Schema<MpmSection>& mpm) {
   mpm.value("UsePrescribedDeformation", &MpmSection::prescribesDeformation, false, "1",
             "all bodies move as <PrescribedDeformationFile> prescribes, whatever their stress")
       .value("PrescribedDeformationFile", &MpmSection::deformationFile, "time_defgrad_rotation", "1",
              "a file of points in time, each 14 numbers: time (s), the components of the deformation gradient row by "
              "row, and the angle (degrees) and axis of a rotation on the way there");
-  refuseSwitch(mpm, "exactDeformation", "give <Time> a delt_max that leads from point to point");
+  refuseSwitch(mpm, "exactDeformation", "give <Time> a delt_max no longer than from point to point");
 }
 
-/// The space, what acts from outside, and heat.
+/// Geometry, external loads, and heat.
 void addSurroundings(Schema<MpmSection>& mpm) {
   mpm.value("axisymmetric", &MpmSection::axisymmetric, false, "1",
             "x is the radius and y the axis; mass, energy and forces are per radian")
@@ -175,8 +176,8 @@ constexpr std::array implicitOnly{"with_gauss_solver",
                                   "delT_increase_factor",
                                   "temperature_solve"};
 
-/// Uintah shrinks domains with a corner farther from the middle than so many cells, except for axisymmetric ones. Here
-/// none reaches farther than a cell along an axis, so that its corners are at most 3^(1/2) cells away.
+/// Uintah shrinks domains with a corner farther from the middle than `cpdi_lcrit` cells, except for axisymmetric ones.
+/// Here none reaches farther than a cell along an axis, so that its corners are at most 3^(1/2) cells away.
 void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("cpdi_lcrit");
   if (!given || read.interpolator != Interpolator::cpdi) return;
@@ -189,7 +190,7 @@ void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& d
                       "from its middle along an axis is shrunk to that");
 }
 
-/// What Uintah has and this method has not, or always does.
+/// Tags of Uintah for features that this method lacks, or always has.
 void addForeign(Schema<MpmSection>& mpm) {
   addForeignTags(mpm);
   for (const char* tag : implicitOnly) mpm.ignored(tag, "belongs to the implicit method");
@@ -267,7 +268,7 @@ void refuseFlat(const Level& level, const Location& where) {
                        "needs a grid in three dimensions: more than one cell along x, y and z"}});
 }
 
-/// With use_CBDI_boundary_condition pressures say which faces of particles they act on.
+/// With use_CBDI_boundary_condition pressures specify the faces of particles on which they act.
 void checkCorners(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const auto loads = root.child("PhysicalBC");
   if (!problem.method.loadsAtCorners || !loads) return;
@@ -281,7 +282,7 @@ void checkCorners(const Problem& problem, const Element& root, Diagnostics& diag
       diagnostics.error(pressure, "missing tag <outward_normal>: needed with <use_CBDI_boundary_condition>");
 }
 
-/// Refuses settings of contacts that other parts of the method exclude.
+/// Refuses settings of contacts that conflict with other parts of the method.
 void checkContactsOfMethod(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Contact& contact : problem.contacts) {
     if (problem.start.axisymmetric && contact.volumeConstraint > 0 && !contact.usesPlanes())
@@ -293,7 +294,7 @@ void checkContactsOfMethod(const Problem& problem, const Element& root, Diagnost
   }
 }
 
-/// Loads that something else in the scene would put out of effect.
+/// Refuses loads that would have no effect because of another setting.
 void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const Loads& loads = problem.start.loads;
   if (problem.start.solution && (loads.hasForces() || loads.hasHeat()))

@@ -11,7 +11,7 @@ MethodKind kind();
 /// Prints the manual of the sections.
 void describe(std::ostream& out);
 
-/// Makes solids that something surrounds; where `areRigid`, their stresses exert no force.
+/// Makes solids in a surrounding medium; if `areRigid`, their stresses exert no force.
 using MakeSurrounded = std::function<std::unique_ptr<Solids>(const Level& level, bool areRigid,
                                                              std::shared_ptr<const Surroundings> surroundings)>;
 /// Reads the solids of a scene that also has a gas; empty if there are problems, which go to the diagnostics.

@@ -155,7 +155,7 @@ void SolidMpm<D>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const {
                       record, particles, computes(p::affineMoment));
 }
 
-/// The velocity that stresses follow, where that is not the one of the motion; `moving` reads that of the particles.
+/// The velocity that stresses follow, if it is not that of the motion; `moving` reads that of the particles.
 template <int D>
 void SolidMpm<D>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) const {
   const int reach = shapes_.reach;

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Reads variables as they were at the start of the step, or as the step has them.
+/// Reads variables from the start of the step, or as the step has computed them.
 struct Reads {
   bool isNew;
 
@@ -30,7 +30,7 @@ class SolidsOf : public Solids {
   bool measuresWork() const override { return true; }
 
  protected:
-  /// Forces, volumes and stresses on the nodes, for what shows or measures them.
+  /// Forces, volumes and stresses on the nodes, for outputs and measurements.
   virtual void scheduleShowOnGrid(TaskList& tasks, Reads stressed) const = 0;
   void scheduleApplyExternalLoads(TaskList& tasks) const;
   void scheduleCornerLoads(TaskList& tasks) const;

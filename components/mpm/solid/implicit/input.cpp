@@ -47,17 +47,23 @@ struct Section {
 void declareSteps(Schema<Section>& schema) {
   schema
       .value("convergence_criteria_disp", &Section::displacement, 1e-10, "1",
-             "Newton ends: square of the last change of the displacement over that of the greatest", input::positive())
-      .value("convergence_criteria_energy", &Section::energy, 4e-10, "1",
-             "and: last change times the residual before it, over the first", input::positive())
+             "Newton's iteration ends once the square of the last change of the displacement over that of the largest "
+             "is below this",
+             input::positive())
+      .value(
+          "convergence_criteria_energy", &Section::energy, 4e-10, "1",
+          "and the product of the last change and the residual before it, over the first such product, is below this",
+          input::positive())
       .value("iters_before_timestep_restart", &Section::maxIterations, 25, "1",
-             "more of Newton's iterations: the step is repeated with half the time step", input::atLeast(1))
+             "most iterations of Newton's method; beyond it, the step is repeated with half the time step",
+             input::atLeast(1))
       .value("num_iters_to_decrease_delT", &Section::decrease, 12, "1",
-             "so many of them make the next time step shorter", input::atLeast(1))
-      .value("num_iters_to_increase_delT", &Section::increase, 4, "1", "with at most so many, the next time step grows",
-             input::nonNegative())
-      .value("delT_decrease_factor", &Section::decreaseFactor, 0.6, "1", "how much shorter", input::between(0.1, 1))
-      .value("delT_increase_factor", &Section::increaseFactor, 2, "1", "how much longer", input::atLeast(1));
+             "with this many iterations or more, the next time step is shorter", input::atLeast(1))
+      .value("num_iters_to_increase_delT", &Section::increase, 4, "1",
+             "with at most this many, the next time step grows", input::nonNegative())
+      .value("delT_decrease_factor", &Section::decreaseFactor, 0.6, "1", "factor by which it is shorter",
+             input::between(0.1, 1))
+      .value("delT_increase_factor", &Section::increaseFactor, 2, "1", "factor by which it grows", input::atLeast(1));
 }
 
 /// In Uintah, nodes then keep the temperatures of the first step, from which every step conducts anew.
@@ -98,9 +104,9 @@ const Schema<Section>& sectionSchema() {
             "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic");
     declareSteps(mpm);
     mpm.choice("solver", &Section::solver, {{"petsc", 0}, {"simple", 0}, {"amgx", 0}}, 0,
-               "what solves the linear systems: PETSc, under three words")
+               "the linear solver: PETSc, under any of three names")
         .section("Solver", &Section::linear, solvers::tangentSchema(),
-                 "how; conduction of heat takes the same, or where it is left out conjugate gradients")
+                 "its settings, also for the conduction of heat, whose default is conjugate gradients")
         .ours()
         .value("use_load_curves", &Section::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
         .value("withColor", &Section::withColor, false, "1",

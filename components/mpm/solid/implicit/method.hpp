@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// How an implicit step is taken; names and defaults are Uintah's.
+/// Settings of implicit steps; names and defaults are Uintah's.
 struct ImplicitMethod {
   bool dynamic = true;        ///< Newmark's method; else without inertia, and each step ends at rest
   bool resetsGrid = true;     ///< else the grid moves with the solid: shape functions at the starting positions
@@ -13,12 +13,12 @@ struct ImplicitMethod {
   solvers::NewtonSettings newton;
   bool conductsHeat = false;
   solvers::LinearSettings heat;   ///< where heat is conducted
-  int iterationsToDecrease = 12;  ///< a step that took so many makes the next one shorter
+  int iterationsToDecrease = 12;  ///< a step with at least this many makes the next one shorter
   int iterationsToIncrease = 4;   ///< a step that took no more makes the next one longer
   double decreaseFactor = 0.6;
   double increaseFactor = 2;
 
-  /// The next time step, s, at most, after one of `dt` [s] that took so many iterations.
+  /// The largest next time step, s, after one of `dt` [s] that took `iterations` iterations.
   double nextTimeStep(double dt, int iterations) const {
     if (iterations >= iterationsToDecrease) return decreaseFactor * dt;
     return iterations <= iterationsToIncrease ? increaseFactor * dt : dt;

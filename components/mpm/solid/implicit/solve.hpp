@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// The solid keeps the velocity that a face has, and does not pass a symmetry plane.
+/// The solid has the velocity of a face, and does not cross a symmetry plane.
 template <int D>
 void prescribeFaces(ImplicitSystem<D>& system, double dt) {
   const Level& level = system.nodes().level();
@@ -48,7 +48,7 @@ std::vector<PointSources<D>> sourcesOf(const RankPatches& patches, const std::ve
   return sources;
 }
 
-/// Why Newton's method failed, where the residual was greatest, and what to try.
+/// Why Newton's method failed, where the residual was largest, and what to try.
 template <int D>
 NumericalError failureOf(const solvers::Outcome& outcome, const ImplicitSystem<D>& system) {
   const NodeMap<D>& nodes = system.nodes();

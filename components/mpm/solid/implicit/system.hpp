@@ -38,7 +38,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   solvers::Unknowns unknowns() const;
   /// Sets the displacement of a node along an axis to `value`, m.
   void prescribe(int node, int d, double value);
-  /// The displacement of each node at its velocity, m, or the prescribed one.
+  /// The displacement of each node by its velocity, m, or the prescribed one.
   std::vector<double> guess() const;
 
   bool residual(std::span<const double> u, std::span<double> r) override;

@@ -89,7 +89,7 @@ PrescribedDeformation::PrescribedDeformation(std::vector<Point> points) : points
   for (const Point& point : points_) turned_.push_back(turned = rotation(point.angle, point.axis) * turned);
 }
 
-/// What F and its rate are made of.
+/// The factors of F and of its rate.
 struct PrescribedDeformation::Moment {
   Matrix3 stretched, rate;  ///< F_s, and its derivative, 1/s
   Matrix3 turned, now;      ///< Q_0 and Q

@@ -9,9 +9,8 @@
 
 namespace tushar::mpm::solid {
 
-/// A deformation that a body is driven through, homogeneous in space: F(t) runs straight between points in time, and
-/// the body turns by an angle about an axis on the way to each point. It goes on straight beyond the first and the last
-/// point.
+/// A prescribed deformation, homogeneous in space: F(t) runs straight between points in time, and the body turns by an
+/// angle about an axis on the way to each point. It goes on straight beyond the first and the last point.
 class PrescribedDeformation {
  public:
   struct Point {

@@ -16,7 +16,7 @@
 
 namespace tushar::mpm::solid {
 
-/// How the particles of a scene start, apart from their bodies.
+/// Settings for the start of particles, apart from their bodies.
 struct Start {
   bool axisymmetric = false;
   Loads loads;
@@ -119,7 +119,7 @@ void addSeeds(const Level& level, const Start& start, const Material& material, 
   }
 }
 
-/// How many cells particles may be moved from where they are made.
+/// The distance in cells by which particles may be displaced at the start.
 inline int cellsMovedAtStart(const Level& level, const Start& start) {
   const double farthest = start.solution ? start.solution->farthestAtStart() : 0.0;
   return static_cast<int>(std::ceil(farthest / level.minSpacing()));

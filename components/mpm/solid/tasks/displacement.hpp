@@ -13,7 +13,7 @@ void addDisplacement(const Patch&, const Material&, ParticleView<const Vec<D>> x
   for (int p = 0; p < x.owned(); ++p) newDisplacement[p] = displacement[p] + (newX[p] - x[p]);
 }
 
-/// Where particles are, also in a grid that goes along with them, which their x do not leave: x_p + u_p there.
+/// Positions of particles, also in a grid that moves with them, in which their x stay: x_p + u_p there.
 template <int D>
 void findDeformedPosition(const Patch&, const Material&, ParticleView<const Vec<D>> x,
                           const std::optional<ParticleView<const Vec<D>>>& displacement, ParticleView<Vec<D>> where) {

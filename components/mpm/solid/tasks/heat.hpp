@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid {
 
-/// A temperature is given on a side of the grid (Dirichlet), or what it falls by per metre outwards (Neumann).
+/// A side of the grid has a given temperature (Dirichlet), or its given fall per metre outwards (Neumann).
 template <int D>
 void setTemperature(const Patch& patch, int material, NodeView<double> field) {
   for (int d = 0; d < D; ++d)

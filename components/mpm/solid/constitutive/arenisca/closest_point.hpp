@@ -25,8 +25,8 @@ struct Invariants {
   Invariants(double i1_, double rootJ2_, LodeAngle theta_) : i1(i1_), rootJ2(rootJ2_), theta(theta_) {}
 };
 
-/// Where f, which rises from below 0 to above, crosses 0, by bisection to the last bit but a few; an end if it does
-/// not.
+/// The root of f, which rises from below 0 to above, by bisection to all but the last few bits; an end if there is
+/// none.
 template <class F>
 double crossing(double low, double high, const F& f) {
   const double width = 1e-14 * std::max(std::abs(low), std::abs(high));
@@ -37,7 +37,7 @@ double crossing(double low, double high, const F& f) {
   return 0.5 * (low + high);
 }
 
-/// Where f, which falls to its least value and rises again, is least: the golden section.
+/// The minimum of f, which falls to it and rises again: the golden section.
 template <class F>
 double least(double low, double high, const F& f) {
   constexpr double golden = std::numbers::phi - 1;
@@ -86,7 +86,7 @@ class ClosestPoint {
  private:
   static constexpr double root3 = std::numbers::sqrt3;
 
-  /// How far the trial lies outside the section at z, times d(r)/d(radius) of the nearest point there.
+  /// The distance of the trial outside the section at z, times d(r)/d(radius) of the nearest point there.
   double gapOf(double z, double trialRadius, LodeAngle trialTheta) const {
     const double radius = stretch_ * surface_.radius(root3 * z);
     if (trialRadius <= radius * surface_.lodeFactor(trialTheta)) return 0;

@@ -17,8 +17,8 @@ struct Constants {
   double pressureSlope = 0;  ///< YSLOPE: -d(sqrt J2)/dI1 at high pressure, 1
   double flowFactor = 1;     ///< beta: of the deviator in the space of closest points; 1: associated flow
   double b0 = 0, b1 = 0;     ///< bulk modulus at low pressure, and what high pressure adds, Pa
-  double b2 = 0;             ///< pressure that takes, times 3, Pa
-  double b3 = 0, b4 = 0;     ///< reduction of the bulk modulus by plastic compaction, Pa; strain that takes, 1
+  double b2 = 0;             ///< the pressure for that, times 3, Pa
+  double b3 = 0, b4 = 0;     ///< reduction of the bulk modulus by plastic compaction, Pa; the strain for that, 1
   double g0 = 0;             ///< shear modulus, Pa
   double g1 = 0, g2 = 0;     ///< Poisson's ratio at low pressure, and what high pressure adds, 1; 0: G = g0
   double p0 = 0;             ///< I1 at which pores begin to collapse, Pa

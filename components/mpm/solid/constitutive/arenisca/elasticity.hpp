@@ -30,7 +30,7 @@ inline double lossOfBulk(const Constants& c, double plasticStrain) {
   return plasticStrain < 0 ? c.b3 * std::exp(c.b4 / plasticStrain) : 0.0;
 }
 
-/// Share of pores in the unloaded, saturated material.
+/// Porosity of the unloaded, saturated material.
 inline double currentPorosity(const Constants& c, double plasticStrain) {
   const double pores = c.porosity() * std::exp(plasticStrain * c.matrixBulk() / c.mixedBulk());
   return pores / ((1 - c.porosity()) * std::exp(plasticStrain * c.fluidBulk / c.mixedBulk()) + pores);
@@ -82,7 +82,7 @@ inline double greatestShear(const Constants& c) {
   return greatest;
 }
 
-/// I1 less its part of the fluid at the end of the cap, Pa: the crush curve
+/// I1 without the part of the fluid, at the end of the cap, Pa: the crush curve
 /// X = p0 + ln(1 + e_p / p3) / p1 for -p3 < e_p <= 0 and X = p0 (1 + e_p)^(1 / (p0 p1 p3)) beyond, times K / K_dry
 /// where a fluid fills the pores. Once all have collapsed, there is no end.
 inline double capEnd(const Constants& c, double plasticStrain) {

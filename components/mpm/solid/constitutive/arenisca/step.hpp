@@ -92,8 +92,8 @@ class Substep {
   double stiffness_;     ///< of the fluid, Pa
 };
 
-/// In how many parts a step is taken that leaves the yield surface with a tangent cap: `mostSubsteps` for every 0.1 %
-/// of strain, or for every length of the surface if that is less stress. A step that stays within needs no parts.
+/// Number of parts of a step that leaves the yield surface with a tangent cap: `mostSubsteps` for every 0.1 % of
+/// strain, or for every length of the surface if that is less stress. A step that stays within needs no parts.
 inline int substepsOfTangentCap(const Constants& c, const Point& start, const Matrix3& strain) {
   const Matrix3 change = Moduli{c.b0, c.g0}.stress(strain);
   const Invariants trial(start.stress + change);
@@ -104,8 +104,8 @@ inline int substepsOfTangentCap(const Constants& c, const Point& start, const Ma
   return int(std::ceil(std::clamp(c.mostSubsteps * (std::floor(change.norm() / size) + 1), 1.0, most)));
 }
 
-/// In how many parts a step is taken: more than one where the bulk modulus changes by more than its value, or the
-/// stress by more than 1/`sharpness` of the size of the yield surface.
+/// Number of parts of a step: more than one where the bulk modulus changes by more than its value, or the stress by
+/// more than 1/`sharpness` of the size of the yield surface.
 inline int substeps(const Constants& c, const Point& start, const Matrix3& strain, double sharpness) {
   if (c.hasTangentCap()) return substepsOfTangentCap(c, start, strain);
   const Matrix3 change = Moduli{c.matrixBulk(), c.g0}.stress(strain);

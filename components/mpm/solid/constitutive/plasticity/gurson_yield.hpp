@@ -21,8 +21,8 @@ struct VonMisesYield {
 };
 
 /// Metals with pores, (q/sigma_y)² + 2 q1 f* cosh(3 q2 p / (2 sigma_y)) = 1 + q3 f*² with the equivalent stress q, the
-/// mean stress p (tension positive) and the share f of pores, f* = f up to f_c and f_c + k (f - f_c) beyond: Gurson, J.
-/// Eng. Mater. Technol. 99 (1977) 2; Tvergaard & Needleman, Acta Metall. 32 (1984) 157.
+/// mean stress p (tension positive) and the porosity f, f* = f up to f_c and f_c + k (f - f_c) beyond: Gurson, J. Eng.
+/// Mater. Technol. 99 (1977) 2; Tvergaard & Needleman, Acta Metall. 32 (1984) 157.
 struct GursonYield {
   static constexpr std::string_view name = "gurson";
   double q1 = 1.5, q2 = 1, q3 = 2.25;
@@ -32,13 +32,13 @@ struct GursonYield {
   static const input::Schema<GursonYield>& schema() {
     static const input::Schema<GursonYield> schema =
         input::Schema<GursonYield>("yield_condition", "Of metals with pores: Gurson, Tvergaard and Needleman.")
-            .required("q1", &GursonYield::q1, "1", "factor of the pores", input::positive())
+            .required("q1", &GursonYield::q1, "1", "factor of the porosity", input::positive())
             .required("q2", &GursonYield::q2, "1", "factor of the mean stress", input::positive())
-            .required("q3", &GursonYield::q3, "1", "factor of the square of the pores, q1^2 as a rule",
+            .required("q3", &GursonYield::q3, "1", "factor of the square of the porosity, q1^2 as a rule",
                       input::nonNegative())
-            .required("k", &GursonYield::acceleration, "1", "by how much pores count more once they grow together",
+            .required("k", &GursonYield::acceleration, "1", "factor on the porosity above f_c, where pores coalesce",
                       input::positive())
-            .required("f_c", &GursonYield::criticalPorosity, "1", "share of pores from which on they do",
+            .required("f_c", &GursonYield::criticalPorosity, "1", "porosity at which pores begin to coalesce",
                       input::between(0, 1));
     return schema;
   }
@@ -46,7 +46,8 @@ struct GursonYield {
   double effective(double f) const {
     return std::min(f > criticalPorosity ? criticalPorosity + acceleration * (f - criticalPorosity) : f, greatest());
   }
-  /// The least root of 1 + q3 f*² = 2 q1 f*, where no strength is left, 1/q1 if q3 = q1²; or where it is least.
+  /// The smallest root of 1 + q3 f*² = 2 q1 f*, at which no strength is left, 1/q1 if q3 = q1²; without a root, the
+  /// minimum.
   double greatest() const { return q3 > q1 * q1 ? q1 / q3 : 1 / (q1 + std::sqrt(q1 * q1 - q3)); }
   /// (q/sigma_y)² on the yield surface, at p by sigma_y; negative where it bears no q.
   double square(double p, double f) const {
@@ -58,7 +59,7 @@ struct GursonYield {
   double dilatancy(double p, double f) const { return 3 * q1 * q2 * effective(f) * std::sinh(argument(p)); }
 
  private:
-  /// Kept where cosh is a number; no metal bears that.
+  /// Limited so that cosh does not overflow; no metal bears that.
   double argument(double p) const { return std::clamp(1.5 * q2 * p, -300.0, 300.0); }
 };
 
@@ -72,14 +73,14 @@ class GursonReturn {
  public:
   /// The state of the point after the step.
   struct Result {
-    double plasticStrain = 0;  ///< of the metal, more, 1
-    double dilatation = 0;     ///< plastic, more, 1
+    double plasticStrain = 0;  ///< increment for the metal, 1
+    double dilatation = 0;     ///< plastic increment, 1
     double equivalent = 0;     ///< q at the end, Pa
     double mean = 0;           ///< p at the end, Pa
     double work = 0;           ///< plastic, J/m^3
   };
 
-  /// `nucleation` is the share of new pores by the plastic strain, 1; without a number the pores do not change.
+  /// `nucleation` is the porosity that nucleates per plastic strain, 1; without a value the pores do not change.
   GursonReturn(const GursonYield& surface, YieldStress yieldStress, MeanStress meanStress, double shearModulus,
                double porosity, std::optional<double> nucleation)
       : surface_(surface),

@@ -38,13 +38,13 @@ struct CopperHeat {
     using Self = CopperHeat;
     static const input::Schema<Self> schema =
         input::Schema<Self>("specific_heat_model", "A cubic in T below a temperature, a straight line above: copper.")
-            .value("T_transition", &Self::transition, 270, "K", "where they meet", input::positive())
+            .value("T_transition", &Self::transition, 270, "K", "temperature at which they meet", input::positive())
             .value("A_LowT", &Self::a0, 0.0000416, "J/(kg K^4)", "factor of T^3, below")
             .value("B_LowT", &Self::b0, 0.027, "J/(kg K^3)", "factor of -T^2, below")
             .value("C_LowT", &Self::c0, 6.21, "J/(kg K^2)", "factor of T, below")
-            .value("D_LowT", &Self::d0, 142.6, "J/(kg K)", "what is taken away, below")
+            .value("D_LowT", &Self::d0, 142.6, "J/(kg K)", "constant that is subtracted, below")
             .value("A_HighT", &Self::a1, 0.1009, "J/(kg K^2)", "factor of T, above")
-            .value("B_HighT", &Self::b1, 358.4, "J/(kg K)", "what is added, above");
+            .value("B_HighT", &Self::b1, 358.4, "J/(kg K)", "constant that is added, above");
     return schema;
   }
   double specificHeat(const HeatState& s, double) const {
@@ -76,7 +76,7 @@ struct SteelHeat {
             .value("n_HighT", &Self::n1, 0.35, "1", "n, above");
     return schema;
   }
-  /// At T_c itself as one kelvin below, as in Uintah.
+  /// At T_c itself the value one kelvin below it, as in Uintah.
   double specificHeat(const HeatState& s, double) const {
     const double away = s.temperature == transition ? -1 : s.temperature - transition;
     const double t = away / transition;

@@ -28,7 +28,7 @@ struct LoadedParticles {
             .deformation = take(requiresOld(p::deformationMeasure, reach)),
             .loadCurves = take(requiresOld(p::loadCurves, reach))};
   }
-  /// Particle p as a box. Along axes that the grid leaves out its edge is 1 m at the start.
+  /// Particle p as a parallelepiped. Along axes that the grid leaves out its edge is 1 m at the start.
   ParticleBox box(const Level& level, const Vec3& commonSize, int p) const {
     Vec3 edges = Vec3::Ones();
     for (int d = 0; d < D; ++d)

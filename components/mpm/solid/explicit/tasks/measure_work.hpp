@@ -10,18 +10,18 @@
 
 namespace tushar::mpm::solid {
 
-// What works on particles in a step: forces with w = (v + v*)/2 of the nodes, what holds nodes at a velocity with that
-// velocity, and the mean of the stresses before and after with the change of F. The method itself takes the rest of the
-// change of kinetic energy: a step of FLIP something of first order in dt (Bardenhagen, J. Comput. Phys.
-// 180 (2002) 383); APIC, PIC and XPIC by the viscosity of their transfer; contact what two bodies lose that come to
-// move as one.
+// The work on particles in a step: of forces with w = (v + v*)/2 of the nodes, of constraints that hold nodes at a
+// velocity with that velocity, and of the mean of the stresses before and after with the change of F. The rest of the
+// change of kinetic energy is dissipated by the method itself: by FLIP to first order in dt (Bardenhagen, J. Comput.
+// Phys. 180 (2002) 383); by APIC, PIC and XPIC through the viscosity of their transfer; by contact as two bodies come
+// to move as one.
 
 /// The numbers of p.work, as in total::work.
 namespace works {
 inline constexpr int external = 0, boundary = 1, contact = 2, dissipated = 3, strain = 4, plastic = 5, start = 6;
 }
 
-/// Nothing has been done yet.
+/// No work has been done at the start.
 template <int D>
 void startWork(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                ParticleView<p::Works> work) {
@@ -150,8 +150,7 @@ inline void measureStrainWork(const Patch&, const Material& material, const Stra
   }
 }
 
-/// Takes from the work of the stresses what plastic flow has taken: V (3/2 s:s)^(1/2) times the change of
-/// p.plasticStrain.
+/// Separates plastic work from the work of the stresses: V (3/2 s:s)^(1/2) times the change of p.plasticStrain.
 inline void measurePlasticWork(const Patch&, const Material& material, int stateSize,
                                ParticleView<const double> oldState, ParticleView<const double> state,
                                ParticleView<const double> volume, ParticleView<const Matrix3> stress,

@@ -5,7 +5,7 @@
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/transfer/placed.hpp"
 
-// The planes that separate bodies at the nodes where several meet (see SeparatingPlane), as Uintah has them.
+// The planes that separate bodies at the nodes where several meet (see SeparatingPlane), as in Uintah.
 
 namespace tushar::mpm::solid {
 

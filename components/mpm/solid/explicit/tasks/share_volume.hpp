@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Whose change of volume the stress of a particle answers to.
+/// The change of volume from which the stress of a particle follows.
 enum class Volumes {
   own,    ///< its own
   shared  ///< that of all sound particles of its material in the cell

@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::solid {
 
-/// How many cells the fastest of some waves crosses in a second; not a number if the speed of one is not.
+/// Cells that the fastest of several waves crosses per second; NaN if a speed is NaN.
 template <int D>
 class CrossingRate {
  public:

@@ -5,7 +5,7 @@
 #include "components/mpm/solid/transfer/extent.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
 
-// Materials that transmit force: each moves as one rigid body by the sum of what acts on it, as in Uintah.
+// Materials that transmit force: each moves as one rigid body by the sum of the forces on it, as in Uintah.
 
 namespace tushar::mpm::solid {
 
@@ -28,7 +28,7 @@ struct RigidMotion {
   ParticleView<const double> mass;
   ParticleView<const Vec<D>> externalForce;
   NodeView<const Vec<D>> transmitted;
-  std::optional<NodeView<const Vec<D>>> surrounding;  ///< the force of what surrounds it, where something does
+  std::optional<NodeView<const Vec<D>>> surrounding;  ///< the force of the surrounding medium, if there is one
   NodeView<NodeRecord> record;
 
   static RigidMotion from(auto& take, int reach, bool isSurrounded) {
@@ -41,7 +41,7 @@ struct RigidMotion {
   }
 };
 
-/// Adds the loads on a material within a patch, and the forces that contact and what surrounds it transmit to it.
+/// Adds the loads on a material within a patch, and the forces that contact and the surrounding medium exert on it.
 template <int D>
 void addPull(const Patch& patch, const RigidMotion<D>& u, Pull& pull) {
   for (int p = 0; p < u.mass.owned(); ++p) {

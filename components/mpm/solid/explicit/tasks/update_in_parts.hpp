@@ -5,8 +5,8 @@
 
 namespace tushar::mpm::solid {
 
-// The two halves of interpolateToParticlesAndUpdate, for schedules that do not keep them together: stresses first in
-// the step, or last with velocities that went to the grid once more.
+// The two halves of interpolateToParticlesAndUpdate, for schedules that separate them: stresses first in the step, or
+// last with velocities interpolated to the grid once more.
 
 /// The variables with which x and v reach the end of a step.
 template <int D>

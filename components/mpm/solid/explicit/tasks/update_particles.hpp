@@ -15,7 +15,7 @@
 
 namespace tushar::mpm::solid {
 
-/// In how many steps F is brought to the end of a time step: more than `least` where |L| dt is large.
+/// Number of substeps for F in a time step: more than `least` where |L| dt is large.
 inline int subcyclesForF(double squaredNorm, int least) {
   if (squaredNorm < 1) return least;
   return std::min(std::max(least, 2 * static_cast<int>(std::sqrt(std::min(squaredNorm, 1e8)))), 10000);
@@ -92,7 +92,7 @@ void placePoints(const Level& level, const StateUpdate<D>& u, double time, int f
   points.time = time;
 }
 
-/// Particles `first` and those after it as a constitutive model takes them. `velocityGradient` is that of the first.
+/// Particles from `first` on, in the form for a constitutive model. `velocityGradient` is that of the first.
 template <int D>
 StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* velocityGradient, int first, int count,
                           StressResults& results) {
@@ -113,7 +113,7 @@ StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* vel
           .strainEnergyDensity = u.strainEnergy ? results.energyDensity.data() : nullptr};
 }
 
-/// The artificial viscosity's work on a volume per mass that grows by so much, m^3/kg.
+/// The work of the artificial viscosity when the volume per mass grows by `growth`, m^3/kg.
 template <int D>
 void heatByViscosity(const Material& material, double growth, const StateUpdate<D>& u, int p) {
   const double heat = -(*u.viscosity)[p] * growth;
@@ -193,9 +193,9 @@ NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, con
       "", "p.deformationMeasure", level.cellNumber<D>(cell)};
 }
 
-/// F, the stress and what goes with it at the end of the step, of the patch's own particles, and how long a step each
-/// cell may take. Calls `move(p, sums)` for what each particle gathers from the grid. Throws NumericalError where a
-/// wave has no speed. The step starts at `time`, s.
+/// F, the stress and related quantities at the end of the step, of the patch's own particles, and the stable time step
+/// of each cell. Calls `move(p, sums)` for what each particle gathers from the grid. Throws NumericalError where a wave
+/// has no speed. The step starts at `time`, s.
 template <class Shape, Volumes volumes, class Move, int D = Shape::dimension>
 void updateParticles(const Patch& patch, const Material& material, const Method& method, double time, double dt,
                      const StateUpdate<D>& u, Move&& move) {

@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::solid {
 
-// What may follow FLIP in a step, to take the noise out of the particles' velocities. The records hold v* and v.
+// Optional updates after FLIP, which remove noise from the particles' velocities. The records hold v* and v.
 
 /// v_p = (1 - a) v_p^FLIP + a sum_i S_i v*_i: the PIC of Harlow, Meth. Comput. Phys. 3 (1964) 319, where a = 1.
 template <class Shape, int D = Shape::dimension>
@@ -30,7 +30,7 @@ void computeSSPlusVp(const Patch& patch, const Material&, const Vec3& commonSize
   });
 }
 
-/// A particle that has become faster than the greatest speed is slowed down to 9/10 of it, as in Uintah.
+/// A particle faster than the maximum speed is slowed down to 9/10 of it, as in Uintah.
 template <int D>
 void limitVelocity(const Patch&, const Material&, double greatest, ParticleView<const Vec<D>> oldVelocity,
                    ParticleView<Vec<D>> velocity) {
