@@ -30,8 +30,9 @@ void computeAndIntegrateAcceleration(const Patch& patch, const Material& materia
 template <class Shape, int D = Shape::dimension>
 void setGridBoundaryConditions(const Patch& patch, const Material& material, ParticleView<const Vec<D>> x,
                                NodeView<NodeRecord> record) {
-  setVelocity<D>(patch, material.index, touchedRows<Shape>(x), record);
-  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, record);
+  const data::TouchedRows& rows = touchedRows<Shape>(x);
+  setVelocity<D>(patch, material.index, rows, record);
+  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, rows, record);
 }
 
 }  // namespace tushar::mpm::solid
