@@ -68,18 +68,21 @@ struct ConvectedShape {
     /// Calls `visit(node, S, gradient)` for every node of the cells around, in the same order for every particle.
     template <class Visit>
     void forEachNode(Visit&& visit) const {
+      std::array<double, around> value{};
+      std::array<Vec<D>, around> gradient;
+      gradient.fill(Vec<D>::Zero());
+      for (const Corner& at : corner)
+        for (int k = 0; k < corners; ++k) {
+          const std::size_t node = numberOf(at.cell, k);
+          value[node] += share * at.weights[k];
+          gradient[node] += at.weights[k] * at.slope;
+        }
       Box offsets{{}, Index3::filled(1)};
       for (int d = 0; d < D; ++d) offsets.upper[d] = nodes;
+      std::size_t next = 0;
       forEach<D>(offsets, [&](const Index<D>& node) {
-        double value = 0;
-        Vec<D> gradient = Vec<D>::Zero();
-        for (const Corner& at : corner) {
-          const int k = nodeOfCell(node, at.cell);
-          if (k < 0) continue;
-          value += share * at.weights[k];
-          gradient += at.weights[k] * at.slope;
-        }
-        if (value != 0) visit(first + node, value, gradient);
+        if (value[next] != 0) visit(first + node, value[next], gradient[next]);
+        ++next;
       });
     }
 
@@ -92,6 +95,14 @@ struct ConvectedShape {
     }
 
    private:
+    static constexpr std::size_t around = D == 1 ? nodes : D == 2 ? nodes * nodes : nodes * nodes * nodes;
+
+    /// The number of node k of a cell among those of the cells around.
+    static std::size_t numberOf(const Index<D>& cell, int k) {
+      std::size_t number = 0;
+      for (int d = D - 1; d >= 0; --d) number = number * nodes + static_cast<std::size_t>(cell[d] + ((k >> d) & 1));
+      return number;
+    }
     /// In the cell that a point at `xi`, in cells from that of the particle, lies in.
     static void place(Corner& corner, const Vec<D>& xi) {
       Vec<D> within;

@@ -58,22 +58,33 @@ struct TensorShape {
 
     /// Calls `visit(node, S, gradient)` in the same order of nodes for every particle.
     template <class Visit>
-    void forEachNode(Visit&& visit) const {
-      Box offsets{{}, Index3::filled(1)};
-      for (int d = 0; d < D; ++d) offsets.upper[d] = Axis::nodes;
-      forEach<D>(offsets, [&](const Index<D>& k) {
-        double value = 1;
-        Vec<D> gradient = Vec<D>::Ones();
-        for (int d = 0; d < D; ++d) {
-          const std::size_t node = k[d];
-          value *= s[node][d];
-          for (int e = 0; e < D; ++e) gradient[e] *= (e == d ? ds : s)[node][d];
-        }
-        visit(first + k, value, gradient);
-      });
+    [[gnu::always_inline]] void forEachNode(Visit&& visit) const {
+      constexpr int n = Axis::nodes;
+      Index<D> k;
+      if constexpr (D == 1) {
+        for (k[0] = 0; k[0] < n; ++k[0]) visitNode(k, visit);
+      } else if constexpr (D == 2) {
+        for (k[1] = 0; k[1] < n; ++k[1])
+          for (k[0] = 0; k[0] < n; ++k[0]) visitNode(k, visit);
+      } else {
+        for (k[2] = 0; k[2] < n; ++k[2])
+          for (k[1] = 0; k[1] < n; ++k[1])
+            for (k[0] = 0; k[0] < n; ++k[0]) visitNode(k, visit);
+      }
     }
 
    private:
+    template <class Visit>
+    [[gnu::always_inline]] void visitNode(const Index<D>& k, Visit&& visit) const {
+      double value = 1;
+      Vec<D> gradient = Vec<D>::Ones();
+      for (int d = 0; d < D; ++d) {
+        const std::size_t node = k[d];
+        value *= s[node][d];
+        for (int e = 0; e < D; ++e) gradient[e] *= (e == d ? ds : s)[node][d];
+      }
+      visit(first + k, value, gradient);
+    }
     /// Along the first axis, where that is the radius.
     void fillRadially(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent) {
       const double inverse = frame.inverseSpacing[0];

@@ -10,6 +10,13 @@ bool Contact::concerns(int material) const {
   return materials.empty() || std::find(materials.begin(), materials.end(), material) != materials.end();
 }
 
+std::vector<std::size_t> Contact::bodies(std::size_t count) const {
+  std::vector<std::size_t> found;
+  for (std::size_t m = 0; m < count; ++m)
+    if (concerns(static_cast<int>(m))) found.push_back(m);
+  return found;
+}
+
 namespace {
 
 /// The value of a profile at a time.
@@ -71,19 +78,18 @@ bool isAt(const Contact& contact, const Records& records, const Index<D>& node) 
 
 template <int D>
 void moveAsOne(const Patch&, const Contact& contact, const Records& records) {
+  const std::vector<std::size_t> bodies = contact.bodies(records.size());
   forEach<D>(records.front().box(), [&](const Index<D>& node) {
     if (isExcluded<D>(contact, records, node)) return;
     Vec<D> momentum = Vec<D>::Zero();
     double total = 0;
-    for (std::size_t m = 0; m < records.size(); ++m) {
-      if (!contact.concerns(static_cast<int>(m))) continue;
+    for (const std::size_t m : bodies) {
       const NodeRecord& record = records[m][node];
       momentum += record[lane::mass] * lanes<D>(record, lane::velocity);
       total += record[lane::mass];
     }
     if (total == 0) return;
-    for (std::size_t m = 0; m < records.size(); ++m)
-      if (contact.concerns(static_cast<int>(m))) setLanes<D>(records[m][node], lane::velocity, momentum / total);
+    for (const std::size_t m : bodies) setLanes<D>(records[m][node], lane::velocity, momentum / total);
   });
 }
 

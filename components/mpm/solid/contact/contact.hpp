@@ -60,6 +60,8 @@ struct Contact {
       0;  ///< friction: the fraction of the volume around a node that must be filled for a contact
 
   bool concerns(int material) const;
+  /// The materials among the first `count` that take part.
+  std::vector<std::size_t> bodies(std::size_t count) const;
   /// Whether the others follow or meet a master.
   bool hasMaster() const { return type == Type::specified || type == Type::specifiedFriction; }
   /// Whether bodies touch along planes that separate their particles.

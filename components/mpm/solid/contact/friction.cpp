@@ -20,12 +20,19 @@ struct Gathering {
   std::size_t steepest = 0;        ///< that body
 };
 
+/// Whether more than one of some bodies has mass at a node.
 template <int D>
-Gathering<D> gatherBodies(const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
+bool meet(const std::vector<std::size_t>& bodies, const Records& records, const Index<D>& node) {
+  int count = 0;
+  for (const std::size_t m : bodies) count += records[m][node][lane::mass] > 0;
+  return count > 1;
+}
+
+template <int D>
+Gathering<D> gatherBodies(const std::vector<std::size_t>& bodies, const Records& records, const Surfaces<D>& surfaces,
                           const Index<D>& node) {
   Gathering<D> all;
-  for (std::size_t m = 0; m < records.size(); ++m) {
-    if (!contact.concerns(static_cast<int>(m))) continue;
+  for (const std::size_t m : bodies) {
     const NodeRecord& record = records[m][node];
     all.momentum += record[lane::mass] * lanes<D>(record, lane::velocity);
     all.position += surfaces[m].position[node];
@@ -116,11 +123,13 @@ void applyFriction(const Patch& patch, const Contact& contact, double dt, const 
   const double reach = contact.separationFactor * std::cbrt(level.cellVolume());
   const double leastVolume = contact.volumeConstraint * level.cellVolume();
   const Box nodes = records.front().box();
+  const std::vector<std::size_t> bodies = contact.bodies(records.size());
   forEach<D>(contact.keepsMomentum ? nodes : nodes.intersect(level.nodesOfCells()), [&](const Index<D>& node) {
-    const Gathering<D> all = gatherBodies<D>(contact, records, surfaces, node);
-    if (all.mass == 0 || all.normal.isZero() || all.volume <= leastVolume) return;
+    if (!meet<D>(bodies, records, node)) return;
+    const Gathering<D> all = gatherBodies<D>(bodies, records, surfaces, node);
+    if (all.normal.isZero() || all.volume <= leastVolume) return;
     const bool together = contact.keepsMomentum && arePressed<D>(level, contact, records, surfaces, all, node);
-    for (std::size_t m = 0; m < records.size(); ++m) {
+    for (const std::size_t m : bodies) {
       NodeRecord& record = records[m][node];
       const double mass = record[lane::mass], others = all.mass - mass;
       if (!isThere<D>(contact, records, all.mass, m, node) || others < leastShare * all.mass) continue;

@@ -21,17 +21,31 @@ inline void sumThermalEnergy(const Patch&, const Material& material, ParticleVie
   for (int p = 0; p < mass.owned(); ++p) sum.add(mass[p] * material.specificHeat * temperature[p]);
 }
 
+/// Adds to a VectorSum by lanes that do not wait for one another.
+struct WideVectorSum {
+  WideSum x, y, z;
+
+  explicit WideVectorSum(VectorSum& sum) : x(sum.x), y(sum.y), z(sum.z) {}
+  void add(const Vec3& v) {
+    x.add(v[0]);
+    y.add(v[1]);
+    z.add(v[2]);
+  }
+};
+
 /// sum_p m_p v_p, kg m/s.
 template <int D>
 void sumMomentum(const Patch& patch, const Material&, ParticleView<const double> mass,
                  ParticleView<const Vec<D>> velocity, VectorSum& total) {
-  for (int p = 0; p < mass.owned(); ++p) total.add(mass[p] * patch.level().expandDirection<D>(velocity[p]));
+  WideVectorSum sum(total);
+  for (int p = 0; p < mass.owned(); ++p) sum.add(mass[p] * patch.level().expandDirection<D>(velocity[p]));
 }
 /// sum_p m_p x_p, kg m.
 template <int D>
 void sumCenterOfMass(const Patch& patch, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> x,
                      VectorSum& total) {
-  for (int p = 0; p < mass.owned(); ++p) total.add(mass[p] * patch.level().expandPoint<D>(x[p]));
+  WideVectorSum sum(total);
+  for (int p = 0; p < mass.owned(); ++p) sum.add(mass[p] * patch.level().expandPoint<D>(x[p]));
 }
 
 /// sum_p m_p x_p x v_p about the origin of x, y, z, and of APIC's B_p: sum_p m_p (B_kj - B_jk) (Jiang & al. 2015).

@@ -48,8 +48,7 @@ void interpolateTemperatureToGrid(const Patch& patch, const Material& material, 
   const Box& box = h.capacity.box();
   forEachStencil<Shape>(patch, h.particles.x.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
     const double heat = h.mass[p] * material.specificHeat;
-    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
-      if (!box.contains(node)) return;
+    forEachNodeWithin(stencil, box, [&](const Index<D>& node, double s, const Vec<D>&) {
       h.capacity[node] += s * heat;
       h.temperatureNoBC[node] += s * heat * h.particleTemperature[p];
     });
@@ -94,8 +93,9 @@ void computeInternalHeatRate(const Patch& patch, const Material& material, const
         [&](const Index<D>& node, double, const Vec<D>& gradient) { slope += h.temperature[node] * gradient; });
     const double volume = h.mass[p] / density * (*h.particles.deformation)[p].determinant();
     slope *= -material.thermalConductivity * volume;
-    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
-      if (box.contains(node)) h.heatRate[node] += gradient.dot(slope) + (h.heatFlux ? s * (*h.heatFlux)[p] : 0.0);
+    const double flux = h.heatFlux ? (*h.heatFlux)[p] : 0.0;
+    forEachNodeWithin(stencil, box, [&](const Index<D>& node, double s, const Vec<D>& gradient) {
+      h.heatRate[node] += gradient.dot(slope) + s * flux;
     });
   });
 }

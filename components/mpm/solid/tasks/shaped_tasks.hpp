@@ -14,14 +14,18 @@ struct ShapedTasks {
   ShapeTraits shape;
   decltype(&solid::interpolateTemperatureToGrid<LinearShape<D>>) interpolateTemperatureToGrid;
   decltype(&solid::updateTemperature<LinearShape<D>>) updateTemperature;
-  decltype(&solid::showOnGrid<LinearShape<D>>) showOnGrid;
+  decltype(&solid::showMotion<LinearShape<D>>) showMotion;
+  decltype(&solid::showForce<LinearShape<D>>) showForce;
+  decltype(&solid::showStress<LinearShape<D>>) showStress;
 };
 template <class Shape, int D = Shape::dimension>
 constexpr ShapedTasks<D> shapedTasks() {
   return {.shape = traitsOf<Shape>,
           .interpolateTemperatureToGrid = interpolateTemperatureToGrid<Shape>,
           .updateTemperature = updateTemperature<Shape>,
-          .showOnGrid = showOnGrid<Shape>};
+          .showMotion = showMotion<Shape>,
+          .showForce = showForce<Shape>,
+          .showStress = showStress<Shape>};
 }
 
 template <int D>
@@ -38,12 +42,21 @@ void scheduleTemperatureUpdate(TaskList& tasks, const ShapedTasks<D>& shaped, co
                     all<HeatToParticles<D>>(shaped.shape.ghostNodes, keepsSizes), requiresOld(delT));
 }
 
-/// `volume` and `stress` read those of particles, with the ghost cells that shape functions reach.
+/// Each in a task of its own, as a scene may need the forces in every step and the rest for outputs alone. `volume` and
+/// `stress` read those of particles, with the ghost cells that shape functions reach.
 template <int D, class Volume, class Stress>
 void scheduleShowOnGrid(TaskList& tasks, const ShapedTasks<D>& shaped, const std::vector<Material>& materials,
                         const Vec3& commonSize, KeptSizes keepsSizes, Volume volume, Stress stress) {
-  tasks.perMaterial("mpm::showOnGrid", shaped.showOnGrid, materials, with(commonSize),
-                    all<GridPicture<D>>(shaped.shape.reach, keepsSizes, volume, stress));
+  const int reach = shaped.shape.reach;
+  const auto particles = all<StressedParticles<D>>(reach, keepsSizes, volume, stress);
+  tasks.perMaterial("mpm::showMotion", shaped.showMotion, materials, with(commonSize),
+                    all<MotionPicture<D>>(reach, keepsSizes));
+  tasks.perMaterial("mpm::showForce", shaped.showForce, materials, with(commonSize), particles, computes(g::volume),
+                    computes(g::internalForce<D>));
+  tasks.perMaterial("mpm::showStress", shaped.showStress, materials, with(commonSize), particles,
+                    requiresNew(g::volume), computes(g::stress));
+  tasks.perMaterial("mpm::showAcceleration", showAcceleration<D>, materials, requiresNew(g::mass),
+                    requiresNew(g::internalForce<D>), computes(g::acceleration<D>));
 }
 
 }  // namespace tushar::mpm::solid

@@ -24,66 +24,104 @@ inline void computeStress(const Patch&, const Material& material, ParticleView<c
   for (int p = 0; p < deformation.owned(); ++p) stress[p] /= deformation[p].determinant();
 }
 
-/// Particles, and their state on the grid.
+/// Mass and velocity of the particles on the grid.
 template <int D>
-struct GridPicture {
+struct MotionPicture {
   Placed<D> particles;
   ParticleView<const double> particleMass;
   ParticleView<const Vec<D>> particleVelocity;
-  ParticleView<const double> particleVolume;
-  ParticleView<const Matrix3> particleStress;
-  NodeView<double> mass, volume;
-  NodeView<Vec<D>> velocity, force, acceleration;
-  NodeView<Matrix3> stress;
+  NodeView<double> mass;
+  NodeView<Vec<D>> velocity;
 
-  /// `volume` and `stress` read those of particles, with the ghost cells that shape functions reach.
-  static GridPicture from(auto& take, int reach, KeptSizes keepsSizes, auto volume, auto stress) {
+  static MotionPicture from(auto& take, int reach, KeptSizes keepsSizes) {
     return {.particles = Placed<D>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
             .particleMass = take(requiresOld(p::mass, reach)),
             .particleVelocity = take(requiresOld(p::velocity<D>, reach)),
-            .particleVolume = take(volume),
-            .particleStress = take(stress),
             .mass = take(computes(g::mass)),
-            .volume = take(computes(g::volume)),
-            .velocity = take(computes(g::velocity<D>)),
-            .force = take(computes(g::internalForce<D>)),
-            .acceleration = take(computes(g::acceleration<D>)),
-            .stress = take(computes(g::stress))};
+            .velocity = take(computes(g::velocity<D>))};
   }
 };
 
-/// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i, f_i = - sum_p V_p sigma_p grad S_i (and - V_p sigma_theta
-/// S_i / r where axisymmetric) and f_i / m_i before any contact or boundary condition; V_i = sum_p S_i V_p,   sigma_i =
-/// sum_p S_i V_p sigma_p / V_i. 0 at nodes without mass.
+/// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i; 0 at nodes without mass.
 template <class Shape, int D = Shape::dimension>
-void showOnGrid(const Patch& patch, const Material&, const Vec3& commonSize, const GridPicture<D>& picture) {
+void showMotion(const Patch& patch, const Material&, const Vec3& commonSize, const MotionPicture<D>& picture) {
   picture.mass.fill(0.0);
-  picture.volume.fill(0.0);
   picture.velocity.fill(Vec<D>::Zero());
-  picture.force.fill(Vec<D>::Zero());
-  picture.stress.fill(Matrix3::Zero());
   const Box& box = picture.mass.box();
-  const Level& level = patch.level();
-  forEachStencil<Shape>(
-      patch, picture.particles.x.cells(), picture.particles, commonSize, [&](int p, const auto& stencil) {
-        const Matrix3 moment = picture.particleVolume[p] * picture.particleStress[p];
-        stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
-          if (!box.contains(node)) return;
-          picture.mass[node] += s * picture.particleMass[p];
-          picture.volume[node] += s * picture.particleVolume[p];
-          picture.velocity[node] += s * picture.particleMass[p] * picture.particleVelocity[p];
-          picture.stress[node] += s * moment;
-          for (int i = 0; i < D; ++i)
-            for (int d = 0; d < D; ++d)
-              picture.force[node][i] -= moment(sceneAxis<D>(level, i), sceneAxis<D>(level, d)) * gradient[d];
-          if constexpr (Shape::axisymmetric) picture.force[node][0] -= moment(2, 2) * hoopOf(stencil, node);
-        });
-      });
+  forEachStencil<Shape>(patch, picture.particles.x.cells(), picture.particles, commonSize,
+                        [&](int p, const auto& stencil) {
+                          const double mass = picture.particleMass[p];
+                          const Vec<D> v = picture.particleVelocity[p];
+                          forEachNodeWithin(stencil, box, [&](const Index<D>& node, double s, const Vec<D>&) {
+                            picture.mass[node] += s * mass;
+                            picture.velocity[node] += s * mass * v;
+                          });
+                        });
   forEach<D>(box, [&](const Index<D>& node) {
     if (picture.mass[node] > 0) picture.velocity[node] /= picture.mass[node];
-    if (picture.volume[node] > 0) picture.stress[node] /= picture.volume[node];
-    picture.acceleration[node] =
-        picture.mass[node] > 0 ? Vec<D>(picture.force[node] / picture.mass[node]) : Vec<D>(Vec<D>::Zero());
+  });
+}
+
+/// Particles whose volume and stress act on the grid; `volume` and `stress` read them, with the ghost cells that shape
+/// functions reach.
+template <int D>
+struct StressedParticles {
+  Placed<D> placed;
+  ParticleView<const double> volume;
+  ParticleView<const Matrix3> stress;
+
+  static StressedParticles from(auto& take, int reach, KeptSizes keepsSizes, auto volume, auto stress) {
+    return {.placed = Placed<D>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
+            .volume = take(volume),
+            .stress = take(stress)};
+  }
+};
+
+/// V_i = sum_p S_i V_p,   f_i = - sum_p V_p sigma_p grad S_i (and - V_p sigma_theta S_i / r where axisymmetric), before
+/// any contact or boundary condition; 0 at nodes without mass.
+template <class Shape, int D = Shape::dimension>
+void showForce(const Patch& patch, const Material&, const Vec3& commonSize, const StressedParticles<D>& particles,
+               NodeView<double> volume, NodeView<Vec<D>> force) {
+  volume.fill(0.0);
+  force.fill(Vec<D>::Zero());
+  const Level& level = patch.level();
+  forEachStencil<Shape>(
+      patch, particles.placed.x.cells(), particles.placed, commonSize, [&](int p, const auto& stencil) {
+        const Matrix3 moment = particles.volume[p] * particles.stress[p];
+        Eigen::Matrix<double, D, D> across;
+        for (int i = 0; i < D; ++i)
+          for (int d = 0; d < D; ++d) across(i, d) = moment(sceneAxis<D>(level, i), sceneAxis<D>(level, d));
+        forEachNodeWithin(stencil, volume.box(), [&](const Index<D>& node, double s, const Vec<D>& gradient) {
+          volume[node] += s * particles.volume[p];
+          for (int i = 0; i < D; ++i)
+            for (int d = 0; d < D; ++d) force[node][i] -= across(i, d) * gradient[d];
+          if constexpr (Shape::axisymmetric) force[node][0] -= moment(2, 2) * hoopOf(stencil, node);
+        });
+      });
+}
+
+/// sigma_i = sum_p S_i V_p sigma_p / V_i; 0 at nodes without mass.
+template <class Shape, int D = Shape::dimension>
+void showStress(const Patch& patch, const Material&, const Vec3& commonSize, const StressedParticles<D>& particles,
+                NodeView<const double> volume, NodeView<Matrix3> stress) {
+  stress.fill(Matrix3::Zero());
+  forEachStencil<Shape>(
+      patch, particles.placed.x.cells(), particles.placed, commonSize, [&](int p, const auto& stencil) {
+        const Matrix3 moment = particles.volume[p] * particles.stress[p];
+        forEachNodeWithin(stencil, stress.box(),
+                          [&](const Index<D>& node, double s, const Vec<D>&) { stress[node] += s * moment; });
+      });
+  forEach<D>(stress.box(), [&](const Index<D>& node) {
+    if (volume[node] > 0) stress[node] /= volume[node];
+  });
+}
+
+/// f_i / m_i; 0 at nodes without mass.
+template <int D>
+void showAcceleration(const Patch&, const Material&, NodeView<const double> mass, NodeView<const Vec<D>> force,
+                      NodeView<Vec<D>> acceleration) {
+  forEach<D>(mass.box(), [&](const Index<D>& node) {
+    acceleration[node] = mass[node] > 0 ? Vec<D>(force[node] / mass[node]) : Vec<D>(Vec<D>::Zero());
   });
 }
 

@@ -8,20 +8,26 @@ namespace tushar::mpm::solid {
 /// Nothing moves through a symmetry plane, and no force acts across: both vectors of a record have no normal component
 /// there, and the nodes beyond it mirror those inside. On the nodes of the view's box.
 template <int D>
-void setSymmetry(const Patch& patch, int material, NodeView<NodeRecord> record) {
+void setSymmetry(const Patch& patch, int material, const data::TouchedRows& rows, NodeView<NodeRecord> record) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) {
       if (!patch.isAtBoundary(d, side) || !patch.level().isSymmetry(d, side, material)) continue;
       const int face = side == 0 ? patch.cells().lower[d] : patch.cells().upper[d];
-      forEach<D>(patch.faceNodes(d, side).intersect(record.box()),
-                 [&](const Index<D>& node) { record[node][lane::velocity + d] = record[node][lane::force + d] = 0; });
-      forEach<D>(patch.nodesBeyond(d, side).intersect(record.box()), [&](const Index<D>& node) {
-        Index<D> image = node;
-        image[d] = 2 * face - node[d];
-        NodeRecord value = record[image];
-        value[lane::velocity + d] = -value[lane::velocity + d];
-        value[lane::force + d] = -value[lane::force + d];
-        record[node] = value;
+      const auto at = [&](const Index3& node) -> NodeRecord& {
+        return record.values()[record.stored().offset(node)];
+      };
+      rows.forEachRow(patch.faceNodes(d, side).intersect(record.box()), [&](Index3 node, int end) {
+        for (; node[0] < end; ++node[0]) at(node)[lane::velocity + d] = at(node)[lane::force + d] = 0;
+      });
+      rows.forEachRow(patch.nodesBeyond(d, side).intersect(record.box()), [&](Index3 node, int end) {
+        for (; node[0] < end; ++node[0]) {
+          Index3 image = node;
+          image[d] = 2 * face - node[d];
+          NodeRecord value = at(image);
+          value[lane::velocity + d] = -value[lane::velocity + d];
+          value[lane::force + d] = -value[lane::force + d];
+          at(node) = value;
+        }
       });
     }
 }

@@ -112,4 +112,18 @@ void forEachStencil(const Patch& patch, const Box& cells, ParticleView<const Vec
   });
 }
 
+/// Calls `visit(node, S, gradient)` for the nodes of a stencil that lie within a box, in the order of all.
+template <class Stencil, class Visit, int D = Stencil::dimension>
+[[gnu::always_inline]] inline void forEachNodeWithin(const Stencil& stencil, const Box& box, Visit&& visit) {
+  bool areAll = true;
+  for (int d = 0; d < D; ++d)
+    areAll = areAll && stencil.first[d] >= box.lower[d] && stencil.first[d] + Stencil::nodes <= box.upper[d];
+  if (areAll)
+    stencil.forEachNode(visit);
+  else
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
+      if (box.contains(node)) visit(node, s, gradient);
+    });
+}
+
 }  // namespace tushar::mpm::solid

@@ -4,6 +4,7 @@
 
 #include "components/mpm/solid/constitutive/arenisca/elasticity.hpp"
 #include "components/mpm/solid/constitutive/arenisca/yield_surface.hpp"
+#include "components/mpm/solid/constitutive/root_between.hpp"
 
 namespace tushar::mpm::solid::arenisca {
 
@@ -71,6 +72,7 @@ class ClosestPoint {
   /// For the trial stress, by its invariants.
   Invariants operator()(const Invariants& trial) const {
     const double at = (trial.i1 - surface_.zeta()) / root3, radius = stretch_ * trial.rootJ2;
+    if (surface_.capLength() > 0) return onCone(at, radius, trial.theta);
     const double first = surface_.end() / root3, last = surface_.vertex() / root3;
     const double near = std::clamp(at, first, last);
     const double distance = std::hypot(at - near, radius);
@@ -86,6 +88,30 @@ class ClosestPoint {
  private:
   static constexpr double root3 = std::numbers::sqrt3;
 
+  /// On a cone with a tangent cap: the foot on the line r = B (z_vertex - z) in closed form, the vertex, or the point
+  /// of the ellipse.
+  Invariants onCone(double at, double radius, LodeAngle theta) const {
+    const double vertex = surface_.vertex() / root3, steepness = -surface_.slope(surface_.vertex()) * root3 * stretch_;
+    const double ahead = (vertex - at + steepness * radius) / (1 + steepness * steepness);  // of the foot
+    if (ahead <= 0) return {surface_.vertex() + surface_.zeta(), 0, theta};
+    const double z = vertex - ahead;
+    const bool isOutside = radius > steepness * (vertex - at);
+    if (!isOutside || root3 * z < surface_.branch()) return onEllipse(at, radius, theta);
+    return {root3 * z + surface_.zeta(), steepness * ahead / stretch_, theta};
+  }
+  /// On the cap (-a cos phi, b sin phi) about its middle, where the distance stops falling with phi.
+  Invariants onEllipse(double at, double radius, LodeAngle theta) const {
+    const double a = surface_.capLength() / root3, b = surface_.capHeight() * stretch_;
+    const double middle = surface_.end() / root3 + a, away = at - middle;
+    const double touch = std::acos(std::clamp((middle - surface_.branch() / root3) / a, -1.0, 1.0));
+    const auto slope = [&](double phi) {
+      const double sine = std::sin(phi), cosine = std::cos(phi);
+      return (b * b - a * a) * sine * cosine - away * a * sine - radius * b * cosine;
+    };
+    double phi = 0;
+    if (radius > 0) phi = slope(touch) <= 0 ? touch : rootBetween(slope, 0, touch);
+    return {root3 * (middle - a * std::cos(phi)) + surface_.zeta(), b * std::sin(phi) / stretch_, theta};
+  }
   /// The distance of the trial outside the section at z, times d(r)/d(radius) of the nearest point there.
   double gapOf(double z, double trialRadius, LodeAngle trialTheta) const {
     const double radius = stretch_ * surface_.radius(root3 * z);

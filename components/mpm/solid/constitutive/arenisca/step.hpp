@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "components/mpm/solid/constitutive/arenisca/closest_point.hpp"
 
 namespace tushar::mpm::solid::arenisca {
@@ -33,7 +35,8 @@ class Substep {
   Point end() const {
     if (contains({c_, start_.cap, start_.zeta})) return {trial_stress_, start_.plasticStrain, start_.cap, start_.zeta};
     const Return atRest = returned({c_, start_.cap, start_.zeta});
-    const Return moved = moves(atRest) ? consistent(atRest) : atRest;
+    Return moved = atRest;
+    if (moves(atRest)) moved = c_.hasTangentCap() ? falsePosition(atRest) : consistent(atRest);
     Point end{moved.stress, start_.plasticStrain + moved.plasticStrain, 0, 0};
     const double excess = std::min(0.0, end.plasticStrain.trace() + c_.p3);
     end.plasticStrain.diagonal().array() -= excess / 3;
@@ -80,6 +83,45 @@ class Substep {
       (isTooFar ? high : low) = share;
     }
     return best;
+  }
+
+  /// What `consistent` finds, by false position as the Illinois algorithm corrects it where both ends are known, and by
+  /// bisection where the surface at the upper one lies beyond the return.
+  Return falsePosition(const Return& atRest) const {
+    const double whole = std::abs(atRest.plasticStrain.trace());
+    Return best = atRest;
+    Share low{0, -whole, true}, high{1, 0, false};
+    for (int k = 0, side = 0; k < 60 && high.at - low.at > 1e-7; ++k) {
+      const double fraction = high.isKnown ? low.excess / (low.excess - high.excess) : 0.5;
+      const double share = low.at + fraction * (high.at - low.at);
+      const YieldSurface surface = surfaceAfter(share * atRest.plasticStrain.trace());
+      const auto next = returnedAhead(surface, atRest);
+      if (!next) {
+        high = {share, 0, false};
+        continue;
+      }
+      best = *next;
+      const double excess = share * whole - std::abs(next->plasticStrain.trace());
+      if (std::abs(excess) <= 1e-12 * whole) break;
+      const int now = excess > 0 ? 1 : -1;
+      if (now == side) (now > 0 ? low : high).excess /= 2;
+      side = now;
+      (now > 0 ? high : low) = {share, excess, true};
+    }
+    return best;
+  }
+  /// A share of the plastic strain, and by how much it exceeds that of the return to the surface it moves.
+  struct Share {
+    double at, excess;
+    bool isKnown;
+  };
+  /// The return to a moved surface; none where the trial lies within, or on the other side of it.
+  std::optional<Return> returnedAhead(const YieldSurface& surface, const Return& atRest) const {
+    if (contains(surface)) return std::nullopt;
+    const Return next = returned(surface);
+    const double there = next.stress.trace(), before = atRest.stress.trace();
+    const bool turns = (trial_.i1 < before) != (trial_.i1 < there) || (trial_.i1 > before) != (trial_.i1 > there);
+    return turns ? std::nullopt : std::optional(next);
   }
 
   const Constants& c_;

@@ -37,6 +37,9 @@ class YieldSurface {
   /// I where the cap begins, Pa.
   double branch() const { return branch_; }
   bool isRound() const { return lode_type_ == 0; }
+  /// Half axes of a tangent ellipse along I1 and sqrt J2, Pa; 0 where there is none.
+  double capLength() const { return length_; }
+  double capHeight() const { return height_; }
 
   /// F_f f_c at I, Pa.
   double radius(double i) const {

@@ -43,7 +43,7 @@ void addAffineVelocity(const Patch& patch, const Material& material, const Vec3&
       setLanes<D>(at, lane::velocity, lanes<D>(at, lane::velocity) + change);
     });
   });
-  setSymmetry<D>(patch, material.index, record);
+  setSymmetry<D>(patch, material.index, touchedRows<D>(x, Shape::ghostNodes), record);
 }
 
 /// B_p = sum_i S_i v*_i (x_i - x_p)^T, m^2/s

@@ -93,7 +93,7 @@ void addLoadsAtCorners(const Patch& patch, const Material& material, const Loads
       }
     }
   });
-  setSymmetry<D>(patch, material.index, record);
+  setSymmetry<D>(patch, material.index, data::TouchedRows::all(record.box()), record);
 }
 
 }  // namespace tushar::mpm::solid

@@ -66,8 +66,7 @@ void computeSurface(const Patch& patch, const Material& material, const Vec3& co
       sigma = (*u.particleStress)[p];
     else
       cauchyStress(material, &u.deformation[p], 1, &sigma);
-    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
-      if (!box.contains(node)) return;
+    forEachNodeWithin(stencil, box, [&](const Index<D>& node, double s, const Vec<D>& gradient) {
       u.massGradient[node] += weight * gradient;
       u.position[node] += s * mass * u.x[p];
       u.stress[node] += s * sigma;

@@ -28,7 +28,7 @@ void addVelocityGradient(const Patch& patch, const Material& material, const Vec
       setLanes<D>(at, lane::velocity, lanes<D>(at, lane::velocity) + change);
     });
   });
-  setSymmetry<D>(patch, material.index, record);
+  setSymmetry<D>(patch, material.index, touchedRows<D>(x, Shape::ghostNodes), record);
 }
 
 }  // namespace tushar::mpm::solid

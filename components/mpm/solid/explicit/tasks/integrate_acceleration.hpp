@@ -30,8 +30,9 @@ void computeAndIntegrateAcceleration(const Patch& patch, const Material& materia
 template <int D>
 void setGridBoundaryConditions(const Patch& patch, const Material& material, int ghostNodes,
                                ParticleView<const Vec<D>> x, NodeView<NodeRecord> record) {
-  setVelocity<D>(patch, material.index, touchedRows<D>(x, ghostNodes), record);
-  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, record);
+  const data::TouchedRows& rows = touchedRows<D>(x, ghostNodes);
+  setVelocity<D>(patch, material.index, rows, record);
+  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, rows, record);
 }
 
 }  // namespace tushar::mpm::solid

@@ -218,7 +218,7 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
       if ((*node)[lane::mass] > 0)
         setLanes<D>(*node, lane::velocity, lanes<D>(*node, lane::velocity) / (*node)[lane::mass]);
   });
-  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, record);  // sides do not act on what does
+  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, rows, record);  // sides do not act on what does
 }
 
 /// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i,
