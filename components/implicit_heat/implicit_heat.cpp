@@ -72,16 +72,18 @@ const input::Schema<Settings>& schema() {
   static const input::Schema<Settings> schema =
       input::Schema<Settings>("Heat", "Heat conduction, implicit in time.")
           .allOurs()
-          .value("thermal_conductivity", &Settings::conductivity, input::Expression(1.0), "W/(m K)", "k",
-                 input::WithoutTime(), input::positive())
-          .value("density", &Settings::density, 1, "kg/m^3", "rho", input::positive())
-          .value("specific_heat", &Settings::specificHeat, 1, "J/(kg K)", "c", input::positive())
+          .value("thermal_conductivity", input::memberOf<Settings>(&Settings::conductivity), input::Expression(1.0),
+                 "W/(m K)", "k", input::WithoutTime(), input::positive())
+          .value("density", input::memberOf<Settings>(&Settings::density), 1, "kg/m^3", "rho", input::positive())
+          .value("specific_heat", input::memberOf<Settings>(&Settings::specificHeat), 1, "J/(kg K)", "c",
+                 input::positive())
           .choice("time_integrator", &Settings::theta, {{"backward_euler", 1}, {"crank_nicolson", 0.5}}, 1,
                   "how time advances; the steps are those of <Time>")
           .elsewhere("explicit", "for explicit steps, use <SimulationComponent type=\"heat\"/>")
           .section("Solver", &Settings::solver, solvers::linearSchema(), "the linear solve of each step")
           .ignored("cfl", "implicit steps have no limit; it serves <SimulationComponent type=\"heat\"/>")
-          .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime());
+          .required("temperature", input::memberOf<Settings>(&Settings::temperature), "K", "T at the start",
+                    input::WithoutTime());
   return schema;
 }
 
