@@ -54,6 +54,7 @@ class NewComponent(unittest.TestCase):
         run = modules.run([SUS, "--load", module, scene, "--output", self.copy], self.copy)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("temperature, cell", run.stdout)
+        self.assertTrue((self.copy / "shallow_water.uda").exists())
         listed = modules.run([SUS, "--list"], TUSHAR_PLUGINS=f"{self.copy}/ups:{module.parent}").stdout
         self.assertIn("  shallow_water ", listed)
         schedule = modules.run([SUS, "--load", module, "--schedule", scene]).stdout
