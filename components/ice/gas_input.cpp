@@ -65,6 +65,27 @@ void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagn
   }
 }
 
+/// What does not go together at one face: a wall that slips, or a side that lets waves out, and other conditions.
+void checkWords(const Element& root, Diagnostics& diagnostics) {
+  const auto group = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
+  for (const Element& face : group ? group->children("Face") : std::vector<Element>()) {
+    const auto has = [&](const char* var, const std::string_view label) {
+      const auto conditions = face.children("BCType");
+      return std::any_of(conditions.begin(), conditions.end(), [&](const Element& one) {
+        return one.attribute("var") == var && (label.empty() || one.attribute("label") == label);
+      });
+    };
+    const bool slips = has("FreeSlipWall", ""), relaxes = has("LODI", euler::boundary::pressure.name);
+    if (!relaxes && has("LODI", "")) diagnostics.error(face, "var LODI of another variable needs that of the Pressure");
+    for (const Element& condition : face.children("BCType")) {
+      if (condition.attribute("var") != nameOf(BoundaryKind::dirichlet)) continue;
+      if (slips || (relaxes && condition.attribute("label") != euler::boundary::temperature.name))
+        diagnostics.error(condition, slips ? "a FreeSlipWall takes no other value: it is a plane of symmetry"
+                                           : "beside LODI of the Pressure only a Temperature may be given");
+    }
+  }
+}
+
 /// A given pressure is ignored, as in Uintah: says so where it is another one than follows.
 void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
   if (!body.pressure) return;
@@ -243,6 +264,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   const PropertiesSection properties = simulation::readSection(root, propertiesSchema(), diagnostics);
   ModelsSection models = simulation::readOptionalSection(root, modelsSchema(), diagnostics);
   noteIdle(root, cfd.ice, diagnostics);
+  checkWords(root, diagnostics);
   const auto& materials = properties.ice.materials;
   checkConditions(root, solids, static_cast<int>(std::max<std::size_t>(materials.size(), 1)), diagnostics);
   GasScene scene;

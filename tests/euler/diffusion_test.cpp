@@ -91,6 +91,19 @@ grid::Domain heatedBox(int cells, double lower, double upper) {
   return domain;
 }
 
+/// Gas between walls across y, of which the upper one moves at 1 m/s along x.
+grid::Domain shearedBox() {
+  grid::Domain domain = closedBox(2, 16);
+  domain.resolution[0] = 2;
+  for (int side = 0; side < 2; ++side) {
+    domain.boundaries.face(0, side).clear();
+    auto& face = domain.boundaries.face(1, side);
+    face.clear();
+    face.push_back({boundary::velocity, BoundaryKind::dirichlet, Vec3(side, 0, 0)});
+  }
+  return domain;
+}
+
 }  // namespace
 
 TEST(Diffusion, DampsAWaveOfTemperatureAtConstantVolume) {
@@ -124,15 +137,9 @@ TEST(Diffusion, LeadsHeatSteadilyBetweenTwoWalls) {
 
 TEST(Diffusion, ShearsGasBetweenMovingWallsLinearly) {
   // Couette's flow; heat of friction leaves through both walls: T = 1 + mu U² / (2 k) y (1 - y), to second order.
-  grid::Domain domain = closedBox(2, 16);
-  domain.resolution[0] = 2;
-  for (int side = 0; side < 2; ++side) {
-    domain.boundaries.face(0, side).clear();
-    auto& face = domain.boundaries.face(1, side);
-    face.clear();
-    face.push_back({boundary::velocity, BoundaryKind::dirichlet, Vec3(side, 0, 0)});
-    face.push_back({boundary::temperature, BoundaryKind::dirichlet, Vec3(1, 0, 0)});
-  }
+  grid::Domain domain = shearedBox();
+  for (int side = 0; side < 2; ++side)
+    domain.boundaries.face(1, side).push_back({boundary::temperature, BoundaryKind::dirichlet, Vec3(1, 0, 0)});
   const auto rest = [](const Vec<2>&) {
     State<2> w{};
     w[kDensity] = w[kPressure<2>] = 1;
@@ -207,16 +214,8 @@ TEST(VaryingDiffusion, TakesTheLastSpongeLayer) {
 TEST(VaryingDiffusion, HasOneStressAcrossLayersOfTwoViscosities) {
   // Between walls at 0 and 1 m/s the stress is U / (sum of thickness / mu): mu 1 below y = 1/2 and 3 above it, where
   // the face between them has their mean, which moves that place by a quarter of a cell in each layer's favour.
-  grid::Domain domain = closedBox(2, 16);
-  domain.resolution[0] = 2;
-  for (int side = 0; side < 2; ++side) {
-    domain.boundaries.face(0, side).clear();
-    auto& face = domain.boundaries.face(1, side);
-    face.clear();
-    face.push_back({boundary::velocity, BoundaryKind::dirichlet, Vec3(side, 0, 0)});
-  }
   const auto rest = [](const Vec<2>&) { return State<2>{1, 0, 0, 1}; };
-  StillBox<2> box(domain, rest, {});
+  StillBox<2> box(shearedBox(), rest, {});
   const VaryingDiffusion how{.uniform = {1, 0}, .sponges = {{Vec3(-1, 0.5, -1), Vec3(2, 2, 2), 3}}};
   for (int n = 0; n < 8000; ++n) box.diffuse(how, 5e-4);
   const auto u = [&](int i) { return box.momentum[box.level.cellNumber<2>(Index<2>{{0, i}})][0]; };

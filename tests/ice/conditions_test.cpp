@@ -69,6 +69,18 @@ TEST(IceConditions, WavesLeaveByAllSides) {
   EXPECT_EQ(problemOf(withSide(condition("Pressure", "LODI"))), "needs a <LODI> in <BoundaryConditions>");
 }
 
+TEST(IceConditions, DoNotContradictOneAnother) {
+  const std::string slip = condition("Velocity", "FreeSlipWall", "[0,0,0]"), waves = condition("Pressure", "LODI");
+  const std::string section = "<LODI><press_infinity>1</press_infinity></LODI>";
+  EXPECT_EQ(problemOf(withSide(slip + condition("Temperature", "Dirichlet", "1"))),
+            "a FreeSlipWall takes no other value: it is a plane of symmetry");
+  EXPECT_EQ(problemOf(withSide(condition("Density", "LODI"), section)),
+            "var LODI of another variable needs that of the Pressure");
+  EXPECT_EQ(problemOf(withSide(waves + condition("Density", "Dirichlet", "1"), section)),
+            "beside LODI of the Pressure only a Temperature may be given");
+  EXPECT_EQ(problemOf(withSide(waves + condition("Temperature", "Dirichlet", "1"), section)), "");
+}
+
 TEST(IceConditions, WavesLeaveInImplicitSteps) {
   const std::string implicit = changedScene(pulse, "<ICE><advection type=\"SecondOrder\"/></ICE>",
                                             "<ICE><advection type=\"SecondOrder\"/><TimeStepControl>"
