@@ -24,7 +24,8 @@ MODELS = {
 BODY = """<material name="{name}"><density>2000</density>
 <constitutive_model type="{model}">{tags}</constitutive_model>
 <specific_heat>1</specific_heat><thermal_conductivity>0</thermal_conductivity>
-<geom_object><cylinder label="{name}"><bottom>[{x},{y},0]</bottom><top>[{x},{y},0.1]</top><radius>0.2</radius></cylinder>
+<geom_object><cylinder label="{name}"><bottom>[{x},{y},0]</bottom><top>[{x},{y},0.1]</top>
+<radius>0.2</radius></cylinder>
 <res>[2,2,1]</res><velocity>[{speed},{speed},0]</velocity><temperature>300</temperature></geom_object></material>
 """
 SCENE = """<Uintah_specification><Meta><title>A disc of {model} meets another</title></Meta>

@@ -13,9 +13,7 @@ void setSymmetry(const Patch& patch, int material, const data::TouchedRows& rows
     for (const int side : {0, 1}) {
       if (!patch.isAtBoundary(d, side) || !patch.level().isSymmetry(d, side, material)) continue;
       const int face = side == 0 ? patch.cells().lower[d] : patch.cells().upper[d];
-      const auto at = [&](const Index3& node) -> NodeRecord& {
-        return record.values()[record.stored().offset(node)];
-      };
+      const auto at = [&](const Index3& node) -> NodeRecord& { return record.values()[record.stored().offset(node)]; };
       rows.forEachRow(patch.faceNodes(d, side).intersect(record.box()), [&](Index3 node, int end) {
         for (; node[0] < end; ++node[0]) at(node)[lane::velocity + d] = at(node)[lane::force + d] = 0;
       });
