@@ -7,6 +7,12 @@
 
 namespace tushar::mpm {
 
+/// `count` numbers in vector registers.
+template <class Number, int count>
+struct VectorOf {
+  using type [[gnu::vector_size(count * sizeof(Number))]] = Number;
+};
+
 /// Convected particle domains: a particle is a parallelepiped that F deforms, and S_i the mean over it of what lies
 /// linearly between the values of the tent function at its corners,
 ///   S_i = 1/2^D sum_c N_i(x_c),   grad S_i = 1/2^D sum_c R^(-T) sigma_c N_i(x_c),   x_c = x_p + R sigma_c,
@@ -36,17 +42,14 @@ struct ConvectedShape {
     static constexpr double share = 1.0 / corners;
     static constexpr bool axisymmetric = Axisymmetric;
 
-    /// A corner of the domain: the lower node of its cell, counted from `first`, the tent functions of that cell's
-    /// nodes, and what it has in the gradient (1/m).
-    struct Corner {
-      Index<D> cell;
-      std::array<double, corners> weights;
-      Vec<D> slope;
-    };
+    /// A number for each corner: that of corner c lies at sigma_c, whose component d is +1 if bit d of c is set.
+    using Corners = typename VectorOf<double, corners>::type;
 
     Index<D> first;
-    std::array<Corner, corners> corner;
-    double inverseRadius = 0;  ///< 1/m; 0 if nothing is axisymmetric
+    std::array<Corners, D> cellOf;         ///< the lower node of the cell around each corner, counted from `first`
+    std::array<Corners, corners> weights;  ///< the tent functions of that cell's nodes
+    std::array<Corners, D> slope;          ///< what each corner has in the gradient, 1/m
+    double inverseRadius = 0;              ///< 1/m; 0 if nothing is axisymmetric
 
     Stencil(const Level& level, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent)
         : Stencil(CellFrame<D>(level, cell), cell, x, extent) {}
@@ -57,12 +60,16 @@ struct ConvectedShape {
       Eigen::Matrix<double, D, D> half = extent.halfEdges;
       half *= std::min(1.0, 1 / half.cwiseAbs().rowwise().sum().maxCoeff());
       const Eigen::Matrix<double, D, D> slopes = share * frame.inverseSpacing.asDiagonal() * half.inverse().transpose();
-      for (int c = 0; c < corners; ++c) {
-        Vec<D> sign;
-        for (int d = 0; d < D; ++d) sign[d] = (c >> d) & 1 ? 1 : -1;
-        place(corner[c], xi + half * sign);
-        corner[c].slope = slopes * sign;
+      std::array<Corners, D> lower, upper;  // the tent functions along each axis
+      for (int d = 0; d < D; ++d) {
+        const Corners at = xi[d] + atCorners(half, d), zero{};
+        const Corners below = at < 0.0 ? zero - 1 : at < 1.0 ? zero : zero + 1;
+        cellOf[d] = below + 1;
+        upper[d] = at - below;
+        lower[d] = 1.0 - upper[d];
+        slope[d] = atCorners(slopes, d);
       }
+      weights = Linear<D>::weights([&](int d) { return lower[d]; }, [&](int d) { return upper[d]; });
     }
 
     /// Calls `visit(node, S, gradient)` for every node of the cells around, in the same order for every particle.
@@ -71,11 +78,11 @@ struct ConvectedShape {
       std::array<double, around> value{};
       std::array<Vec<D>, around> gradient;
       gradient.fill(Vec<D>::Zero());
-      for (const Corner& at : corner)
+      for (int c = 0; c < corners; ++c)
         for (int k = 0; k < corners; ++k) {
-          const std::size_t node = numberOf(at.cell, k);
-          value[node] += share * at.weights[k];
-          gradient[node] += at.weights[k] * at.slope;
+          const std::size_t node = numberOf(c, k);
+          value[node] += share * weights[k][c];
+          for (int d = 0; d < D; ++d) gradient[node][d] += weights[k][c] * slope[d][c];
         }
       Box offsets{{}, Index3::filled(1)};
       for (int d = 0; d < D; ++d) offsets.upper[d] = nodes;
@@ -89,35 +96,43 @@ struct ConvectedShape {
     /// S_i of a node.
     double valueAt(const Index<D>& node) const {
       double value = 0;
-      for (const Corner& at : corner)
-        if (const int k = nodeOfCell(node - first, at.cell); k >= 0) value += share * at.weights[k];
+      for (int c = 0; c < corners; ++c)
+        if (const int k = nodeOfCell(node - first, c); k >= 0) value += share * weights[k][c];
       return value;
     }
 
    private:
     static constexpr std::size_t around = D == 1 ? nodes : D == 2 ? nodes * nodes : nodes * nodes * nodes;
 
-    /// The number of node k of a cell among those of the cells around.
-    static std::size_t numberOf(const Index<D>& cell, int k) {
+    /// The number of node k of the cell around corner c, among those of the cells around the particle.
+    std::size_t numberOf(int c, int k) const {
       std::size_t number = 0;
-      for (int d = D - 1; d >= 0; --d) number = number * nodes + static_cast<std::size_t>(cell[d] + ((k >> d) & 1));
+      for (int d = D - 1; d >= 0; --d)
+        number = number * nodes + static_cast<std::size_t>(static_cast<int>(cellOf[d][c]) + ((k >> d) & 1));
       return number;
     }
-    /// In the cell that a point at `xi`, in cells from that of the particle, lies in.
-    static void place(Corner& corner, const Vec<D>& xi) {
-      Vec<D> within;
-      for (int d = 0; d < D; ++d) {
-        const double lower = std::clamp(std::floor(xi[d]), -1.0, 1.0);
-        corner.cell[d] = static_cast<int>(lower) + 1;
-        within[d] = xi[d] - lower;
-      }
-      corner.weights = Linear<D>::weights(within);
+    /// Component d of `edges` sigma_c, to the bits of Eigen's product, which adds the last component in another order.
+    [[gnu::always_inline]] static Corners atCorners(const Eigen::Matrix<double, D, D>& edges, int d) {
+      std::array<Corners, D> part;
+      for (int j = 0; j < D; ++j) part[j] = edges(d, j) * signs(j);
+      if constexpr (D == 1)
+        return part[0];
+      else if constexpr (D == 2)
+        return part[0] + part[1];
+      else
+        return d < 2 ? (part[0] + part[1]) + part[2] : part[0] + (part[1] + part[2]);
     }
-    /// The number of a node among those of a cell, or -1.
-    static int nodeOfCell(const Index<D>& node, const Index<D>& cell) {
+    /// Component j of sigma_c.
+    [[gnu::always_inline]] static Corners signs(int j) {
+      Corners sign;
+      for (int c = 0; c < corners; ++c) sign[c] = (c >> j) & 1 ? 1 : -1;
+      return sign;
+    }
+    /// The number of a node among those of the cell around a corner, or -1.
+    int nodeOfCell(const Index<D>& node, int c) const {
       int k = 0;
       for (int d = 0; d < D; ++d) {
-        const int upper = node[d] - cell[d];
+        const int upper = node[d] - static_cast<int>(cellOf[d][c]);
         if (upper < 0 || upper > 1) return -1;
         k |= upper << d;
       }

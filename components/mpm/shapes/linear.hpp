@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
 #include "core/core.hpp"
 
@@ -26,10 +27,10 @@ struct Linear {
   }
 
   /// S_i of each node of a cell at a point x in it. Along axis d `lower(d)` and `upper(d)` are the factors 1 - |x -
-  /// x_i| / h of the lower and of the upper nodes; their sum is 1.
+  /// x_i| / h of the lower and of the upper nodes; their sum is 1. They are numbers, or vectors of one for each point.
   template <class Lower, class Upper>
-  [[gnu::always_inline]] static Weights weights(const Lower& lower, const Upper& upper) {
-    Weights s;
+  [[gnu::always_inline]] static auto weights(const Lower& lower, const Upper& upper) {
+    std::array<std::remove_cvref_t<decltype(upper(0))>, nodes> s;
     s[0] = lower(0);
     s[1] = upper(0);
     for (int d = 1; d < D; ++d) {

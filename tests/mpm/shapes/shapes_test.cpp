@@ -213,8 +213,8 @@ TEST(CpdiDomain, IsShrunkWhereItReachesFartherThanACell) {
   const Sums<CpdiShape<2>> sums(level, stencil);
   EXPECT_NEAR(sums.value, 1, roundOff);
   EXPECT_LT((sums.position - x).norm(), roundOff);
-  for (const auto& corner : stencil.corner)
-    for (int d = 0; d < 2; ++d) EXPECT_TRUE(corner.cell[d] >= 0 && corner.cell[d] <= 2);
+  for (int c = 0; c < 4; ++c)
+    for (int d = 0; d < 2; ++d) EXPECT_TRUE(stencil.cellOf[d][c] >= 0 && stencil.cellOf[d][c] <= 2);
 }
 
 TEST(CpdiDomain, IsThatOfGimpForAnUndeformedParticleInOneDimension) {

@@ -4,12 +4,15 @@
 
 namespace tushar::mpm::solid {
 
-/// How many records lie from that of the first node of a stencil to the lower one of a corner's cell.
-template <class Corner, std::size_t D>
-std::ptrdiff_t offsetOf(const Corner& corner, const std::array<std::ptrdiff_t, D>& stride) {
-  std::ptrdiff_t offset = 0;
-  for (std::size_t d = 0; d < D; ++d) offset += corner.cell[static_cast<int>(d)] * stride[d];
-  return offset;
+/// How many records lie from that of the first node of a stencil to the lower one of each corner's cell.
+template <class Stencil, std::size_t D>
+[[gnu::always_inline]] inline std::array<std::ptrdiff_t, Stencil::corners> offsetsOfCells(
+    const Stencil& stencil, const std::array<std::ptrdiff_t, D>& stride) {
+  typename Stencil::Corners sum{};
+  for (std::size_t d = 0; d < D; ++d) sum += stencil.cellOf[d] * static_cast<double>(stride[d]);
+  std::array<std::ptrdiff_t, Stencil::corners> offsets;
+  for (std::size_t c = 0; c < Stencil::corners; ++c) offsets[c] = static_cast<std::ptrdiff_t>(sum[static_cast<int>(c)]);
+  return offsets;
 }
 
 /// Calls `visit(offset, k)` for each node k of a cell.
@@ -29,6 +32,14 @@ template <class Stencil>
   return Stencil::share * high;
 }
 
+/// The contribution of corner c to the high half of a record.
+template <class Stencil, std::size_t D>
+[[gnu::always_inline]] inline Quad highShare(const Stencil& stencil, int c, const std::array<Quad, D>& slope,
+                                             Quad high) {
+  for (std::size_t d = 0; d < D; ++d) high = multiplyAdd(stencil.slope[d][c], slope[d], high);
+  return high;
+}
+
 /// As for other shapes (see transfer.hpp): each corner adds its share to the nodes of its cell.
 template <class Stencil, int D = Stencil::dimension>
 requires(Stencil::corners > 0)
@@ -37,13 +48,12 @@ requires(Stencil::corners > 0)
                                                const std::array<Quad, Stencil::dimension>& slope,
                                                const Quad& hoop = Quad{}) {
   const Quad low = Stencil::share * value.low, mean = meanShare(stencil, value.high, hoop);
-  for (const auto& corner : stencil.corner) {
-    Quad high = mean;
-    for (std::size_t d = 0; d < D; ++d) high = multiplyAdd(corner.slope[static_cast<int>(d)], slope[d], high);
-    NodeRecord* const cell = nodes.origin + offsetOf(corner, nodes.stride);
+  const auto offsets = offsetsOfCells(stencil, nodes.stride);
+  for (int c = 0; c < Stencil::corners; ++c) {
+    const Octet share(low, highShare(stencil, c, slope, mean));
+    NodeRecord* const cell = nodes.origin + offsets[c];
     forEachNodeOfCell<D>(nodes.stride, [&](std::ptrdiff_t offset, std::size_t k) {
-      cell[offset].low = multiplyAdd(corner.weights[k], low, cell[offset].low);
-      cell[offset].high = multiplyAdd(corner.weights[k], high, cell[offset].high);
+      multiplyAdd(stencil.weights[k][c], share, Octet(cell[offset])).copyTo(cell[offset]);
     });
   }
 }
@@ -55,21 +65,19 @@ requires(Stencil::corners >
                                       const NodeRecord& value, const std::array<Quad, Stencil::dimension>& slope,
                                       const Quad& hoop = Quad{}) {
   const Quad low = Stencil::share * value.low, mean = meanShare(stencil, value.high, hoop);
-  for (const auto& corner : stencil.corner) {
-    Quad high = mean;
-    for (std::size_t d = 0; d < D; ++d) high = multiplyAdd(corner.slope[static_cast<int>(d)], slope[d], high);
+  for (int c = 0; c < Stencil::corners; ++c) {
+    const Octet share(low, highShare(stencil, c, slope, mean));
     for (std::size_t k = 0; k < (1U << D); ++k) {
       Index<D> node;
       std::ptrdiff_t offset = 0;
       for (std::size_t d = 0; d < D; ++d) {
-        const int upper = (k >> d) & 1U ? 1 : 0, at = corner.cell[static_cast<int>(d)] + upper;
+        const int upper = (k >> d) & 1U ? 1 : 0, at = static_cast<int>(stencil.cellOf[d][c]) + upper;
         node[static_cast<int>(d)] = stencil.first[static_cast<int>(d)] + at;
         offset += at * nodes.stride[d];
       }
       if (!box.contains(node)) continue;
       NodeRecord& record = nodes.origin[offset];
-      record.low = multiplyAdd(corner.weights[k], low, record.low);
-      record.high = multiplyAdd(corner.weights[k], high, record.high);
+      multiplyAdd(stencil.weights[k][c], share, Octet(record)).copyTo(record);
     }
   }
 }
@@ -78,19 +86,19 @@ template <class Stencil, int D = Stencil::dimension>
 requires(Stencil::corners > 0)
     [[gnu::always_inline]] inline Gathered<D> gather(const Stencil& stencil,
                                                      const NodeWindow<const NodeRecord, D>& nodes) {
+  const auto offsets = offsetsOfCells(stencil, nodes.stride);
+  Octet value;
   Gathered<D> sums;
-  for (const auto& corner : stencil.corner) {
-    const NodeRecord* const cell = nodes.origin + offsetOf(corner, nodes.stride);
-    NodeRecord at{};
+  for (int c = 0; c < Stencil::corners; ++c) {
+    const NodeRecord* const cell = nodes.origin + offsets[c];
+    Octet at;
     forEachNodeOfCell<D>(nodes.stride, [&](std::ptrdiff_t offset, std::size_t k) {
-      at.low = multiplyAdd(corner.weights[k], cell[offset].low, at.low);
-      at.high = multiplyAdd(corner.weights[k], cell[offset].high, at.high);
+      at = multiplyAdd(stencil.weights[k][c], Octet(cell[offset]), at);
     });
-    sums.value.low = multiplyAdd(Stencil::share, at.low, sums.value.low);
-    sums.value.high = multiplyAdd(Stencil::share, at.high, sums.value.high);
-    for (std::size_t d = 0; d < D; ++d)
-      sums.gradient[d] = multiplyAdd(corner.slope[static_cast<int>(d)], at.low, sums.gradient[d]);
+    value = multiplyAdd(Stencil::share, at, value);
+    for (std::size_t d = 0; d < D; ++d) sums.gradient[d] = multiplyAdd(stencil.slope[d][c], at.low(), sums.gradient[d]);
   }
+  value.copyTo(sums.value);
   if constexpr (Stencil::axisymmetric) sums.hoop = stencil.inverseRadius * sums.value.low;
   return sums;
 }

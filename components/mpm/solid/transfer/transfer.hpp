@@ -55,27 +55,26 @@ template <class Stencil, int D, class Visit>
 
 /// The contribution of a particle to a row of nodes along the first axis, without the factors of that axis.
 struct RowShare {
-  Quad low, high, change, round;
+  Octet value, change, round;
 
   template <std::size_t D>
-  [[gnu::always_inline]] RowShare(const RowFactors& f, const NodeRecord& value, const std::array<Quad, D>& slope,
+  [[gnu::always_inline]] RowShare(const RowFactors& f, const NodeRecord& of, const std::array<Quad, D>& slope,
                                   const Quad& hoop) {
     const Quad share = broadcast<0>(f);
-    low = share * value.low;
-    change = share * slope[0];
-    round = share * hoop;
-    high = share * value.high;
+    Quad high = share * of.high;
     if constexpr (D > 1) high = multiplyAdd(broadcast<1>(f), slope[1], high);
     if constexpr (D > 2) high = multiplyAdd(broadcast<2>(f), slope[2], high);
+    value = Octet(share * of.low, high);
+    change = Octet(Quad{}, share * slope[0]);
+    round = Octet(Quad{}, share * hoop);
   }
 
   /// To node i of the row.
   template <class Stencil>
   [[gnu::always_inline]] void addTo(NodeRecord& record, const Stencil& stencil, std::size_t i) const {
-    const Quad s = broadcast<0>(stencil.s[i]), ds = broadcast<0>(stencil.ds[i]);
-    record.low = multiplyAdd(s, low, record.low);
-    record.high = multiplyAdd(s, high, multiplyAdd(ds, change, record.high));
-    if constexpr (Stencil::axisymmetric) record.high = multiplyAdd(stencil.hoop[i], round, record.high);
+    Octet sum = multiplyAdd(stencil.s[i][0], value, multiplyAddHigh(stencil.ds[i][0], change, Octet(record)));
+    if constexpr (Stencil::axisymmetric) sum = multiplyAddHigh(stencil.hoop[i], round, sum);
+    sum.copyTo(record);
   }
 };
 
@@ -139,30 +138,27 @@ struct Gathered {
 
 template <class Stencil, int D = Stencil::dimension>
 [[gnu::always_inline]] inline Gathered<D> gather(const Stencil& stencil, const NodeWindow<const NodeRecord, D>& nodes) {
+  Octet value;
   Gathered<D> sums;
-  std::array<Quad, Stencil::nodes> s, ds;
-  for (std::size_t i = 0; i < Stencil::nodes; ++i) {
-    s[i] = broadcast<0>(stencil.s[i]);
-    ds[i] = broadcast<0>(stencil.ds[i]);
-  }
   forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors& f) {
     const NodeRecord* row = nodes.origin + offset;
-    Quad low = s[0] * row[0].low, high = s[0] * row[0].high, change = ds[0] * row[0].low, round{};
-    if constexpr (Stencil::axisymmetric) round = stencil.hoop[0] * row[0].low;
+    const Octet first(row[0]);
+    Octet both = stencil.s[0][0] * first;
+    Quad change = stencil.ds[0][0] * first.low(), round{};
+    if constexpr (Stencil::axisymmetric) round = stencil.hoop[0] * first.low();
     for (std::size_t i = 1; i < Stencil::nodes; ++i) {
-      low = multiplyAdd(s[i], row[i].low, low);
-      high = multiplyAdd(s[i], row[i].high, high);
-      change = multiplyAdd(ds[i], row[i].low, change);
-      if constexpr (Stencil::axisymmetric) round = multiplyAdd(stencil.hoop[i], row[i].low, round);
+      const Octet record(row[i]);
+      both = multiplyAdd(stencil.s[i][0], record, both);
+      change = multiplyAdd(stencil.ds[i][0], record.low(), change);
+      if constexpr (Stencil::axisymmetric) round = multiplyAdd(stencil.hoop[i], record.low(), round);
     }
-    const Quad share = broadcast<0>(f);
-    sums.value.low = multiplyAdd(share, low, sums.value.low);
-    sums.value.high = multiplyAdd(share, high, sums.value.high);
-    sums.gradient[0] = multiplyAdd(share, change, sums.gradient[0]);
-    if constexpr (D > 1) sums.gradient[1] = multiplyAdd(broadcast<1>(f), low, sums.gradient[1]);
-    if constexpr (D > 2) sums.gradient[2] = multiplyAdd(broadcast<2>(f), low, sums.gradient[2]);
-    if constexpr (Stencil::axisymmetric) sums.hoop = multiplyAdd(share, round, sums.hoop);
+    value = multiplyAdd(f[0], both, value);
+    sums.gradient[0] = multiplyAdd(f[0], change, sums.gradient[0]);
+    if constexpr (D > 1) sums.gradient[1] = multiplyAdd(f[1], both.low(), sums.gradient[1]);
+    if constexpr (D > 2) sums.gradient[2] = multiplyAdd(f[2], both.low(), sums.gradient[2]);
+    if constexpr (Stencil::axisymmetric) sums.hoop = multiplyAdd(f[0], round, sums.hoop);
   });
+  value.copyTo(sums.value);
   return sums;
 }
 
