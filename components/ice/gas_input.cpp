@@ -170,7 +170,7 @@ void readGases(const std::vector<GasMaterial>& materials, const Element& root, G
     if (settings.name.empty()) settings.name = fmt::format("gas{}", k);
     scene.mixture.push_back(settings);
   }
-  checkMixture(materials, root, scene, diagnostics);
+  checkMixture(materials, root, scene, scene.gas.gas.material, diagnostics);
 }
 
 bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }

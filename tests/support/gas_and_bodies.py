@@ -89,6 +89,16 @@ def contact(cells):
     return uniform("contact", cells, (1,))
 
 
+def contact_of_gases(cells):
+    return uniform("contact_of_gases", cells, (1,)) | gas_masses("contact_of_gases", cells, "air", "helium")
+
+
+def gas_masses(name, cells, *gases):
+    """How much the mass of each gas changed, of what it was."""
+    run = Outcome(name, cells)
+    return {f"mass of {gas}": run.last(f"TotalMass-{gas}") / run.first(f"TotalMass-{gas}") - 1 for gas in gases}
+
+
 def carried_disc(cells):
     return uniform("carried_disc", cells, (1, .618))
 

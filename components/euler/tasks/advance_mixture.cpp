@@ -11,27 +11,10 @@ template <int D, class Held, class T>
 void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Held>& held,
                          const StateViews<D, T>& state) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const MixedGas mixed = mixedAt(gases, held, cell);
-    Gas alike;
-    alike.gamma = 1 + 1 / mixed.softness;
-    alike.pInfinity = mixed.leastPressure();
-    if (mixed.softness > 0 &&
-        canBe<D>(alike, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1))
-      return;
+    const Gas alike = mixedAt(gases, held, cell).alike();
+    if (canBe<D>(alike, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1)) return;
     refuseState<D, T>(patch.level(), alike, cell, state, nullptr);
   });
-}
-
-template <int K>
-Mixture<K> mixtureOf(const std::vector<Settings>& gases) {
-  Mixture<K> mixture;
-  for (int k = 0; k < K; ++k) {
-    MixedGas pure;
-    pure.add(1, gases[k].gas.gamma, gases[k].gas.pInfinity);
-    mixture.softness[k] = pure.softness;
-    mixture.stiffness[k] = pure.stiffness;
-  }
-  return mixture;
 }
 
 template <class T, int D, class Held>

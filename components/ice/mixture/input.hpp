@@ -4,8 +4,8 @@
 
 namespace tushar::ice {
 
-/// What is wrong with a scene of several gases, or cannot be with them.
+/// What is wrong with a scene of several gases, or cannot be with them. They are numbered after `solids` materials.
 void checkMixture(const std::vector<GasMaterial>& materials, const input::Element& root, const GasScene& scene,
-                  input::Diagnostics& diagnostics);
+                  int solids, input::Diagnostics& diagnostics);
 
 }  // namespace tushar::ice

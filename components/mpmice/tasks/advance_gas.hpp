@@ -24,11 +24,16 @@ struct BodiesInStep {
 /// The state after a step, before small cells share theirs.
 template <int D>
 struct UnsharedGas {
-  euler::StateViews<D, double> held;
+  euler::MixtureViews<D, double> held;  ///< of several gases the volumes, in place of the shares
 
-  static UnsharedGas from(auto& take) {
-    return {.held = {take(computes(c::unsharedDensity)), take(computes(c::unsharedMomentum<D>)),
-                     take(computes(c::unsharedEnergy))}};
+  static UnsharedGas from(auto& take, std::size_t gases) {
+    const auto ofEach = [&](const auto& labels) {
+      return viewsOfGases(take, gases, [&](std::size_t k) { return computes(labels[k]); });
+    };
+    return {.held = {{take(computes(c::unsharedDensity)), take(computes(c::unsharedMomentum<D>)),
+                      take(computes(c::unsharedEnergy))},
+                     ofEach(c::unsharedMass),
+                     ofEach(c::unsharedVolume)}};
   }
 };
 
@@ -69,8 +74,9 @@ class WallExchange {
 
   /// Adds to the content of a cell what walls at its faces push, and what gas flows in behind walls that move. Returns
   /// what the gas gives to the walls.
-  Given<D> addTo(const Index<D>& cell, const euler::StateViews<D, double>& held) const {
+  Given<D> addTo(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
     Given<D> given;
+    fillRoom(cell, held);
     if (step_.walls.friction && !(*step_.walls.friction)[cell].isZero(0)) drag(cell, held, given);
     for (int d = 0; d < D; ++d) {
       const OpenFaces faces = space_.faces(cell, d);
@@ -99,6 +105,12 @@ class WallExchange {
   }
 
  private:
+  /// Of several gases, makes volumes of shares: those of the gas in the cell fill the room that it has after the step.
+  void fillRoom(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
+    for (std::size_t k = 0; k < held.shares.size(); ++k)
+      held.shares[k][cell] += cells_.held.shares[k][cell] * (step_.newFree[cell] - 1);
+  }
+
   /// Momentum and work of a wall: its pressure, at the mean of its velocities before and after the step.
   void push(const Index<D>& cell, int axis, int side, double wall, const Vec<D>& after,
             const euler::StateViews<D, double>& held, Given<D>& given) const {
@@ -141,40 +153,44 @@ class WallExchange {
   /// Gas follows a wall that draws back, and makes way for one that comes, with all it holds: what the covered share of
   /// the face would sweep less what bodies swept.
   void flow(const Index<D>& cell, int axis, int side, double wallVelocity,
-            const euler::StateViews<D, double>& held) const {
+            const euler::MixtureViews<D, double>& held) const {
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
     const double up = (1 - space_.aperture(above, axis, 0)) * wallVelocity * dt_ * level_.inverseSpacing(axis) -
                       step_.swept[above][axis];
     if (up == 0) return;
     const Index<D>&donor = up > 0 ? below : above, &receiver = up > 0 ? above : below;
     if (isClosedPore(receiver)) return;
-    const std::optional<euler::State<D>> u = stateOf(donor, receiver);
-    if (!u) return;
+    const std::optional<Parcel<D>> gas = stateOf(donor, receiver);
+    if (!gas) return;
     const double volume = side == 0 ? up : -up;
-    held.density[cell] += volume * (*u)[euler::kDensity];
-    for (int d = 0; d < D; ++d) held.momentum[cell][d] += volume * (*u)[euler::kVelocity(d)];
-    held.totalEnergy[cell] += volume * (*u)[euler::kPressure<D>];
+    held.density[cell] += volume * gas->u[euler::kDensity];
+    for (int d = 0; d < D; ++d) held.momentum[cell][d] += volume * gas->u[euler::kVelocity(d)];
+    held.totalEnergy[cell] += volume * gas->u[euler::kPressure<D>];
+    for (std::size_t k = 0; k < held.shares.size(); ++k) {
+      held.masses[k][cell] += volume * gas->masses[k];
+      held.shares[k][cell] += volume * (gas->shares[k] - cells_.held.shares[k][cell]);
+    }
   }
 
   /// The state of the donor's gas; if it has none, that of the receiver; if that has none either, the mean around the
   /// donor.
-  std::optional<euler::State<D>> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
-    if (!space_.isEmpty(donor)) return cells_.conserved(donor);
-    if (!space_.isEmpty(receiver)) return cells_.conserved(receiver);
-    euler::State<D> sum{};
+  std::optional<Parcel<D>> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
+    if (!space_.isEmpty(donor)) return cells_.parcel(donor);
+    if (!space_.isEmpty(receiver)) return cells_.parcel(receiver);
+    Parcel<D> sum;
     int count = 0;
     for (int d = 0; d < D; ++d)
       for (int side = 0; side < 2; ++side) {
         if (space_.isAtSide(donor, d, side)) continue;
         const Index<D> next = side == 0 ? donor - Index<D>::unit(d) : donor + Index<D>::unit(d);
         if (space_.isEmpty(next)) continue;
-        const euler::State<D> u = cells_.conserved(next);
-        for (std::size_t k = 0; k < u.size(); ++k) sum[k] += u[k];
+        sum.add(cells_.parcel(next), 1);
         ++count;
       }
     if (count == 0) return std::nullopt;
-    for (double& value : sum) value /= count;
-    return sum;
+    Parcel<D> mean;
+    mean.add(sum, 1.0 / count);
+    return mean;
   }
 
   /// A hole in a body: hardly free, and no cell within two that is free for the most part.
@@ -201,13 +217,15 @@ class WallExchange {
 /// from there is closed off.
 template <int D, class G>
 void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
-                euler::Rows<D>& w) {
+                euler::Rows<D, euler::kGases<G>>& w) {
+  constexpr int K = euler::kGases<G>;
   euler::recover<D>(gas, level, cells.held, w);
   near.forEachIn(level.clipCells(w.box()), [&](const Index<D>& cell) {
     if (!(cells.free[cell] < 1) && !cells.isEmpty(cell)) return;
-    euler::State<D> state{};
+    euler::State<D, K> state{};
     state[euler::kDensity] = 1;
     state[euler::kPressure<D>] = 1;
+    if constexpr (K > 1) state[euler::kMass<D>(0)] = state[euler::kShare<D, K>(0)] = 1;
     if (!cells.isEmpty(cell)) state = cells.primitive(gas, cell);
     euler::store<D>(w.at(cell), 0, state);
   });
@@ -215,9 +233,9 @@ void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, co
 
 /// Cells with a body in them or beside them are taken as constant, and beyond a side of the grid those that mirror
 /// them.
-template <int D>
+template <int D, int K>
 void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& cells, const NearBodies<D>& near,
-                     euler::Work<D>& work) {
+                     euler::Work<D, K>& work) {
   const Box known = level.clipCells(box.grown(1, D));
   const auto hasBody = [&](const Index<D>& cell) {
     return known.contains(cell) && (cells.free[cell] < 1 || cells.isEmpty(cell));
@@ -229,7 +247,7 @@ void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& ce
     for (int d = 0; d < D && isPlain; ++d)
       isPlain = !hasBody(source - Index<D>::unit(d)) && !hasBody(source + Index<D>::unit(d));
     if (isPlain) return;
-    const euler::State<D> w = euler::load<D>(work.w.at(cell), 0);
+    const euler::State<D, K> w = euler::load<D>(work.w.at(cell), 0);
     for (std::size_t d = 0; d < work.lower.size(); ++d) {
       euler::store<D>(work.lower[d].at(cell), 0, w);
       euler::store<D>(work.upper[d].at(cell), 0, w);
@@ -238,25 +256,25 @@ void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& ce
 }
 
 /// Lets the fluxes through the lower faces of the cells of `faces` pass as far as these are open.
-template <int D>
+template <int D, int K>
 void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<D>& near, const Box& faces, int axis,
-                euler::Rows<D>& flux) {
+                euler::Rows<D, K>& flux) {
   const bool periodic = level.isPeriodic(axis);
   near.forEachIn(faces, [&](const Index<D>& cell) {
     const bool isUpperSide = !periodic && cell[axis] == level.cells().upper[axis];
     const double open =
         isUpperSide ? space.aperture(cell - Index<D>::unit(axis), axis, 1) : space.aperture(cell, axis, 0);
     if (open == 1) return;
-    const typename euler::Rows<D>::Pointers f = flux.at(cell);
+    const typename euler::Rows<D, K>::Pointers f = flux.at(cell);
     for (double* number : f) *number = open > 0 ? open * *number : 0.0;
   });
 }
 
 /// Keeps the mass that flows up through the lower faces of the cells of a block across an axis, over a cell's volume,
 /// past what moves as the bodies at the face do.
-template <int D>
+template <int D, int K>
 void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, int axis, double ratio,
-                  const euler::Rows<D>& flux, const CellView<Vec<D>>& flow) {
+                  const euler::Rows<D, K>& flux, const CellView<Vec<D>>& flow) {
   near.forEachIn(block, [&](const Index<D>& cell) {
     if (exchange.space().isAtSide(cell, axis, 0)) return;
     flow[cell][axis] = ratio * flux.number(cell, euler::kDensity) - exchange.carriedThrough(cell, axis);
@@ -266,8 +284,9 @@ void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, co
 /// The fluxes through the open parts of a block's faces across an axis.
 template <int D, class Flux, class Shape, int Axis, class G>
 void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level,
-               const Box& block, double ratio, const euler::StateViews<D, const double>& old, euler::Work<D>& work,
-               const euler::StateViews<D, double>& fresh, const std::optional<CellView<Vec<D>>>& flow) {
+               const Box& block, double ratio, const euler::MixtureViews<D, const double>& old,
+               euler::Work<D, euler::kGases<G>>& work, const euler::MixtureViews<D, double>& fresh,
+               const std::optional<CellView<Vec<D>>>& flow) {
   Box faces = block;
   ++faces.upper[Axis];
   euler::computeFluxes<D, Flux, Shape, Axis>(gas, faces, work);
@@ -279,7 +298,7 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
 /// Adds what walls near a block do, and its power.
 template <int D>
 void addWalls(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, double perStep,
-              const euler::StateViews<D, double>& fresh, const OfferedExchange<D>& offered, Sum& power) {
+              const euler::MixtureViews<D, double>& fresh, const OfferedExchange<D>& offered, Sum& power) {
   near.forEachIn(block, [&](const Index<D>& cell) {
     const Given<D> given = exchange.addTo(cell, fresh);
     if (given.work != 0) power.add(given.work * perStep);
@@ -290,21 +309,31 @@ void addWalls(const WallExchange<D>& exchange, const NearBodies<D>& near, const 
 
 /// Throws NumericalError for an impossible state of the gas away from bodies.
 template <int D>
-void refuseFarGas(const Patch& patch, const euler::Gas& gas, const NearBodies<D>& near, const GasInCells<D>& cells,
-                  const euler::StateViews<D, double>& fresh) {
+void refuseFarGas(const Patch& patch, const Settings& settings, const NearBodies<D>& near, const GasInCells<D>& cells,
+                  const euler::MixtureViews<D, double>& fresh) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    if (!near(cell) &&
-        !euler::canBe<D>(gas, &fresh.density[cell], fresh.momentum[cell].data(), &fresh.totalEnergy[cell], 1))
-      euler::refuseState<D>(patch.level(), gas, cell, fresh, &cells.held);
+    if (near(cell)) return;
+    const euler::Gas gas = lawAt<D>(settings, fresh, cell);
+    if (!euler::canBe<D>(gas, &fresh.density[cell], fresh.momentum[cell].data(), &fresh.totalEnergy[cell], 1))
+      euler::refuseState<D, double>(patch.level(), gas, cell, fresh, settings.gases.empty() ? &cells.held : nullptr);
   });
+}
+
+/// Whether the gas of a cell can be; of several gases refuseFarGas looks.
+template <int D, class G>
+bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, double>& fresh) {
+  if constexpr (euler::kGases < G >> 1) return false;
+  else
+    return euler::canBe<D>(gas, &fresh.density[cell], fresh.momentum[cell].data(), &fresh.totalEnergy[cell], 1);
 }
 
 /// A step of a block with bodies in it or around: `euler`'s, through open faces alone, and what walls do. Returns
 /// whether the gas away from bodies can be; beside them small cells have still to share.
 template <int D, class Flux, class Shape, class G>
 bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells<D>& cells,
-                     const WallExchange<D>& exchange, const NearBodies<D>& near, euler::Work<D>& work,
-                     const euler::StateViews<D, double>& fresh, const OfferedExchange<D>& offered, Sum& power) {
+                     const WallExchange<D>& exchange, const NearBodies<D>& near,
+                     euler::Work<D, euler::kGases<G>>& work, const euler::MixtureViews<D, double>& fresh,
+                     const OfferedExchange<D>& offered, Sum& power) {
   const Level& level = exchange.level();
   const double perStep = level.cellVolume() / dt;
   work.hold(block.grown(Shape::reach, D));
@@ -321,45 +350,66 @@ bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells
   if constexpr (D > 2) sweep.template operator()<2>();
   addWalls<D>(exchange, near, block, perStep, fresh, offered, power);
   bool fine = true;
-  forEach<D>(block, [&](const Index<D>& cell) {
-    fine &= near(cell) ||
-            euler::canBe<D>(gas, &fresh.density[cell], fresh.momentum[cell].data(), &fresh.totalEnergy[cell], 1);
+  forEach<D>(block, [&](const Index<D>& cell) { fine &= near(cell) || canBeIn<D>(gas, cell, fresh); });
+  return fine;
+}
+
+/// The step of a patch with the law of its gas. Returns whether the gas away from bodies can be.
+template <int D, class Flux, class Shape, class G>
+bool advanceWith(const G& law, const Patch& patch, double dt, const GasInCells<D>& cells,
+                 const WallExchange<D>& exchange, const NearBodies<D>& near, const UnsharedGas<D>& fresh,
+                 const OfferedExchange<D>& offered, Sum& power) {
+  constexpr int K = euler::kGases<G>;
+  const Level& level = patch.level();
+  euler::Work<D, K> work(patch.cells(), Shape::reach);
+  bool fine = true;
+  euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
+    if (near.anyIn(block.grown(1, D))) {
+      fine &= advanceAtBodies<D, Flux, Shape>(law, dt, block, cells, exchange, near, work, fresh.held, offered, power);
+      return;
+    }
+    euler::advanceBlock<D, Flux, Shape>(law, level, exchange.rules(), block, dt, cells.held, work, fresh.held, {});
+    if constexpr (K > 1)
+      fine = false;  // refuseFarGas looks
+    else
+      fine &= euler::canBe<D>(law, block, fresh.held);
   });
   return fine;
 }
 
 /// One step of the gas: that of `euler` where no body is near, to the last bit; at bodies, fluxes go through the open
 /// share of faces, walls push by their pressure and do work by the mean of their velocities before and after the step,
-/// and gas follows walls that move. Adds the power of the gas on bodies, W.
-template <int D, class Flux, class Shape>
+/// and gas follows walls that move. Adds the power of the gas on bodies, W. K is the number of gases that share cells.
+template <int D, class Flux, class Shape, int K>
 void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings, double dt,
                 const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
                 const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh,
                 const OfferedExchange<D>& offered, Sum& power) {
-  const Level& level = patch.level();
   const euler::Gas& gas = settings.gas.gas;
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
-  const WallExchange<D> exchange(level, settings, cells, bodies, records, dt);
-  euler::Work<D> work(patch.cells(), Shape::reach);
+  const WallExchange<D> exchange(patch.level(), settings, cells, bodies, records, dt);
   offered.clear();
-  bool fine = true;
   const auto advance = [&](const auto& law) {
-    euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
-      if (near.anyIn(block.grown(1, D))) {
-        fine &=
-            advanceAtBodies<D, Flux, Shape>(law, dt, block, cells, exchange, near, work, fresh.held, offered, power);
-        return;
-      }
-      euler::advanceBlock<D, Flux, Shape>(law, level, exchange.rules(), block, dt, cells.held, work, fresh.held, {});
-      fine &= euler::canBe<D>(law, block, fresh.held);
-    });
+    return advanceWith<D, Flux, Shape>(law, patch, dt, cells, exchange, near, fresh, offered, power);
   };
-  // Other laws are looked up cell by cell: they cost more than that themselves.
-  if (gas.law)
-    advance(gas);
+  bool fine = false;
+  if constexpr (K > 1)
+    fine = advance(euler::mixtureOf<K>(settings.gases));
+  else if (gas.law)  // Other laws are looked up cell by cell: they cost more than that themselves.
+    fine = advance(gas);
   else
-    advance(euler::lawOf<euler::StiffenedGas>(gas));
-  if (!fine) refuseFarGas<D>(patch, gas, near, cells, fresh.held);
+    fine = advance(euler::lawOf<euler::StiffenedGas>(gas));
+  if (!fine) refuseFarGas<D>(patch, settings, near, cells, fresh.held);
 }
+
+template <int D>
+using AdvanceGas = void (*)(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
+                            double dt, const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
+                            const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh,
+                            const OfferedExchange<D>& offered, Sum& power);
+
+/// advanceGas for several gases, two or three.
+template <int D>
+AdvanceGas<D> chooseAdvanceGases(const euler::Method& method, std::size_t gases);
 
 }  // namespace tushar::mpmice
