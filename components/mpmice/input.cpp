@@ -39,7 +39,8 @@ bool hasAllPairs(const std::vector<double>& given, const char* name, int materia
 void checkMomentum(const ice::Exchange& exchange, int solids, int gases, bool areRigid, const Element& tag,
                    Diagnostics& diagnostics) {
   constexpr double walls = 1e9;
-  if (exchange.momentum.empty() || !hasAllPairs(exchange.momentum, "momentum", solids + gases, tag, diagnostics)) return;
+  if (exchange.momentum.empty() || !hasAllPairs(exchange.momentum, "momentum", solids + gases, tag, diagnostics))
+    return;
   forEachPairWithGas(exchange.momentum, solids, gases, [&](int body, double k) {
     if (k >= walls || (areRigid && k == 0)) return;
     diagnostics.error(

@@ -54,8 +54,8 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
     tasks.perPatch("mpmice::initializeGases", initializeGases<D>, with(settings_), requiresNew(c::freeVolume),
                    all<NewContent<D>>(settings_.gases.size()));
   if (settings_.implicit)
-    tasks.perPatch("mpmice::guessPressure", guessPressure<D>, with(settings_),
-                   gasIn(readsNew, {}), computes(c::pressureAtEnd));
+    tasks.perPatch("mpmice::guessPressure", guessPressure<D>, with(settings_), gasIn(readsNew, {}),
+                   computes(c::pressureAtEnd));
   tasks.perPatch("mpmice::startImpulse", startSum<D, Vec<D>>, computes(c::impulseSinceStart<D>));
   for (const CellLabel<double>* sum : {&c::workSinceStart, &c::heatSinceStart, &c::leakSinceStart})
     tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(*sum));
@@ -66,20 +66,17 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
   if (settings_.implicit)
     schedulePressure(tasks, materials);
   else
-    tasks.acrossMaterials(
-        "mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
-        withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})),
-        requiresNew(g::record, 1), withoutMaterial(all<WallPressures<D>>()));
+    tasks.acrossMaterials("mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
+                          withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})), requiresNew(g::record, 1),
+                          withoutMaterial(all<WallPressures<D>>()));
   if (isViscous())
-    tasks.acrossMaterials(
-        "mpmice::computeWallFriction", computeWallFriction<D>, materials, with(settings_), requiresOld(delT),
-        withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})),
-        requiresNew(g::record, 1), withoutMaterial(computes(c::wallFriction<D>)));
+    tasks.acrossMaterials("mpmice::computeWallFriction", computeWallFriction<D>, materials, with(settings_),
+                          requiresOld(delT), withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})),
+                          requiresNew(g::record, 1), withoutMaterial(computes(c::wallFriction<D>)));
   tasks.acrossMaterials(
       "mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
-      withoutMaterial(gasIn(readsOld, {.mass = 3, .room = 3})),
-      withoutMaterial(all<KnownWalls<D>>(2, isViscous())), requiresNew(g::record, isViscous() ? 3 : 2),
-      computes(total::forceOnBodies), computes(g::surroundingForce<D>));
+      withoutMaterial(gasIn(readsOld, {.mass = 3, .room = 3})), withoutMaterial(all<KnownWalls<D>>(2, isViscous())),
+      requiresNew(g::record, isViscous() ? 3 : 2), computes(total::forceOnBodies), computes(g::surroundingForce<D>));
 }
 
 /// The pressure at the end of the step, that on walls included.
@@ -109,21 +106,22 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
     tasks.acrossMaterials("mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_),
                           requiresOld(delT), withoutMaterial(all<GasInStep<D>>()),
                           withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 1),
-                          withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size())), withoutMaterial(all<OfferedExchange<D>>()),
-                          computes(total::powerOnBodies));
+                          withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size())),
+                          withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
   else
-    tasks.acrossMaterials(
-        "mpmice::advanceGas", advanceBody<D>(settings_.gas.method, settings_.gases.size()), materials, with(settings_), requiresOld(delT),
-        withoutMaterial(gasIn(readsOld, {.state = 2, .mass = 2, .room = 3})),
-        withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 1),
-        withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size())), withoutMaterial(all<OfferedExchange<D>>()),
-        computes(total::powerOnBodies));
+    tasks.acrossMaterials("mpmice::advanceGas", advanceBody<D>(settings_.gas.method, settings_.gases.size()), materials,
+                          with(settings_), requiresOld(delT),
+                          withoutMaterial(gasIn(readsOld, {.state = 2, .mass = 2, .room = 3})),
+                          withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 1),
+                          withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size())),
+                          withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
   if (settings_.diffusion.acts())
     tasks.perPatch("mpmice::addDiffusion", addDiffusion<D>, with(settings_),
-                   gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}),
-                   requiresOld(delT), modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy));
+                   gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), requiresOld(delT),
+                   modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy));
   if (conductsToBodies()) scheduleConduction(tasks, materials);
-  tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_), all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
+  tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_),
+                 all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
                  computes(total::mergedCells));
   if (exchangesHeat())
     tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), requiresOld(delT),
@@ -160,11 +158,10 @@ void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) con
     tasks.perPatch("mpmice::addHeat", addHeatToSum<D>, requiresNew(c::heat),
                    when(conductsToBodies(), requiresNew(c::wallHeat)), requiresOld(c::heatSinceStart),
                    computes(c::heatSinceStart));
-  tasks.acrossMaterials(
-      "mpmice::measureLeak", measureLeak<D>, materials, all<Boxes<D>>(readsOld), with(settings_),
-      withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 1})),
-      withoutMaterial(requiresNew(c::massFlow<D>, 1)), withoutMaterial(requiresOld(c::leakSinceStart)),
-      withoutMaterial(computes(c::leakSinceStart)));
+  tasks.acrossMaterials("mpmice::measureLeak", measureLeak<D>, materials, all<Boxes<D>>(readsOld), with(settings_),
+                        withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 1})),
+                        withoutMaterial(requiresNew(c::massFlow<D>, 1)),
+                        withoutMaterial(requiresOld(c::leakSinceStart)), withoutMaterial(computes(c::leakSinceStart)));
 }
 
 template <int D>
@@ -173,16 +170,14 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
                     requiresOld(mpm::solid::c::stableTimeStep), computes(delT));
   if (settings_.implicit) {
     tasks.perPatch("mpmice::limitImplicitStep", limitImplicitStep<D>, with(settings_),
-                   gasIn(readsOld, {.state = 1, .mass = 2, .room = 2}),
-                   computes(delT));
+                   gasIn(readsOld, {.state = 1, .mass = 2, .room = 2}), computes(delT));
     return;
   }
   tasks.perPatch("mpmice::computeStableTimeStep",
                  settings_.gases.empty() ? computeStableTimeStep<D> : limitStepOfGases<D>, with(settings_),
                  gasIn(readsOld, {}), computes(delT));
   if (settings_.diffusion.acts())
-    tasks.perPatch("mpmice::limitDiffusion", limitDiffusion<D>, with(settings_),
-                   gasIn(readsOld, {}), computes(delT));
+    tasks.perPatch("mpmice::limitDiffusion", limitDiffusion<D>, with(settings_), gasIn(readsOld, {}), computes(delT));
 }
 
 template <int D>

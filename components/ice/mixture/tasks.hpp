@@ -16,9 +16,9 @@ using Gases = std::vector<euler::Settings>;
 /// The state of several gases at a point at the start: of each that of its last object there, in its share.
 template <int D>
 struct MixtureStart {
-  euler::State<D> sum{};                                 ///< of all together
+  euler::State<D> sum{};                                  ///< of all together
   std::array<double, euler::kMostGases> mass{}, share{};  ///< of each
-  double filled = 0;                                     ///< the shares together
+  double filled = 0;                                      ///< the shares together
 
   static MixtureStart at(const Level& level, const Gases& gases, const Vec3& point) {
     MixtureStart start;

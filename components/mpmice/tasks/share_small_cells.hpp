@@ -225,7 +225,8 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     shareAt<D>(small, state, cell, centre, fresh.held);
     if (state.free[centre] < narrowFreeVolume) fresh.free[cell] = 0;  // a hole: what it holds waits until there is room
   });
-  near.forEachIn(patch.cells(), [&](const Index<D>& cell) { checkGas<D>(level, lawAt<D>(settings, fresh.held, cell), cell, fresh); });
+  near.forEachIn(patch.cells(),
+                 [&](const Index<D>& cell) { checkGas<D>(level, lawAt<D>(settings, fresh.held, cell), cell, fresh); });
 }
 
 }  // namespace tushar::mpmice
