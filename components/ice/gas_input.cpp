@@ -201,7 +201,7 @@ void readGases(const std::vector<GasMaterial>& materials, const Element& root, G
     scene.mixture.push_back(settings);
     scene.diffusions.push_back({materials[k].viscosity, materials[k].conductivity});
   }
-  checkMixture(materials, root, scene, diagnostics);
+  checkMixture(materials, root, scene, scene.gas.gas.material, diagnostics);
 }
 
 bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }

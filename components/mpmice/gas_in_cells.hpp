@@ -1,26 +1,71 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+
+#include "components/euler/tasks/advance_mixture.hpp"
 #include "components/euler/tasks/check_state.hpp"
 #include "components/mpmice/labels.hpp"
 #include "components/mpmice/settings.hpp"
 
 namespace tushar::mpmice {
 
-/// The gas in the free part of cells: what it holds, per volume of the cell, and how much room it has.
+/// What gas holds per volume of its own: rho, rho v, E, and of each of several gases the mass and the share.
+template <int D>
+struct Parcel {
+  euler::State<D> u{};
+  std::array<double, euler::kMostGases> masses{}, shares{};
+
+  void add(const Parcel& other, double factor) {
+    for (std::size_t k = 0; k < u.size(); ++k) u[k] += factor * other.u[k];
+    for (std::size_t k = 0; k < masses.size(); ++k) {
+      masses[k] += factor * other.masses[k];
+      shares[k] += factor * other.shares[k];
+    }
+  }
+};
+
+/// The law of the gas where it is one of several, that of a stiffened gas which acts as they do in their shares
+/// of a cell; otherwise its own.
+template <int D, class T>
+euler::Gas lawAt(const Settings& settings, const euler::MixtureViews<D, T>& held, const Index<D>& cell) {
+  if (settings.gases.empty()) return settings.gas.gas;
+  euler::MixedGas mixed;
+  for (std::size_t k = 0; k < settings.gases.size(); ++k)
+    mixed.add(held.shares[k][cell], settings.gases[k].gas.gamma, settings.gases[k].gas.pInfinity);
+  return mixed.alike();
+}
+
+/// Views of one variable of each of several gases.
+template <class Take, class Access>
+auto viewsOfGases(Take& take, std::size_t gases, Access&& access) {
+  std::vector<std::decay_t<decltype(take(access(0)))>> views;
+  for (std::size_t k = 0; k < gases; ++k) views.push_back(take(access(k)));
+  return views;
+}
+
+/// The gas in the free part of cells: what it holds, per volume of the cell, and how much room it has. Of several gases
+/// the masses are per volume of the cell, too; shares are those of the gas's volume.
 template <int D>
 struct GasInCells {
-  euler::StateViews<D, const double> held;
+  euler::MixtureViews<D, const double> held;
   CellView<const double> free;
   CellView<const Vec<D>> coverage;
 
   /// How far beyond a patch: the state, where gas is, and how much room it has.
   struct Reach {
     int state = 0, mass = 0, room = 0;
+    std::size_t gases = 0;  ///< of several
   };
   /// `reads` makes accesses of the state at the start of a step, or as the step has it.
   static GasInCells from(auto& take, auto reads, const Reach& ghost) {
-    return {.held = {take(reads(c::density, ghost.mass)), take(reads(c::momentum<D>, ghost.state)),
-                     take(reads(c::totalEnergy, ghost.state))},
+    const auto ofEach = [&](const auto& labels) {
+      return viewsOfGases(take, ghost.gases, [&](std::size_t k) { return reads(labels[k], ghost.state); });
+    };
+    return {.held = {{take(reads(c::density, ghost.mass)), take(reads(c::momentum<D>, ghost.state)),
+                      take(reads(c::totalEnergy, ghost.state))},
+                     ofEach(c::massOfGas),
+                     ofEach(c::shareOfGas)},
             .free = take(reads(c::freeVolume, ghost.room)),
             .coverage = take(reads(c::coverage<D>, ghost.room))};
   }
@@ -34,10 +79,30 @@ struct GasInCells {
     u[euler::kPressure<D>] = held.totalEnergy[cell] * inverse;
     return u;
   }
-  /// rho, v, p of the gas alone.
+  /// The same with what each of several gases holds.
+  Parcel<D> parcel(const Index<D>& cell) const {
+    Parcel<D> parcel{conserved(cell)};
+    for (std::size_t k = 0; k < held.shares.size(); ++k) {
+      parcel.masses[k] = held.masses[k][cell] / free[cell];
+      parcel.shares[k] = held.shares[k][cell];
+    }
+    return parcel;
+  }
+  /// rho, v, p of the gas alone, and of K gases the mass and the share of each.
   template <class G>
-  euler::State<D> primitive(const G& gas, const Index<D>& cell) const {
-    return euler::primitive<D>(gas, conserved(cell));
+  euler::State<D, euler::kGases<G>> primitive(const G& gas, const Index<D>& cell) const {
+    if constexpr (constexpr int K = euler::kGases<G>; K == 1) {
+      return euler::primitive<D>(gas, conserved(cell));
+    } else {
+      const Parcel<D> own = parcel(cell);
+      euler::State<D, K> u{};
+      std::copy(own.u.begin(), own.u.end(), u.begin());
+      for (int k = 0; k < K; ++k) {
+        u[euler::kMass<D>(k)] = own.masses[k];
+        u[euler::kShare<D, K>(k)] = own.shares[k];
+      }
+      return euler::primitive<D>(gas, u);
+    }
   }
 };
 

@@ -15,32 +15,33 @@ using input::Element;
 
 namespace {
 
-/// Of pairs of materials, those of a body and the gas; Uintah's matrices have the pairs row by row.
+/// Of pairs of materials, those of a body and a gas; Uintah's matrices have the pairs row by row.
 template <class Visit>
-void forEachPairWithGas(const std::vector<double>& pairs, int solids, Visit&& visit) {
+void forEachPairWithGas(const std::vector<double>& pairs, int solids, int gases, Visit&& visit) {
   std::size_t at = 0;
   for (int row = 0; row < solids; ++row)
-    for (int column = row + 1; column <= solids; ++column, ++at)
-      if (column == solids) visit(row, pairs[at]);
+    for (int column = row + 1; column < solids + gases; ++column, ++at)
+      if (column >= solids) visit(row, pairs[at]);
 }
 
 /// Whether a list has a number for each pair of materials.
-bool hasAllPairs(const std::vector<double>& given, const char* name, int solids, const Element& tag,
+bool hasAllPairs(const std::vector<double>& given, const char* name, int materials, const Element& tag,
                  Diagnostics& diagnostics) {
-  const std::size_t pairs = static_cast<std::size_t>(solids) * (solids + 1) / 2;
+  const std::size_t pairs = static_cast<std::size_t>(materials) * (materials - 1) / 2;
   if (given.size() == pairs) return true;
   diagnostics.error(
       tag.child(name).value_or(tag),
-      fmt::format("found {} numbers, expected {}: one for each pair of {} materials", given.size(), pairs, solids + 1));
+      fmt::format("found {} numbers, expected {}: one for each pair of {} materials", given.size(), pairs, materials));
   return false;
 }
 
 /// Momentum between the gas and bodies goes by walls, or bodies are rigid; between bodies by their contacts.
-void checkMomentum(const ice::Exchange& exchange, int solids, bool areRigid, const Element& tag,
+void checkMomentum(const ice::Exchange& exchange, int solids, int gases, bool areRigid, const Element& tag,
                    Diagnostics& diagnostics) {
   constexpr double walls = 1e9;
-  if (exchange.momentum.empty() || !hasAllPairs(exchange.momentum, "momentum", solids, tag, diagnostics)) return;
-  forEachPairWithGas(exchange.momentum, solids, [&](int body, double k) {
+  if (exchange.momentum.empty() || !hasAllPairs(exchange.momentum, "momentum", solids + gases, tag, diagnostics))
+    return;
+  forEachPairWithGas(exchange.momentum, solids, gases, [&](int body, double k) {
     if (k >= walls || (areRigid && k == 0)) return;
     diagnostics.error(
         tag.child("momentum").value_or(tag),
@@ -53,11 +54,21 @@ void checkMomentum(const ice::Exchange& exchange, int solids, bool areRigid, con
 }
 
 /// The coefficients of heat of all pairs; empty if none flows.
-std::vector<double> heatOf(const ice::Exchange& exchange, int solids, const Element& root, const Element& tag,
-                           Diagnostics& diagnostics) {
+std::vector<double> heatOf(const ice::Exchange& exchange, int solids, int gases, const Element& root,
+                           const Element& tag, Diagnostics& diagnostics) {
   const auto& heat = exchange.heat;
-  if (heat.empty() || !hasAllPairs(heat, "heat", solids, tag, diagnostics)) return {};
+  if (heat.empty() || !hasAllPairs(heat, "heat", solids + gases, tag, diagnostics)) return {};
   if (std::all_of(heat.begin(), heat.end(), [](double h) { return h == 0; })) return {};
+  if (gases > 1) {
+    forEachPairWithGas(heat, solids, gases, [&](int body, double k) {
+      if (k > 0)
+        diagnostics.error(tag.child("heat").value_or(tag),
+                          fmt::format("{:g} between body {} and a gas is not available where there are several "
+                                      "gases: set it to 0",
+                                      k, body));
+    });
+    return {};
+  }
   for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material"))
     if (!material.child("specific_heat")) diagnostics.error(material, "missing tag <specific_heat>: it exchanges heat");
   return heat;
@@ -108,12 +119,17 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const std::size_t before = diagnostics.size();
   const int solids = countSolids(root);
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
-  if (!scene.mixture.empty())
-    diagnostics.error(scene.mixture[1].where, "MaterialProperties/ICE/material",
-                      "a second gas is not available beside bodies; keep one <material>");
   if (!scene.scalars.empty())
     diagnostics.error(scene.scalars.front().where, "Models/Model",
                       "is not available beside bodies; take it out, or keep only the gas");
+  if (!scene.massExchanges.empty())
+    diagnostics.error(scene.massExchanges.front().where, "Models/Model",
+                      "is not available beside bodies; take it out, or keep only the gas");
+  if (std::any_of(scene.diffusions.begin(), scene.diffusions.end(), [](const auto& one) { return one.acts(); }))
+    diagnostics.error(
+        scene.where, "CFD",
+        "a viscosity or thermal conductivity of several gases is not available beside bodies: set each to "
+        "0, or keep one gas");
   if (scene.implicit && scene.gas.gas.law)
     diagnostics.error(
         scene.implicit->where, "CFD/ICE/ImplicitSolver",
@@ -123,6 +139,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};
   settings.diffusion = {scene.viscosity, scene.conductivity};
+  settings.gases = scene.mixture;
   if (scene.implicit)
     settings.implicit = {.diffusion = settings.diffusion,
                          .gravity = scene.gravity,
@@ -130,8 +147,9 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
                          .solver = scene.implicit->solver};
   if (scene.exchange) {
     const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
-    checkMomentum(*scene.exchange, solids, areRigid, tag, diagnostics);
-    settings.heat = heatOf(*scene.exchange, solids, root, tag, diagnostics);
+    const int gases = std::max<int>(1, static_cast<int>(scene.mixture.size()));
+    checkMomentum(*scene.exchange, solids, gases, areRigid, tag, diagnostics);
+    settings.heat = heatOf(*scene.exchange, solids, gases, root, tag, diagnostics);
   }
   checkGas(scene, root, diagnostics);
   noteConditionsOfBodies(root, solids, diagnostics);

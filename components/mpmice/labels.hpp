@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "components/euler/labels.hpp"
 #include "components/ice/labels.hpp"
 #include "components/mpm/solid/labels.hpp"
@@ -45,6 +47,20 @@ inline constexpr CellLabel<double> unsharedDensity{"c.unsharedDensity", "kg/m^3"
 template <int D>
 inline constexpr CellLabel<Vec<D>> unsharedMomentum{"c.unsharedMomentum", "kg/(m^2 s)", "before small cells share it"};
 inline constexpr CellLabel<double> unsharedEnergy{"c.unsharedEnergy", "J/m^3", "before small cells share it"};
+/// Of several gases each by its number: its mass per volume of the cell, its share of the gas's volume, and before
+/// small cells share theirs its mass and volume per volume of the cell.
+inline constexpr std::array<CellLabel<double>, 3> massOfGas{{{"c.massOfGas0", "kg/m^3", "mass of the first gas"},
+                                                             {"c.massOfGas1", "kg/m^3", "mass of the second gas"},
+                                                             {"c.massOfGas2", "kg/m^3", "mass of the third gas"}}};
+inline constexpr std::array<CellLabel<double>, 3> shareOfGas{{{"c.shareOfGas0", "1", "of the first gas in all gas"},
+                                                              {"c.shareOfGas1", "1", "of the second gas in all gas"},
+                                                              {"c.shareOfGas2", "1", "of the third gas in all gas"}}};
+inline constexpr std::array<CellLabel<double>, 3> unsharedMass{{{"c.unsharedMass0", "kg/m^3", "of the first gas"},
+                                                                {"c.unsharedMass1", "kg/m^3", "of the second gas"},
+                                                                {"c.unsharedMass2", "kg/m^3", "of the third gas"}}};
+inline constexpr std::array<CellLabel<double>, 3> unsharedVolume{{{"c.unsharedVolume0", "1", "of the first gas"},
+                                                                  {"c.unsharedVolume1", "1", "of the second gas"},
+                                                                  {"c.unsharedVolume2", "1", "of the third gas"}}};
 /// What the gas gave to bodies in a step, per volume of the cell, and since the start.
 template <int D>
 inline constexpr CellLabel<Vec<D>> impulse{"c.impulseOnBodies", "N s/m^3", "of the gas on walls in the step"};

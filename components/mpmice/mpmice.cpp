@@ -17,15 +17,29 @@ namespace tushar::mpmice {
 
 namespace {
 
-/// The body of advanceGas for a method.
+/// The body of advanceGas for a method and a number of gases that share cells.
 template <int D>
-auto advanceBody(const euler::Method& method) {
+AdvanceGas<D> advanceBody(const euler::Method& method, std::size_t gases) {
+  if (gases > 1) return chooseAdvanceGases<D>(method, gases);
   return method.reconstruction == euler::Reconstruction::firstOrder
-             ? advanceGas<D, euler::Hllc, euler::Constant>
-             : advanceGas<D, euler::Hllc, euler::Sloped<VanLeer>>;
+             ? advanceGas<D, euler::Hllc, euler::Constant, 1>
+             : advanceGas<D, euler::Hllc, euler::Sloped<VanLeer>, 1>;
 }
 
 }  // namespace
+
+template <int D>
+GasAround<D>::GasAround(Settings settings) : settings_(std::move(settings)) {
+  for (const euler::Settings& gas : settings_.gases) totals_.push_back(std::make_shared<const ice::GasTotal>(gas.name));
+}
+
+template <int D>
+std::vector<std::string> GasAround<D>::gasNames() const {
+  if (settings_.gases.empty()) return {settings_.gas.name};
+  std::vector<std::string> names;
+  for (const euler::Settings& gas : settings_.gases) names.push_back(gas.name);
+  return names;
+}
 
 template <int D>
 void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) const {
@@ -33,11 +47,15 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
                     requiresNew(p::deformationMeasure), computes(p::boxEdges<D>));
   tasks.acrossMaterials("mpmice::measureFreeSpace", measureFreeSpace<D>, materials, all<Boxes<D>>(readsNew),
                         withoutMaterial(all<FreeShares<D>>(&c::freeVolume)));
-  tasks.perPatch("mpmice::initialize", initialize<D>, with(settings_), requiresNew(c::freeVolume), computes(c::density),
-                 computes(c::momentum<D>), computes(c::totalEnergy));
+  if (settings_.gases.empty())
+    tasks.perPatch("mpmice::initialize", initialize<D>, with(settings_), requiresNew(c::freeVolume),
+                   computes(c::density), computes(c::momentum<D>), computes(c::totalEnergy));
+  else
+    tasks.perPatch("mpmice::initializeGases", initializeGases<D>, with(settings_), requiresNew(c::freeVolume),
+                   all<NewContent<D>>(settings_.gases.size()));
   if (settings_.implicit)
-    tasks.perPatch("mpmice::guessPressure", guessPressure<D>, with(settings_),
-                   all<GasInCells<D>>(readsNew, typename GasInCells<D>::Reach{}), computes(c::pressureAtEnd));
+    tasks.perPatch("mpmice::guessPressure", guessPressure<D>, with(settings_), gasIn(readsNew, {}),
+                   computes(c::pressureAtEnd));
   tasks.perPatch("mpmice::startImpulse", startSum<D, Vec<D>>, computes(c::impulseSinceStart<D>));
   for (const CellLabel<double>* sum : {&c::workSinceStart, &c::heatSinceStart, &c::leakSinceStart})
     tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(*sum));
@@ -48,27 +66,24 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
   if (settings_.implicit)
     schedulePressure(tasks, materials);
   else
-    tasks.acrossMaterials(
-        "mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
-        withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.mass = 1, .room = 2})),
-        requiresNew(g::record, 1), withoutMaterial(all<WallPressures<D>>()));
+    tasks.acrossMaterials("mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
+                          withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})), requiresNew(g::record, 1),
+                          withoutMaterial(all<WallPressures<D>>()));
   if (isViscous())
-    tasks.acrossMaterials(
-        "mpmice::computeWallFriction", computeWallFriction<D>, materials, with(settings_), requiresOld(delT),
-        withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.mass = 1, .room = 2})),
-        requiresNew(g::record, 1), withoutMaterial(computes(c::wallFriction<D>)));
+    tasks.acrossMaterials("mpmice::computeWallFriction", computeWallFriction<D>, materials, with(settings_),
+                          requiresOld(delT), withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})),
+                          requiresNew(g::record, 1), withoutMaterial(computes(c::wallFriction<D>)));
   tasks.acrossMaterials(
       "mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
-      withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.mass = 3, .room = 3})),
-      withoutMaterial(all<KnownWalls<D>>(2, isViscous())), requiresNew(g::record, isViscous() ? 3 : 2),
-      computes(total::forceOnBodies), computes(g::surroundingForce<D>));
+      withoutMaterial(gasIn(readsOld, {.mass = 3, .room = 3})), withoutMaterial(all<KnownWalls<D>>(2, isViscous())),
+      requiresNew(g::record, isViscous() ? 3 : 2), computes(total::forceOnBodies), computes(g::surroundingForce<D>));
 }
 
 /// The pressure at the end of the step, that on walls included.
 template <int D>
 void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials) const {
   constexpr typename GasInCells<D>::Reach reach{.mass = 3, .room = 3};
-  const auto gas = all<GasInCells<D>>(readsOld, reach);
+  const auto gas = gasIn(readsOld, reach);
   tasks.perPatch("mpmice::takeGasAlone", takeGasAlone<D>, with(settings_), gas, all<NewGasAlone<D>>());
   tasks.acrossMaterials("mpmice::findWallSpeeds", findWallSpeeds<D>, materials, with(settings_), withoutMaterial(gas),
                         requiresNew(g::record, 1), withoutMaterial(all<NewWallSpeeds<D>>()));
@@ -91,21 +106,22 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
     tasks.acrossMaterials("mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_),
                           requiresOld(delT), withoutMaterial(all<GasInStep<D>>()),
                           withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 1),
-                          withoutMaterial(all<UnsharedGas<D>>()), withoutMaterial(all<OfferedExchange<D>>()),
-                          computes(total::powerOnBodies));
+                          withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size())),
+                          withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
   else
-    tasks.acrossMaterials(
-        "mpmice::advanceGas", advanceBody<D>(settings_.gas.method), materials, with(settings_), requiresOld(delT),
-        withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.state = 2, .mass = 2, .room = 3})),
-        withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 1),
-        withoutMaterial(all<UnsharedGas<D>>()), withoutMaterial(all<OfferedExchange<D>>()),
-        computes(total::powerOnBodies));
+    tasks.acrossMaterials("mpmice::advanceGas", advanceBody<D>(settings_.gas.method, settings_.gases.size()), materials,
+                          with(settings_), requiresOld(delT),
+                          withoutMaterial(gasIn(readsOld, {.state = 2, .mass = 2, .room = 3})),
+                          withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 1),
+                          withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size())),
+                          withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
   if (settings_.diffusion.acts())
     tasks.perPatch("mpmice::addDiffusion", addDiffusion<D>, with(settings_),
-                   all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.state = 1, .mass = 3, .room = 3}),
-                   requiresOld(delT), modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy));
+                   gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), requiresOld(delT),
+                   modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy));
   if (conductsToBodies()) scheduleConduction(tasks, materials);
-  tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_), all<Unshared<D>>(), all<NewGas<D>>(),
+  tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_),
+                 all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
                  computes(total::mergedCells));
   if (exchangesHeat())
     tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), requiresOld(delT),
@@ -124,10 +140,10 @@ void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& material
   constexpr typename GasInCells<D>::Reach reach{.state = 1, .mass = 2, .room = 2};
   tasks.acrossMaterials("mpmice::measureBodyHeat", measureBodyHeat<D>, materials, with(settings_),
                         all<HeatOfParticles>(), withoutMaterial(all<BodyHeat>()));
-  tasks.perPatch("mpmice::conductFromGas", conductFromGas<D>, with(settings_), all<GasInCells<D>>(readsOld, reach),
+  tasks.perPatch("mpmice::conductFromGas", conductFromGas<D>, with(settings_), gasIn(readsOld, reach),
                  all<KnownBodyHeat>(), requiresOld(delT), modifies(c::unsharedEnergy), computes(c::wallHeat));
   tasks.acrossMaterials("mpmice::conductToBodies", conductToBodies<D>, materials, with(settings_),
-                        withoutMaterial(all<GasInCells<D>>(readsOld, reach)), withoutMaterial(all<KnownBodyHeat>()),
+                        withoutMaterial(gasIn(readsOld, reach)), withoutMaterial(all<KnownBodyHeat>()),
                         requiresOld(delT), modifies(p::temperature));
 }
 
@@ -142,11 +158,10 @@ void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) con
     tasks.perPatch("mpmice::addHeat", addHeatToSum<D>, requiresNew(c::heat),
                    when(conductsToBodies(), requiresNew(c::wallHeat)), requiresOld(c::heatSinceStart),
                    computes(c::heatSinceStart));
-  tasks.acrossMaterials(
-      "mpmice::measureLeak", measureLeak<D>, materials, all<Boxes<D>>(readsOld), with(settings_),
-      withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.mass = 1, .room = 1})),
-      withoutMaterial(requiresNew(c::massFlow<D>, 1)), withoutMaterial(requiresOld(c::leakSinceStart)),
-      withoutMaterial(computes(c::leakSinceStart)));
+  tasks.acrossMaterials("mpmice::measureLeak", measureLeak<D>, materials, all<Boxes<D>>(readsOld), with(settings_),
+                        withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 1})),
+                        withoutMaterial(requiresNew(c::massFlow<D>, 1)),
+                        withoutMaterial(requiresOld(c::leakSinceStart)), withoutMaterial(computes(c::leakSinceStart)));
 }
 
 template <int D>
@@ -155,25 +170,28 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
                     requiresOld(mpm::solid::c::stableTimeStep), computes(delT));
   if (settings_.implicit) {
     tasks.perPatch("mpmice::limitImplicitStep", limitImplicitStep<D>, with(settings_),
-                   all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.state = 1, .mass = 2, .room = 2}),
-                   computes(delT));
+                   gasIn(readsOld, {.state = 1, .mass = 2, .room = 2}), computes(delT));
     return;
   }
-  tasks.perPatch("mpmice::computeStableTimeStep", computeStableTimeStep<D>, with(settings_),
-                 all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{}), computes(delT));
+  tasks.perPatch("mpmice::computeStableTimeStep",
+                 settings_.gases.empty() ? computeStableTimeStep<D> : limitStepOfGases<D>, with(settings_),
+                 gasIn(readsOld, {}), computes(delT));
   if (settings_.diffusion.acts())
-    tasks.perPatch("mpmice::limitDiffusion", limitDiffusion<D>, with(settings_),
-                   all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{}), computes(delT));
+    tasks.perPatch("mpmice::limitDiffusion", limitDiffusion<D>, with(settings_), gasIn(readsOld, {}), computes(delT));
 }
 
 template <int D>
 void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
-  const auto gas = all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{});
+  const auto gas = gasIn(readsOld, {});
   tasks.perPatch("mpmice::computePressure", computePressure<D>, with(settings_), gas, computes(c::pressure));
   tasks.perPatch("mpmice::computeVelocity", computeVelocity<D>, gas, computes(c::velocity<D>));
   tasks.perPatch("mpmice::computeMach", computeMach<D>, with(settings_), gas, computes(c::mach<D>));
   tasks.perPatch("mpmice::computeGasDensity", computeGasDensity<D>, gas, computes(c::gasDensity));
-  tasks.perPatch("mpmice::computeTemperature", computeTemperature<D>, with(settings_), gas, computes(c::temperature));
+  tasks.perPatch("mpmice::computeTemperature",
+                 settings_.gases.empty() ? computeTemperature<D> : computeTemperatureOfGases<D>, with(settings_), gas,
+                 computes(c::temperature));
+  for (std::size_t k = 0; k < totals_.size(); ++k)
+    tasks.perPatch("mpmice::sumGas", euler::sumMass<D>, requiresOld(c::massOfGas[k]), computes(totals_[k]->label()));
   tasks.perPatch("mpmice::computeSoundSpeed", computeSoundSpeed<D>, with(settings_), gas, computes(c::soundSpeed));
   tasks.perPatch("mpmice::computeSpecificVolume", computeSpecificVolume<D>, gas, computes(c::specificVolume));
   tasks.perPatch("mpmice::sumInternalEnergy", sumInternalEnergy<D>, gas, computes(ice::total::internalEnergy));

@@ -1,7 +1,8 @@
 #pragma once
 
+#include "components/ice/mixture/labels.hpp"
 #include "components/mpm/solid/problem.hpp"
-#include "components/mpmice/labels.hpp"
+#include "components/mpmice/gas_in_cells.hpp"
 #include "components/mpmice/settings.hpp"
 
 namespace tushar::mpmice {
@@ -14,9 +15,9 @@ class GasAround : public mpm::solid::Surroundings {
  public:
   using Materials = std::vector<mpm::solid::Material>;
 
-  explicit GasAround(Settings settings) : settings_(std::move(settings)) {}
+  explicit GasAround(Settings settings);
 
-  const std::string& gasName() const { return settings_.gas.name; }
+  std::vector<std::string> gasNames() const;
   bool exchangesHeat() const override { return !settings_.heat.empty(); }
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
   void scheduleForces(TaskList& tasks, const Materials& materials) const override;
@@ -25,6 +26,11 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleDiagnostics(TaskList& tasks) const;
 
  private:
+  /// The gas in cells, `reads` how far.
+  auto gasIn(auto reads, typename GasInCells<D>::Reach reach) const {
+    reach.gases = settings_.gases.size();
+    return all<GasInCells<D>>(reads, reach);
+  }
   bool conductsToBodies() const { return settings_.diffusion.conductivity > 0 && exchangesHeat(); }
   void scheduleConduction(TaskList& tasks, const Materials& materials) const;
   bool isViscous() const { return settings_.diffusion.viscosity > 0; }
@@ -32,6 +38,7 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
 
   Settings settings_;
+  std::vector<std::shared_ptr<const ice::GasTotal>> totals_;  ///< of each of several gases
 };
 
 /// Solids and a gas on one grid.
@@ -55,7 +62,7 @@ class MpmIce : public Component {
   bool mayRepeatStep() const override { return true; }
   std::vector<std::string> foreignLabels() const override;
   simulation::OtherNames otherNames() const override;
-  std::vector<std::string> gasNames() const override { return {gas_->gasName()}; }
+  std::vector<std::string> gasNames() const override { return gas_->gasNames(); }
   std::vector<InputProblem> notes() const override { return solids_->notes(); }
 
  private:

@@ -17,6 +17,7 @@ struct Settings {
   bool areRigid = false;         ///< bodies move as they started, whatever the gas does
   euler::Diffusion diffusion = {};                ///< in the gas
   std::optional<ice::IceSettings> implicit = {};  ///< where sound does not limit the steps
+  std::vector<euler::Settings> gases = {};        ///< each of several gases that share cells; the first is `gas`
 };
 
 /// Smaller free volumes count as 0.

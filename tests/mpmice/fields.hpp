@@ -32,7 +32,9 @@ struct GasFields {
       : density(cells, 1), energy(cells, 2.5), free(cells, 1), momentum(cells, zero()), coverage(cells, zero()) {}
 
   GasInCells<D> gas() const {
-    return {.held = {density.seen(), momentum.seen(), energy.seen()}, .free = free.seen(), .coverage = coverage.seen()};
+    return {.held = {{density.seen(), momentum.seen(), energy.seen()}, {}, {}},
+            .free = free.seen(),
+            .coverage = coverage.seen()};
   }
   static Vec<D> zero() { return Vec<D>::Zero(); }
 

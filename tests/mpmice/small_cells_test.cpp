@@ -22,7 +22,8 @@ struct Sharing {
   }
   void share() {
     merged = {};
-    const NewGas<D> fresh{{after.density.cells(), after.momentum.cells(), after.energy.cells()}, after.free.cells()};
+    const NewGas<D> fresh{{{after.density.cells(), after.momentum.cells(), after.energy.cells()}, {}, {}},
+                          after.free.cells()};
     for (const Patch& patch : grid.patches()) shareSmallCells<D>(patch, Settings{}, unshared(), fresh, merged);
   }
   /// Gives a cell so much room, filled with gas of a density at rest of pressure 1.

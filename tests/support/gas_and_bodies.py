@@ -13,7 +13,7 @@ from sus import ROOT
 
 PRESSURE, DENSITY, FREE = "c.pressure [Pa]", "c.density [kg/m^3]", "c.freeVolume [1]"
 # Width and height of scenes in a plane, m.
-PLANE = {"rest": (1, 1), "carried_disc": (1, 1), "cylinder": (1, .2), "wedge": (1, .8)}
+PLANE = {"bubble_and_body": (.1, .05), "rest": (1, 1), "carried_disc": (1, 1), "cylinder": (1, .2), "wedge": (1, .8)}
 
 
 def scene(name):
@@ -22,7 +22,8 @@ def scene(name):
 
 def resolution(name, cells):
     """The overrides for so many cells along x."""
-    across = max(1, round(cells * PLANE.get(name, (1, 0))[1]))
+    width, height = PLANE.get(name, (1, 0))
+    across = max(1, round(cells * height / width))
     sets = [f"Grid/Level/Box/resolution=[{cells},{across},1]"]
     if name in PLANE:
         width, height = PLANE[name]
@@ -89,6 +90,16 @@ def contact(cells):
     return uniform("contact", cells, (1,))
 
 
+def contact_of_gases(cells):
+    return uniform("contact_of_gases", cells, (1,)) | gas_masses("contact_of_gases", cells, "air", "helium")
+
+
+def gas_masses(name, cells, *gases):
+    """How much the mass of each gas changed, of what it was."""
+    run = Outcome(name, cells)
+    return {f"mass of {gas}": run.last(f"TotalMass-{gas}") / run.first(f"TotalMass-{gas}") - 1 for gas in gases}
+
+
 def carried_disc(cells):
     return uniform("carried_disc", cells, (1, .618))
 
@@ -107,6 +118,21 @@ def gun(cells):
 
 def plug(cells):
     return moved("plug", cells, .5, .28778364, .13371990)
+
+
+def plug_of_gases(cells):
+    return moved("plug_of_gases", cells, .5, 0.24544904, 0.09448638) | \
+        gas_masses("plug_of_gases", cells, "stiff", "soft")
+
+
+def bubble_and_body(cells):
+    """The mass of air; what the body got of momentum along x against what the gas gave; and the pressure in the corner
+    behind the shock, before the bubble's fan gets there, against jump conditions."""
+    run_of = Outcome("bubble_and_body", cells)
+    gave, got = run_of.last("GasImpulseOnBodies"), run_of.of_bodies("TotalMomentum")[-1]
+    corner = Outcome("bubble_and_body", cells, ("Time/maxTime=1e-5",)).fields[PRESSURE][0]
+    air = run_of.last("TotalMass-air") / run_of.first("TotalMass-air") - 1
+    return {"mass of air": air, "p behind the shock": corner / 9.01028e8 - 1, "impulse": got / gave - 1}
 
 
 def sod_plate(cells):

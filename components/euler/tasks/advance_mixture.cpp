@@ -7,21 +7,12 @@ namespace tushar::euler {
 
 namespace {
 
-/// A single gas that has the pressure and the speed of sound of a mixture.
-Gas alike(const MixedGas& mixed) {
-  Gas gas;
-  gas.gamma = 1 + 1 / mixed.softness;
-  gas.pInfinity = mixed.leastPressure();
-  return gas;
-}
-
 /// Whether gases in a cell can have its state.
 template <int D, class Held, class T>
 bool isPossible(const std::vector<Settings>& gases, const std::vector<Held>& held, const StateViews<D, T>& state,
                 const Index<D>& cell) {
-  const MixedGas mixed = mixedAt(gases, held, cell);
-  return mixed.softness > 0 &&
-         canBe<D>(alike(mixed), &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1);
+  const Gas alike = mixedAt(gases, held, cell).alike();
+  return canBe<D>(alike, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1);
 }
 
 /// Throws NumericalError for the first cell of the patch with an impossible state, if there is one.
@@ -30,20 +21,8 @@ void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases,
                          const StateViews<D, T>& state) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (isPossible<D>(gases, held, state, cell)) return;
-    refuseState<D, T>(patch.level(), alike(mixedAt(gases, held, cell)), cell, state, nullptr);
+    refuseState<D, T>(patch.level(), mixedAt(gases, held, cell).alike(), cell, state, nullptr);
   });
-}
-
-template <int K>
-Mixture<K> mixtureOf(const std::vector<Settings>& gases) {
-  Mixture<K> mixture;
-  for (int k = 0; k < K; ++k) {
-    MixedGas pure;
-    pure.add(1, gases[k].gas.gamma, gases[k].gas.pInfinity);
-    mixture.softness[k] = pure.softness;
-    mixture.stiffness[k] = pure.stiffness;
-  }
-  return mixture;
 }
 
 template <class T, int D, class Held>

@@ -28,6 +28,19 @@ MixedGas mixedAt(const std::vector<Settings>& gases, const std::vector<Held>& he
   return mixed;
 }
 
+/// The laws of K gases.
+template <int K>
+Mixture<K> mixtureOf(const std::vector<Settings>& gases) {
+  Mixture<K> mixture;
+  for (int k = 0; k < K; ++k) {
+    MixedGas pure;
+    pure.add(1, gases[k].gas.gamma, gases[k].gas.pInfinity);
+    mixture.softness[k] = pure.softness;
+    mixture.stiffness[k] = pure.stiffness;
+  }
+  return mixture;
+}
+
 /// One step of several gases: that of Advance, of all together, with limited slopes of the mass and the share of each
 /// in place of the density's. Shares go with the velocity of the contact at faces, so that where velocity and pressure
 /// are uniform they stay so. Slopes of three gases need not add up; they are scaled until the shares at a face are 1

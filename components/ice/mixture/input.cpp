@@ -28,17 +28,18 @@ void checkSubstance(const GasMaterial& material, const Element& element, Diagnos
 }
 
 /// Each pair of gases has one velocity; heat flows between them at once, or not at all.
-void checkExchange(const GasScene& scene, const Element& root, Diagnostics& diagnostics) {
+void checkExchange(const GasScene& scene, const Element& root, int solids, Diagnostics& diagnostics) {
   if (!scene.exchange) return;
   const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
-  const std::size_t gases = scene.mixture.size(), pairs = gases * (gases - 1) / 2;
+  const std::size_t gases = scene.mixture.size(), count = gases + solids, pairs = count * (count - 1) / 2;
+  const std::size_t ofGases = pairs - gases * (gases - 1) / 2;  // the first: pairs come row by row, bodies first
   const auto check = [&](const std::vector<double>& given, const char* name, bool mayBeNone, const char* sentence) {
     const Element at = tag.child(name).value_or(tag);
     if (!given.empty() && given.size() != pairs)
-      diagnostics.error(
-          at, fmt::format("found {} numbers, expected {}: one for each pair of {} gases", given.size(), pairs, gases));
-    for (const double k : given)
-      if (k < oneForAll && !(mayBeNone && k == 0))
+      return diagnostics.error(at, fmt::format("found {} numbers, expected {}: one for each pair of {} {}",
+                                               given.size(), pairs, count, solids > 0 ? "materials" : "gases"));
+    for (std::size_t at_pair = ofGases; at_pair < given.size(); ++at_pair)
+      if (const double k = given[at_pair]; k < oneForAll && !(mayBeNone && k == 0))
         return diagnostics.error(at, fmt::format("{:g} between gases is not available: {}", k, sentence));
   };
   check(scene.exchange->momentum, "momentum", false, "they have one velocity, which means 1e9 or more");
@@ -83,10 +84,13 @@ void checkSide(const Element& face, const Element& condition, Diagnostics& diagn
 }
 
 /// Sides have the conditions of all gases: a velocity and a pressure, and walls a temperature, but no composition.
-void checkSides(const Element& root, Diagnostics& diagnostics) {
+void checkSides(const Element& root, int solids, Diagnostics& diagnostics) {
   const auto group = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   for (const Element& face : group ? group->children("Face") : std::vector<Element>())
-    for (const Element& condition : face.children("BCType")) checkSide(face, condition, diagnostics);
+    for (const Element& condition : face.children("BCType")) {
+      const int material = input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
+      if (material < 0 || material >= solids) checkSide(face, condition, diagnostics);
+    }
 }
 
 void checkExchangesOfMass(const GasScene& scene, Diagnostics& diagnostics) {
@@ -102,7 +106,7 @@ void checkExchangesOfMass(const GasScene& scene, Diagnostics& diagnostics) {
 
 }  // namespace
 
-void checkMixture(const std::vector<GasMaterial>& materials, const Element& root, const GasScene& scene,
+void checkMixture(const std::vector<GasMaterial>& materials, const Element& root, const GasScene& scene, int solids,
                   Diagnostics& diagnostics) {
   const auto elements = root.child("MaterialProperties")->child("ICE")->children("material");
   std::set<std::string> names;
@@ -117,9 +121,9 @@ void checkMixture(const std::vector<GasMaterial>& materials, const Element& root
   if (!scene.scalars.empty())
     diagnostics.error(scene.scalars.front().where, "Models/Model",
                       "is not available with several gases; take it out, or keep one gas");
-  checkExchange(scene, root, diagnostics);
+  checkExchange(scene, root, solids, diagnostics);
   checkExchangesOfMass(scene, diagnostics);
-  checkSides(root, diagnostics);
+  checkSides(root, solids, diagnostics);
 }
 
 }  // namespace tushar::ice

@@ -4,8 +4,9 @@
 
 namespace tushar::ice {
 
-/// Checks a scene of several gases, and refuses what is not available with them.
+/// Checks a scene of several gases, and refuses what is not available with them. They are numbered after `solids`
+/// materials.
 void checkMixture(const std::vector<GasMaterial>& materials, const input::Element& root, const GasScene& scene,
-                  input::Diagnostics& diagnostics);
+                  int solids, input::Diagnostics& diagnostics);
 
 }  // namespace tushar::ice

@@ -2,10 +2,28 @@
 
 #include "core/core.hpp"
 
-namespace tushar::ice::c {
+namespace tushar::ice {
+
+/// The name of the total of a gas, which keeps its place while tasks have it.
+class GasTotal {
+ public:
+  explicit GasTotal(const std::string& gas) : name_("TotalMass-" + gas) {}
+  GasTotal(const GasTotal&) = delete;
+  GasTotal& operator=(const GasTotal&) = delete;
+
+  const ReductionLabel<Sum>& label() const { return label_; }
+
+ private:
+  std::string name_;
+  ReductionLabel<Sum> label_{name_, "kg", "mass of a gas in all cells"};
+};
+
+namespace c {
 
 /// Variables of each of several gases, derived if a scene saves them.
 inline constexpr CellLabel<double> ownDensity{"c.ownDensity", "kg/m^3",
                                               "mass of a gas over the volume that it has; 0 where it has none"};
 
-}  // namespace tushar::ice::c
+}  // namespace c
+
+}  // namespace tushar::ice

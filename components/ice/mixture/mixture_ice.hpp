@@ -8,20 +8,6 @@
 
 namespace tushar::ice {
 
-/// The name of the total of a gas, which keeps its place while tasks have it.
-class GasTotal {
- public:
-  explicit GasTotal(const std::string& gas) : name_("TotalMass-" + gas) {}
-  GasTotal(const GasTotal&) = delete;
-  GasTotal& operator=(const GasTotal&) = delete;
-
-  const ReductionLabel<Sum>& label() const { return label_; }
-
- private:
-  std::string name_;
-  ReductionLabel<Sum> label_{name_, "kg", "mass of a gas in all cells"};
-};
-
 /// Several gases with the input of Uintah's ICE, at one velocity and one pressure in each cell: the state of `euler`
 /// for all together, and of each gas its mass and its share of the volume. See components/euler/mixture.hpp.
 template <int D>

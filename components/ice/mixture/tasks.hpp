@@ -13,7 +13,37 @@ namespace tushar::ice {
 
 using Gases = std::vector<euler::Settings>;
 
-/// The state at the start: of each gas that of its last object that owns the centre of a cell, in its share.
+/// The state of several gases at a point at the start: of each that of its last object there, in its share.
+template <int D>
+struct MixtureStart {
+  euler::State<D> sum{};                                  ///< of all together
+  std::array<double, euler::kMostGases> mass{}, share{};  ///< of each
+  double filled = 0;                                      ///< the shares together
+
+  static MixtureStart at(const Level& level, const Gases& gases, const Vec3& point) {
+    MixtureStart start;
+    for (std::size_t k = 0; k < gases.size(); ++k) {
+      const double share = euler::shareAt(gases[k], point);
+      const bool isThere = share > 0;
+      const euler::State<D> state = isThere ? *euler::stateAt<D>(level, gases[k], point) : euler::State<D>{};
+      for (std::size_t i = 0; i < state.size(); ++i) start.sum[i] += share * state[i];
+      start.share[k] = share;
+      start.mass[k] = share * state[euler::kDensity];
+      start.filled += std::abs(share);
+    }
+    return start;
+  }
+  /// Throws InputError unless the shares are 1 together.
+  void check(const Gases& gases, const Vec3& point) const {
+    if (!(std::abs(filled - 1) < 1e-9))
+      throw InputError({{gases.front().where, "MaterialProperties/ICE/material",
+                         fmt::format("the gases fill {:.6g} of the cell around ({:g}, {:g}, {:g}): several gases fill "
+                                     "the grid, and share a cell by a <volumeFraction> of each",
+                                     filled, point[0], point[1], point[2])}});
+  }
+};
+
+/// The state at the start of all cells.
 /// Throws InputError where the shares at a centre are not 1 together, and as euler::initialize does.
 template <int D>
 void initializeMixture(const Patch& patch, const Gases& gases, const euler::NewState<D>& fresh,
@@ -23,25 +53,15 @@ void initializeMixture(const Patch& patch, const Gases& gases, const euler::NewS
     for (const euler::Settings& gas : gases) euler::checkObjects<D>(level, gas);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const Vec3 point = level.expandPoint<D>(level.cellCentre<D>(cell));
-    euler::State<D> sum{};
-    double shares = 0;
+    const auto start = MixtureStart<D>::at(level, gases, point);
+    start.check(gases, point);
     for (std::size_t k = 0; k < gases.size(); ++k) {
-      const double share = euler::shareAt(gases[k], point);
-      const bool isThere = share > 0;
-      const euler::State<D> state = isThere ? *euler::stateAt<D>(level, gases[k], point) : euler::State<D>{};
-      for (std::size_t i = 0; i < state.size(); ++i) sum[i] += share * state[i];
-      held[k].share[cell] = share;
-      held[k].mass[cell] = share * state[euler::kDensity];
-      shares += std::abs(share);
+      held[k].share[cell] = start.share[k];
+      held[k].mass[cell] = start.mass[k];
     }
-    if (!(std::abs(shares - 1) < 1e-9))
-      throw InputError({{gases.front().where, "MaterialProperties/ICE/material",
-                         fmt::format("the gases fill {:.6g} of the cell around ({:g}, {:g}, {:g}): several gases fill "
-                                     "the grid, and share a cell by a <volumeFraction> of each",
-                                     shares, point[0], point[1], point[2])}});
-    fresh.density[cell] = sum[euler::kDensity];
-    for (int d = 0; d < D; ++d) fresh.momentum[cell][d] = sum[euler::kVelocity(d)];
-    fresh.totalEnergy[cell] = sum[euler::kPressure<D>];
+    fresh.density[cell] = start.sum[euler::kDensity];
+    for (int d = 0; d < D; ++d) fresh.momentum[cell][d] = start.sum[euler::kVelocity(d)];
+    fresh.totalEnergy[cell] = start.sum[euler::kPressure<D>];
   });
 }
 

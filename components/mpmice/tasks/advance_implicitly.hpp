@@ -70,7 +70,7 @@ void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Materia
     });
     addWalls<D>(exchange, near, block, level.cellVolume() / dt, fresh.held, offered, power);
   });
-  refuseFarGas<D>(patch, settings.gas.gas, near, cells, fresh.held);
+  refuseFarGas<D>(patch, settings, near, cells, fresh.held);
   if (!(most <= 1))
     throw NumericalError(fmt::format("gas would cross {:.3g} cells in a step of {:.3g} s", most, dt),
                          "a smaller CFD/cfl", "c.velocity");

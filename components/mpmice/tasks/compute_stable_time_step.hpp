@@ -31,6 +31,25 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, const G
   if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
 }
 
+/// The same of several gases.
+template <int D>
+void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
+  const Level& level = patch.level();
+  double most = 0;
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (cells.isEmpty(cell)) return;
+    const euler::Gas gas = lawAt<D>(settings, cells.held, cell);
+    const euler::State<D> w = cells.primitive(gas, cell);
+    const double rho = w[euler::kDensity], p = w[euler::kPressure<D>];
+    if (!(gas.heat(rho, p) > 0)) refuseGas<D>(level, gas, cell, cells.free[cell], rho, p);
+    const double c = std::sqrt(gas.soundSpeedSquared(rho, p));
+    double rate = 0;
+    for (int d = 0; d < D; ++d) rate += (std::abs(w[euler::kVelocity(d)]) + c) * level.inverseSpacing(d);
+    most = std::max(most, rate);
+  });
+  if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
+}
+
 /// dt = cfl times the time in which the fastest wave of a body crosses a cell: the gas sees bodies move once a step.
 template <int D>
 void limitStepOfBodies(const Patch& patch, const mpm::solid::Material&, double cfl,

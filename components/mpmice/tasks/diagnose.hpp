@@ -15,7 +15,7 @@ template <int D>
 void computePressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                      CellView<double> pressure) {
   showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
-    const euler::Gas& gas = settings.gas.gas;
+    const euler::Gas gas = lawAt<D>(settings, cells.held, cell);
     const euler::State<D> w = hasGas ? cells.primitive(gas, cell) : euler::State<D>{};
     pressure[cell] = hasGas ? gas.pressureOf(w[euler::kDensity], w[euler::kPressure<D>]) : 0;
   });
@@ -33,8 +33,9 @@ void computeMach(const Patch& patch, const Settings& settings, const GasInCells<
   showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
     mach[cell] = Vec<D>::Zero();
     if (!hasGas) return;
-    const euler::State<D> w = cells.primitive(settings.gas.gas, cell);
-    const double c2 = settings.gas.gas.soundSpeedSquared(w[euler::kDensity], w[euler::kPressure<D>]);
+    const euler::Gas gas = lawAt<D>(settings, cells.held, cell);
+    const euler::State<D> w = cells.primitive(gas, cell);
+    const double c2 = gas.soundSpeedSquared(w[euler::kDensity], w[euler::kPressure<D>]);
     for (int d = 0; d < D; ++d) mach[cell][d] = w[euler::kVelocity(d)] / std::sqrt(c2);
   });
 }
@@ -43,6 +44,22 @@ template <int D>
 void computeGasDensity(const Patch& patch, const GasInCells<D>& cells, CellView<double> density) {
   showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
     density[cell] = hasGas ? cells.held.density[cell] / cells.free[cell] : 0;
+  });
+}
+
+/// T [K], the same of all gases of a cell: rho e = sum of m_k c_v,k T + z_k p_inf,k.
+template <int D>
+void computeTemperatureOfGases(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
+                               CellView<double> temperature) {
+  showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
+    temperature[cell] = 0;
+    if (!hasGas) return;
+    double heat = euler::internalEnergyIn<D, const double>(cells.held, cell), capacity = 0;
+    for (std::size_t k = 0; k < settings.gases.size(); ++k) {
+      heat -= cells.free[cell] * cells.held.shares[k][cell] * settings.gases[k].gas.pInfinity;
+      capacity += cells.held.masses[k][cell] * settings.gases[k].gas.specificHeat;
+    }
+    temperature[cell] = heat / capacity;
   });
 }
 
@@ -64,10 +81,10 @@ void computeTemperature(const Patch& patch, const Settings& settings, const GasI
 template <int D>
 void computeSoundSpeed(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                        CellView<double> speed) {
-  const euler::Gas& gas = settings.gas.gas;
   showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
     speed[cell] = 0;
     if (!hasGas) return;
+    const euler::Gas gas = lawAt<D>(settings, cells.held, cell);
     const euler::State<D> w = cells.primitive(gas, cell);
     speed[cell] = std::sqrt(gas.soundSpeedSquared(w[euler::kDensity], w[euler::kPressure<D>]));
   });

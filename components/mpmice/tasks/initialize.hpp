@@ -1,7 +1,8 @@
 #pragma once
 
 #include "components/euler/tasks/initialize.hpp"
-#include "components/mpmice/gas_in_cells.hpp"
+#include "components/ice/mixture/tasks.hpp"
+#include "components/mpmice/tasks/share_small_cells.hpp"
 
 namespace tushar::mpmice {
 
@@ -44,6 +45,50 @@ void initialize(const Patch& patch, const Settings& settings, CellView<const dou
     density[cell] = free[cell] * state[euler::kDensity];
     for (int d = 0; d < D; ++d) momentum[cell][d] = free[cell] * state[euler::kVelocity(d)];
     totalEnergy[cell] = free[cell] * state[euler::kPressure<D>];
+  });
+}
+
+/// Several gases at the centre of a cell or, as scenes leave out the bodies' shapes, at the nearest centre that has
+/// some. Throws InputError where there are none, or they do not fill the cell.
+template <int D>
+ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settings>& gases, const Index<D>& cell) {
+  const auto pointOf = [&](const Index<D>& of) { return level.expandPoint<D>(level.cellCentre<D>(of)); };
+  Vec3 point = pointOf(cell);
+  auto start = ice::MixtureStart<D>::at(level, gases, point);
+  int least = start.filled > 0 ? 0 : std::numeric_limits<int>::max();
+  if (least > 0)
+    forEach<D>(level.clipCells(cellsAround<D>(cell, gasNearby)), [&](const Index<D>& other) {
+      int apart = 0;
+      for (int d = 0; d < D; ++d) apart += (other[d] - cell[d]) * (other[d] - cell[d]);
+      if (apart >= least) return;
+      const auto there = ice::MixtureStart<D>::at(level, gases, pointOf(other));
+      if (!(there.filled > 0)) return;
+      start = there;
+      point = pointOf(other);
+      least = apart;
+    });
+  start.check(gases, point);
+  return start;
+}
+
+/// The state of several gases at the start.
+template <int D>
+void initializeGases(const Patch& patch, const Settings& settings, CellView<const double> free,
+                     const NewContent<D>& fresh) {
+  const Level& level = patch.level();
+  const auto& held = fresh.held;
+  if (patch.id() == 0)
+    for (const euler::Settings& gas : settings.gases) euler::checkObjects<D>(level, gas);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const bool hasRoom = !(free[cell] < leastFreeVolume);
+    const auto start = hasRoom ? gasesOf<D>(level, settings.gases, cell) : ice::MixtureStart<D>{.share = {1}};
+    held.density[cell] = free[cell] * start.sum[euler::kDensity];
+    for (int d = 0; d < D; ++d) held.momentum[cell][d] = free[cell] * start.sum[euler::kVelocity(d)];
+    held.totalEnergy[cell] = free[cell] * start.sum[euler::kPressure<D>];
+    for (std::size_t k = 0; k < settings.gases.size(); ++k) {
+      held.masses[k][cell] = free[cell] * start.mass[k];
+      held.shares[k][cell] = start.share[k];
+    }
   });
 }
 

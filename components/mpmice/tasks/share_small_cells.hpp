@@ -11,13 +11,18 @@ inline constexpr int shareReach = 3;
 /// The state after a step and the room it has, as small cells are to share it.
 template <int D>
 struct Unshared {
-  euler::StateViews<D, const double> held;
+  euler::MixtureViews<D, const double> held;  ///< of several gases the volumes, in place of the shares
   CellView<const double> free;
   CellView<const Vec<D>> coverage;
 
-  static Unshared from(auto& take) {
-    return {.held = {take(requiresNew(c::unsharedDensity, shareReach)), take(requiresNew(c::unsharedMomentum<D>, 2)),
-                     take(requiresNew(c::unsharedEnergy, 2))},
+  static Unshared from(auto& take, std::size_t gases) {
+    const auto ofEach = [&](const auto& labels) {
+      return viewsOfGases(take, gases, [&](std::size_t k) { return requiresNew(labels[k], 2); });
+    };
+    return {.held = {{take(requiresNew(c::unsharedDensity, shareReach)), take(requiresNew(c::unsharedMomentum<D>, 2)),
+                      take(requiresNew(c::unsharedEnergy, 2))},
+                     ofEach(c::unsharedMass),
+                     ofEach(c::unsharedVolume)},
             .free = take(requiresNew(c::unfilledVolume, shareReach)),
             .coverage = take(requiresNew(c::coverage<D>, shareReach))};
   }
@@ -93,15 +98,29 @@ class SmallCells {
   const Unshared<D>& state_;
 };
 
+/// What cells hold after a step, or at the start.
+template <int D>
+struct NewContent {
+  euler::MixtureViews<D, double> held;
+
+  static NewContent from(auto& take, std::size_t gases) {
+    const auto ofEach = [&](const auto& labels) {
+      return viewsOfGases(take, gases, [&](std::size_t k) { return computes(labels[k]); });
+    };
+    return {{{take(computes(c::density)), take(computes(c::momentum<D>)), take(computes(c::totalEnergy))},
+             ofEach(c::massOfGas),
+             ofEach(c::shareOfGas)}};
+  }
+};
 /// The state after a step.
 template <int D>
 struct NewGas {
-  euler::StateViews<D, double> held;
+  euler::MixtureViews<D, double> held;
   CellView<double> free;
 
-  static NewGas from(auto& take) {
-    return {.held = {take(computes(c::density)), take(computes(c::momentum<D>)), take(computes(c::totalEnergy))},
-            .free = take(computes(c::freeVolume))};
+  static NewGas from(auto& take, std::size_t gases) {
+    NewContent<D> content = NewContent<D>::from(take, gases);
+    return {.held = std::move(content.held), .free = take(computes(c::freeVolume))};
   }
 };
 
@@ -110,19 +129,31 @@ template <int D>
 struct Pool {
   double volume = 0, mass = 0, energy = 0;
   Vec<D> momentum = Vec<D>::Zero();
+  std::array<double, euler::kMostGases> masses{}, volumes{};  ///< of each of several gases
 
   void add(const Unshared<D>& state, const Index<D>& cell) {
     volume += state.free[cell];
     mass += state.held.density[cell];
     momentum += state.held.momentum[cell];
     energy += state.held.totalEnergy[cell];
+    for (std::size_t k = 0; k < state.held.masses.size(); ++k) {
+      masses[k] += state.held.masses[k][cell];
+      volumes[k] += state.held.shares[k][cell];
+    }
+  }
+  /// The shares of several gases in the volume; where they have none, the first fills it.
+  void setShares(const Index<D>& cell, const euler::MixtureViews<D, double>& fresh) const {
+    double sum = 0;
+    for (const double of : volumes) sum += std::max(0.0, of);
+    for (std::size_t k = 0; k < fresh.shares.size(); ++k)
+      fresh.shares[k][cell] = sum > 0 ? std::max(0.0, volumes[k]) / sum : k == 0 ? 1.0 : 0.0;
   }
 };
 
 /// Gives a cell its part of what it shares with others, through the cell `centre`.
 template <int D>
 void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D>& cell, const Index<D>& centre,
-             const euler::StateViews<D, double>& fresh) {
+             const euler::MixtureViews<D, double>& fresh) {
   Pool<D> pool;
   pool.add(state, centre);
   bool shares = !(centre == cell);
@@ -132,11 +163,13 @@ void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D
       pool.add(state, at);
       shares = true;
     });
+  if (shares || state.free[cell] < 1) pool.setShares(cell, fresh);
   if (!shares || !(pool.volume > 0)) return;
   const double part = state.free[cell] / pool.volume;
   fresh.density[cell] = pool.mass * part;
   fresh.momentum[cell] = pool.momentum * part;
   fresh.totalEnergy[cell] = pool.energy * part;
+  for (std::size_t k = 0; k < fresh.masses.size(); ++k) fresh.masses[k][cell] = pool.masses[k] * part;
 }
 
 /// Density [kg/m³] and last number of the primitive state of a cell's gas.
@@ -170,6 +203,13 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
                      Sum& merged) {
   const Level& level = patch.level();
   forEachRow<D>(patch.cells(), [&](const Index<D>& first, int count) {
+    const auto copy = [&](const auto& from, const auto& to) {
+      std::copy_n(euler::rowOf(from, first, count), count, euler::rowOf(to, first, count));
+    };
+    for (std::size_t k = 0; k < fresh.held.masses.size(); ++k) {
+      copy(state.held.masses[k], fresh.held.masses[k]);
+      copy(state.held.shares[k], fresh.held.shares[k]);
+    }
     std::copy_n(euler::rowOf(state.held.density, first, count), count, euler::rowOf(fresh.held.density, first, count));
     std::copy_n(euler::rowOf(state.held.momentum, first, count), count,
                 euler::rowOf(fresh.held.momentum, first, count));
@@ -185,7 +225,8 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     shareAt<D>(small, state, cell, centre, fresh.held);
     if (state.free[centre] < narrowFreeVolume) fresh.free[cell] = 0;  // a hole keeps its contents until there is room
   });
-  near.forEachIn(patch.cells(), [&](const Index<D>& cell) { checkGas<D>(level, settings.gas.gas, cell, fresh); });
+  near.forEachIn(patch.cells(),
+                 [&](const Index<D>& cell) { checkGas<D>(level, lawAt<D>(settings, fresh.held, cell), cell, fresh); });
 }
 
 }  // namespace tushar::mpmice

@@ -57,7 +57,7 @@ void fillWallPressure(const Patch& patch, const Settings& settings, const GasInC
   const BodiesAtNodes<D> bodies(level, records);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     if (space.isEmpty(cell)) return;
-    const CellWalls<D> ofCell(level, space, cell, cells.primitive(settings.gas.gas, cell));
+    const CellWalls<D> ofCell(level, space, cell, cells.primitive(lawAt<D>(settings, cells.held, cell), cell));
     for (int d = 0; d < D; ++d) {
       const auto on = [&](const Index<D>& face, int side) {
         if (!ofCell.hasWall(d, side)) return 0.0;
@@ -75,8 +75,8 @@ void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Mater
                          const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
                          const WallPressures<D>& walls) {
   fillWallPressure<D>(patch, settings, cells, records, walls,
-                      [&](const Index<D>&, const CellWalls<D>& ofCell, const Vec<D>& velocity, int d, int side) {
-                        return ofCell.pressure(settings.gas.gas, velocity, d, side);
+                      [&](const Index<D>& cell, const CellWalls<D>& ofCell, const Vec<D>& velocity, int d, int side) {
+                        return ofCell.pressure(lawAt<D>(settings, cells.held, cell), velocity, d, side);
                       });
 }
 

@@ -1,0 +1,200 @@
+#pragma once
+
+#include "components/euler/tasks/advance_patch.hpp"
+#include "components/mpm/solid/material.hpp"
+#include "components/mpmice/tasks/measure_exchange.hpp"
+#include "components/mpmice/tasks/wall_force.hpp"
+
+namespace tushar::mpmice {
+
+/// The effect of the bodies on the gas in a step: walls, and how free volume and faces changed.
+template <int D>
+struct BodiesInStep {
+  KnownWalls<D> walls;
+  CellView<const double> newFree;
+  CellView<const Vec<D>> swept;
+
+  static BodiesInStep from(auto& take, bool isViscous) {
+    return {.walls = KnownWalls<D>::from(take, 0, isViscous),
+            .newFree = take(requiresNew(c::unfilledVolume, 3)),
+            .swept = take(requiresNew(c::swept<D>, 1))};
+  }
+};
+
+/// What the gas of a cell gives to walls in a step, per volume of the cell.
+template <int D>
+struct Given {
+  Vec<D> impulse = Vec<D>::Zero();  ///< N s/m³
+  double work = 0;                  ///< J/m³
+};
+
+/// The exchange of the gas with walls in a step.
+template <int D>
+class WallExchange {
+ public:
+  WallExchange(const Level& level, const Settings& settings, const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
+               const typename BodiesAtNodes<D>::Records& records, double dt)
+      : level_(level),
+        settings_(settings),
+        gas_(settings.gas.gas),
+        rules_(euler::ghostRules<D>(level, settings.gas.gas)),
+        cells_(cells),
+        space_(level, settings, cells),
+        step_(bodies),
+        nodes_(level, records),
+        dt_(dt) {}
+
+  const Level& level() const { return level_; }
+  const euler::Gas& gas() const { return gas_; }
+  /// Rules for ghost states beyond the sides of the grid.
+  const euler::GhostRules<D>& rules() const { return rules_; }
+  const FreeSpace<D>& space() const { return space_; }
+  /// Open share of the lower face of a cell, which may lie beyond an upper side of the grid.
+  double openShareOf(const NearBodies<D>& near, const Index<D>& cell, int axis) const {
+    if (!near(cell)) return 1;
+    const bool isUpperSide = !level_.isPeriodic(axis) && cell[axis] == level_.cells().upper[axis];
+    return isUpperSide ? space_.aperture(cell - Index<D>::unit(axis), axis, 1) : space_.aperture(cell, axis, 0);
+  }
+
+  /// Adds to the content of a cell what walls at its faces push, and what gas flows in behind walls that move. Returns
+  /// what the gas gives to the walls.
+  Given<D> addTo(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
+    Given<D> given;
+    fillRoom(cell, held);
+    if (step_.walls.friction && !(*step_.walls.friction)[cell].isZero(0)) drag(cell, held, given);
+    for (int d = 0; d < D; ++d) {
+      const OpenFaces faces = space_.faces(cell, d);
+      for (int side = 0; side < 2; ++side) {
+        const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
+        const double wall = faces.wall(side);
+        const bool flows = !space_.isAtSide(cell, d, side) && mayFlow(face, d);
+        if (!(wall > 0) && !flows) continue;
+        const Vec<D> after = nodes_.velocityAt(face, d, mpm::solid::lane::velocity);
+        if (wall > 0) push(cell, d, side, wall, after, held, given);
+        if (flows) flow(cell, d, side, after[d], held);
+      }
+    }
+    return given;
+  }
+
+  /// Mass of gas that goes up through the open share of a cell's lower face, over a cell's volume, if it moves with the
+  /// bodies there.
+  double carriedThrough(const Index<D>& cell, int axis) const {
+    const double open = space_.aperture(cell, axis, 0);
+    if (!(open > 0)) return 0;
+    const double velocity = nodes_.velocityAt(cell, axis, mpm::solid::lane::velocity)[axis];
+    const Index<D> donor = velocity > 0 ? cell - Index<D>::unit(axis) : cell;
+    const double density = cells_.held.density[donor] / cells_.free[donor];
+    return open * density * velocity * dt_ * level_.inverseSpacing(axis);
+  }
+
+ private:
+  /// Of several gases, makes volumes of shares: those of the gas in the cell fill the room that it has after the step.
+  void fillRoom(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
+    for (std::size_t k = 0; k < held.shares.size(); ++k)
+      held.shares[k][cell] += cells_.held.shares[k][cell] * (step_.newFree[cell] - 1);
+  }
+
+  /// Momentum and work of a wall: its pressure, at the mean of its velocities before and after the step.
+  void push(const Index<D>& cell, int axis, int side, double wall, const Vec<D>& after,
+            const euler::StateViews<D, double>& held, Given<D>& given) const {
+    const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(axis);
+    const Vec<D> before = nodes_.velocityAt(face, axis, mpm::solid::lane::before);
+    const double pressure = side == 0 ? step_.walls.below[cell][axis] : step_.walls.above[cell][axis];
+    const double impulse = (side == 0 ? wall : -wall) * pressure * dt_ * level_.inverseSpacing(axis);
+    held.momentum[cell][axis] += impulse;
+    const double work = impulse * (0.5 * (before[axis] + after[axis]));
+    held.totalEnergy[cell] += work;
+    given.impulse[axis] -= impulse;
+    given.work -= work;
+  }
+
+  /// Friction, and its work at the mean of the walls' velocities before and after the step.
+  void drag(const Index<D>& cell, const euler::StateViews<D, double>& held, Given<D>& given) const {
+    const CellFriction<D> weights = frictionWeights<D>(level_, settings_, cells_, space_, nodes_, cell);
+    for (int a = 0; a < D; ++a)
+      for (int side = 0; side < 2; ++side) {
+        const double share = weights.share(a, side);
+        if (!(share > 0)) continue;
+        const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(a);
+        const Vec<D> twice = nodes_.velocityAt(face, a, mpm::solid::lane::before) +
+                             nodes_.velocityAt(face, a, mpm::solid::lane::velocity);
+        const Vec<D> impulse = dt_ * share * (*step_.walls.friction)[cell];
+        const double work = 0.5 * impulse.dot(twice);
+        held.momentum[cell] += impulse;
+        held.totalEnergy[cell] += work;
+        given.impulse -= impulse;
+        given.work -= work;
+      }
+  }
+
+  /// Whether bodies are at the face below a cell, or went through it.
+  bool mayFlow(const Index<D>& face, int axis) const {
+    const Index<D> below = face - Index<D>::unit(axis);
+    return cells_.free[face] < 1 || cells_.free[below] < 1 || step_.swept[face][axis] != 0;
+  }
+
+  /// Gas follows a wall that draws back, and makes way for one that comes, with all it holds: what the covered share of
+  /// the face would sweep less what bodies swept.
+  void flow(const Index<D>& cell, int axis, int side, double wallVelocity,
+            const euler::MixtureViews<D, double>& held) const {
+    const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
+    const double up = (1 - space_.aperture(above, axis, 0)) * wallVelocity * dt_ * level_.inverseSpacing(axis) -
+                      step_.swept[above][axis];
+    if (up == 0) return;
+    const Index<D>&donor = up > 0 ? below : above, &receiver = up > 0 ? above : below;
+    if (isClosedPore(receiver)) return;
+    const std::optional<Parcel<D>> gas = stateOf(donor, receiver);
+    if (!gas) return;
+    const double volume = side == 0 ? up : -up;
+    held.density[cell] += volume * gas->u[euler::kDensity];
+    for (int d = 0; d < D; ++d) held.momentum[cell][d] += volume * gas->u[euler::kVelocity(d)];
+    held.totalEnergy[cell] += volume * gas->u[euler::kPressure<D>];
+    for (std::size_t k = 0; k < held.shares.size(); ++k) {
+      held.masses[k][cell] += volume * gas->masses[k];
+      held.shares[k][cell] += volume * (gas->shares[k] - cells_.held.shares[k][cell]);
+    }
+  }
+
+  /// The state of the donor's gas; if it has none, that of the receiver; if that has none either, the mean around the
+  /// donor.
+  std::optional<Parcel<D>> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
+    if (!space_.isEmpty(donor)) return cells_.parcel(donor);
+    if (!space_.isEmpty(receiver)) return cells_.parcel(receiver);
+    Parcel<D> sum;
+    int count = 0;
+    for (int d = 0; d < D; ++d)
+      for (int side = 0; side < 2; ++side) {
+        if (space_.isAtSide(donor, d, side)) continue;
+        const Index<D> next = side == 0 ? donor - Index<D>::unit(d) : donor + Index<D>::unit(d);
+        if (space_.isEmpty(next)) continue;
+        sum.add(cells_.parcel(next), 1);
+        ++count;
+      }
+    if (count == 0) return std::nullopt;
+    Parcel<D> mean;
+    mean.add(sum, 1.0 / count);
+    return mean;
+  }
+
+  /// A hole in a body: hardly free, and no cell within two that is free for the most part.
+  bool isClosedPore(const Index<D>& cell) const {
+    if (!(step_.newFree[cell] < narrowFreeVolume)) return false;
+    bool closed = true;
+    forEach<D>(level_.clipCells(cellsAround<D>(cell, 2)),
+               [&](const Index<D>& at) { closed &= !(step_.newFree[at] > smallFreeVolume); });
+    return closed;
+  }
+
+  const Level& level_;
+  const Settings& settings_;
+  const euler::Gas& gas_;
+  euler::GhostRules<D> rules_;
+  const GasInCells<D>& cells_;
+  FreeSpace<D> space_;
+  const BodiesInStep<D>& step_;
+  BodiesAtNodes<D> nodes_;
+  double dt_;
+};
+
+}  // namespace tushar::mpmice
