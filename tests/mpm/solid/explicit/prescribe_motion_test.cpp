@@ -42,7 +42,7 @@ TEST(PrescribeMotion, MovesTheNodesThatParticlesTouchWithTheDeformation) {
   forEach<3>(one.level.nodes(), [&](const Index3& node) {
     for (int k = 0; k < 8; ++k) nodes[node][k] = 7;
   });
-  prescribeMotion<LinearShape<3>>(one.patch(), one.material, &deformation, 0.5, one.read(one.x), nodes);
+  prescribeMotion<3>(one.patch(), one.material, &deformation, LinearShape<3>::ghostNodes, 0.5, one.read(one.x), nodes);
   const Matrix3 gradient = deformation.velocityGradient(0.5);
   forEach<3>(one.level.nodes(), [&](const Index3& node) {
     const bool isTouched = node[0] > 0 && node[1] > 0 && node[2] > 0;
