@@ -90,7 +90,7 @@ def parse(text):
     """[(condition, roots)] of what --describe prints; ValueError for a line that is none of a schema."""
     parts, open_tags = [("", [])], []
     for line in text.splitlines():
-        if re.match(r"Where .*, instead:$", line):
+        if re.match(r"(Where|For) .*, instead:$", line):
             parts.append((line.removesuffix(", instead:"), []))
             continue
         indent = len(line) - len(line.lstrip())
