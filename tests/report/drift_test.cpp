@@ -42,4 +42,9 @@ TEST(Drift, FromRoundOffIsAbsolute) {
   EXPECT_TRUE(driftOf("momentum", {1e-9}, {2e-9}, "kg m/s", 0.5).relative);
 }
 
+TEST(Drift, BelowTheDigitsOfSumsIsNone) {
+  EXPECT_EQ(driftOf("momentum", {0}, {1.04e-53}, "kg m/s", 0.5).change, 0);
+  EXPECT_EQ(driftOf("momentum", {0}, {1e-29}, "kg m/s", 0.5).change, 1e-29);
+}
+
 }  // namespace tushar::report

@@ -227,8 +227,9 @@ void noteThermalStrain(const Element& root, Diagnostics& diagnostics) {
     const auto model = material.child("constitutive_model");
     const auto given = model ? model->child("coeff_thermal_expansion") : std::nullopt;
     if (given && input::parse<double>(given->text()).value != 0.0)
-      diagnostics.note(*given, "heat acts on the stress by the equation of state alone; in Uintah's implicit steps it "
-                               "strains the metal as well");
+      diagnostics.note(*given,
+                       "heat acts on the stress by the equation of state alone; in Uintah's implicit steps it "
+                       "strains the metal as well");
   }
 }
 
