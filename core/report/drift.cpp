@@ -7,7 +7,7 @@ namespace tushar::report {
 
 Drift driftOf(const std::string& name, const std::vector<double>& before, const std::vector<double>& after,
               const std::string& unit, double scale) {
-  constexpr double roundOff = 1e-12, roundOffOfSums = 1e-30;
+  constexpr double roundOff = 1e-12, roundOffOfSums = 1e-45;
   double start = 0, end = 0, change = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     start += before[i] * before[i];

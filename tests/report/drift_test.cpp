@@ -44,7 +44,7 @@ TEST(Drift, FromRoundOffIsAbsolute) {
 
 TEST(Drift, BelowTheDigitsOfSumsIsNone) {
   EXPECT_EQ(driftOf("momentum", {0}, {1.04e-53}, "kg m/s", 0.5).change, 0);
-  EXPECT_EQ(driftOf("momentum", {0}, {1e-29}, "kg m/s", 0.5).change, 1e-29);
+  EXPECT_EQ(driftOf("momentum", {0}, {1e-44}, "kg m/s", 0.5).change, 1e-44);
 }
 
 }  // namespace tushar::report
