@@ -7,7 +7,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import gas_and_bodies as fsi
 from sus import run
-from uda import Folder
+from uda import FolderTest
 
 
 class Gases(unittest.TestCase):
@@ -32,7 +32,7 @@ class Gases(unittest.TestCase):
         self.assert_within(errors, .03, "p behind the shock")
 
 
-class Bits(unittest.TestCase):
+class Bits(FolderTest):
     SPACE = ("Grid/Level/Box/resolution=[20,10,10]", "Grid/Level/Box/upper=[0.1,0.05,0.05]")
 
     def assert_same(self, name, steps, layouts, *sets, ranks):
@@ -44,13 +44,8 @@ class Bits(unittest.TestCase):
                        options=("--quiet", "-nthreads", str(1 + place % 2)))
             self.assertIsNotNone(done.report, done.err)
             prints.setdefault(done.report["fingerprint"], []).append(layout)
-        folder = Folder()
-        self.addCleanup(folder.cleanup)
-        folder.run(scene, *sets, f"DataArchiver/checkpoint/@timestepInterval={steps // 2}",
-                   f"Time/max_Timesteps={steps // 2 + 1}")
-        code, errors, report = folder.restart(sets[0], step=steps // 2)
-        self.assertEqual((code, errors), (0, ""))
-        prints.setdefault(report["fingerprint"], []).append("restarted")
+        in_parts = self.fingerprint_of_two_parts(scene, steps, *sets)
+        prints.setdefault(in_parts, []).append("restarted")
         self.assertEqual(len(prints), 1, f"{name}: {prints}")
 
     def test_are_the_same_on_a_line(self):

@@ -86,3 +86,9 @@ class FolderTest(unittest.TestCase):
         code, errors, report = result
         self.assertEqual((code, errors), (0, ""))
         return report
+
+    def fingerprint_of_two_parts(self, scene, steps, *sets):
+        """The fingerprint of a run of so many steps that goes on from a checkpoint in its middle."""
+        folder, half = self.folder(), steps // 2
+        folder.run(scene, *sets, f"DataArchiver/checkpoint/@timestepInterval={half}", f"Time/max_Timesteps={half + 1}")
+        return self.well(folder.restart(f"Time/max_Timesteps={steps}", step=half))["fingerprint"]
