@@ -58,6 +58,7 @@ std::string RunLog::refusalOf(const std::string& text) {
 
 RunLog::RunLog(const fs::path& folder, const RunRecord& record) : file_(folder / "run.json") {
   Json runs = runsIn(file_);
+  runs["format"] = format;
   runs["runs"].push_back(entryOf(record));
   runs_ = textOf(runs);
   replaceFile(file_, runs_);
