@@ -95,6 +95,8 @@ std::vector<BoundaryCondition> readSine(const std::string& label, const Element&
     return {one};
   }
   if (label == euler::boundary::velocity.name) {
+    if (section->velocity.isZero(0))
+      diagnostics.error(condition, "needs a <reference_velocity> in <SINE_BC>: components of 0 do not swing");
     BoundaryCondition one{euler::boundary::velocity, BoundaryKind::dirichlet};
     std::array<input::Expression, 3> components;
     for (int axis = 0; axis < 3; ++axis)

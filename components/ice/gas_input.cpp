@@ -66,6 +66,17 @@ void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagn
 }
 
 /// What does not go together at one face: a wall that slips, or a side that lets waves out, and other conditions.
+void checkBeside(const Element& condition, bool slips, bool relaxes, Diagnostics& diagnostics) {
+  const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
+  const bool isGiven = var == nameOf(BoundaryKind::dirichlet);
+  const bool isWall = var == "FreeSlipWall" || var == nameOf(BoundaryKind::symmetry);
+  const bool acts = isGiven || isWall || var == "Sine";
+  if (slips && !isWall && (acts || var == "LODI"))
+    diagnostics.error(condition, "a FreeSlipWall takes no other value: it is a plane of symmetry");
+  if (relaxes && !slips && acts && !(isGiven && label == euler::boundary::temperature.name))
+    diagnostics.error(condition, "beside LODI of the Pressure only a Temperature may be given");
+}
+
 void checkWords(const Element& root, Diagnostics& diagnostics) {
   const auto group = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   for (const Element& face : group ? group->children("Face") : std::vector<Element>()) {
@@ -77,12 +88,10 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
     };
     const bool slips = has("FreeSlipWall", ""), relaxes = has("LODI", euler::boundary::pressure.name);
     if (!relaxes && has("LODI", "")) diagnostics.error(face, "var LODI of another variable needs that of the Pressure");
-    for (const Element& condition : face.children("BCType")) {
-      if (condition.attribute("var") != nameOf(BoundaryKind::dirichlet)) continue;
-      if (slips || (relaxes && condition.attribute("label") != euler::boundary::temperature.name))
-        diagnostics.error(condition, slips ? "a FreeSlipWall takes no other value: it is a plane of symmetry"
-                                           : "beside LODI of the Pressure only a Temperature may be given");
-    }
+    if (has("Sine", euler::boundary::temperature.name) && !has("Sine", euler::boundary::pressure.name) &&
+        !has("Sine", euler::boundary::velocity.name))
+      diagnostics.error(face, "var Sine of the Temperature needs that of the Pressure or of the Velocity");
+    for (const Element& condition : face.children("BCType")) checkBeside(condition, slips, relaxes, diagnostics);
   }
 }
 
@@ -284,6 +293,8 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   if (cfd.ice.push) scene.push = Vec3(cfd.ice.push->x, cfd.ice.push->y, cfd.ice.push->z);
   if (cfd.ice.eddies) scene.varying.smagorinsky = cfd.ice.eddies->constant;
   if (cfd.ice.start) {
+    if (const std::string problem = cfd.ice.start->problem(materials.size()); !problem.empty())
+      diagnostics.error(*root.child("CFD")->child("ICE")->child("customInitialization"), problem);
     const double gasConstant = (materials.front().gamma - 1) * materials.front().specificHeat;
     scene.gas.disturb = [start = *cfd.ice.start, gasConstant, middle = middleOf(root)](
                             const Vec3& point, double rho, Vec3& velocity, double& temperature) {

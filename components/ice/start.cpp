@@ -86,6 +86,14 @@ void setTaylorGreen(double angle, const Vec3& x, Vec3& velocity) {
 
 }  // namespace
 
+std::string CustomStart::problem(std::size_t gases) const {
+  const int flows = (vortices ? 1 : 0) + (counterflow ? 1 : 0) + (manufactured ? 1 : 0);
+  if (flows > 1) return "give one of vortices, counterflow and manufacturedSolution: each has a velocity of its own";
+  if (gases > 1 && manufactured && manufactured->type == windOfVortices)
+    return "manufacturedSolution mms_1 is not available with several gases: its temperature is that of one gas";
+  return "";
+}
+
 void CustomStart::apply(const Vec3& point, const StartPlace& place, Vec3& velocity, double& temperatureThere) const {
   if (vortices)
     for (const Vortex& vortex : vortices->list) addVortex(vortex, point, place.density, velocity);

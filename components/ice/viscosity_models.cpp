@@ -48,10 +48,12 @@ void readOne(euler::VaryingDiffusion& varying, const Element& model, Diagnostics
   const std::string name = model.attribute("name").value_or("");
   if (name == "Sutherland") {
     if (varying.sutherland || !varying.sponges.empty())
-      return diagnostics.error(model, "Sutherland is given once, before any SpongeLayer");
+      return diagnostics.error(model, "give Sutherland once, and before any SpongeLayer");
     varying.sutherland = sutherlandSchema().read(model, diagnostics);
   } else if (name == "SpongeLayer") {
     const SpongeTag read = spongeSchema().read(model, diagnostics);
+    if (!(read.box.min.array() < read.box.max.array()).all())
+      return diagnostics.error(model, "the <box> is empty: each number of <min> must be less than that of <max>");
     varying.sponges.push_back({read.box.min, read.box.max, read.viscosity});
   } else {
     diagnostics.error(model, fmt::format("name: {}", input::choiceProblem(name, {"Sutherland", "SpongeLayer"})));
@@ -63,6 +65,7 @@ void readOne(euler::VaryingDiffusion& varying, const Element& model, Diagnostics
 void readViscosityModels(euler::VaryingDiffusion& varying, const Element& material, Diagnostics& diagnostics) {
   const auto models = material.child("dynamicViscosityModels");
   if (!models) return;
+  if (models->children().empty()) diagnostics.error(*models, "is empty: it takes at least one Model");
   for (const Element& model : models->children())
     if (model.name() == "Model")
       readOne(varying, model, diagnostics);

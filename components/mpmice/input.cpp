@@ -60,13 +60,11 @@ std::vector<double> heatOf(const ice::Exchange& exchange, int solids, int gases,
   if (heat.empty() || !hasAllPairs(heat, "heat", solids + gases, tag, diagnostics)) return {};
   if (std::all_of(heat.begin(), heat.end(), [](double h) { return h == 0; })) return {};
   if (gases > 1) {
-    forEachPairWithGas(heat, solids, gases, [&](int body, double k) {
-      if (k > 0)
-        diagnostics.error(tag.child("heat").value_or(tag),
-                          fmt::format("{:g} between body {} and a gas is not available where there are several "
-                                      "gases: set it to 0",
-                                      k, body));
-    });
+    const std::size_t ofGases = static_cast<std::size_t>(gases) * (gases - 1) / 2;  // the last pairs
+    if (std::any_of(heat.begin(), heat.end() - ofGases, [](double h) { return h != 0; }))
+      diagnostics.error(tag.child("heat").value_or(tag),
+                        "heat of bodies is not available where there are several gases: set it to 0 for all pairs "
+                        "with a body");
     return {};
   }
   for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material"))

@@ -53,6 +53,8 @@ TEST(IceConditions, APressureSwingsAsAFormulaSays) {
   EXPECT_EQ(problemOf(withSide(condition("Pressure", "Sine"))), "needs a <SINE_BC> in <BoundaryConditions>");
   EXPECT_EQ(problemOf(withSide(condition("Density", "Sine"), section)),
             "var: 'Sine' is for a Pressure, a Velocity or a Temperature");
+  EXPECT_EQ(problemOf(withSide(condition("Temperature", "Sine"), section)),
+            "var Sine of the Temperature needs that of the Pressure or of the Velocity");
 }
 
 TEST(IceConditions, OnlyComponentsOfVelocitiesThatAreThereSwing) {
@@ -60,6 +62,9 @@ TEST(IceConditions, OnlyComponentsOfVelocitiesThatAreThereSwing) {
       "<SINE_BC><omega>20</omega><A>0.1</A><reference_velocity>[0.5,0,0]</reference_velocity></SINE_BC>";
   EXPECT_EQ(fingerprintOf(withSide(condition("Velocity", "Sine", "[0,0,0]"), section)),
             fingerprintOf(withSide(condition("Velocity", "Dirichlet", "[0.5 + 0.1 * sin(20 * t), 0, 0]"))));
+  EXPECT_EQ(
+      problemOf(withSide(condition("Velocity", "Sine", "[0,0,0]"), "<SINE_BC><omega>20</omega><A>0.1</A></SINE_BC>")),
+      "needs a <reference_velocity> in <SINE_BC>: components of 0 do not swing");
 }
 
 TEST(IceConditions, WavesLeaveByAllSides) {
@@ -79,6 +84,12 @@ TEST(IceConditions, DoNotContradictOneAnother) {
   EXPECT_EQ(problemOf(withSide(waves + condition("Density", "Dirichlet", "1"), section)),
             "beside LODI of the Pressure only a Temperature may be given");
   EXPECT_EQ(problemOf(withSide(waves + condition("Temperature", "Dirichlet", "1"), section)), "");
+  EXPECT_EQ(problemOf(withSide(waves + slip, section)),
+            "a FreeSlipWall takes no other value: it is a plane of symmetry");
+  const std::string sine =
+      "<SINE_BC><omega>20</omega><A>0.1</A><reference_velocity>[1,0,0]</reference_velocity></SINE_BC>";
+  EXPECT_EQ(problemOf(withSide(waves + condition("Velocity", "Sine", "[0,0,0]"), section + sine)),
+            "beside LODI of the Pressure only a Temperature may be given");
 }
 
 TEST(IceConditions, WavesLeaveInImplicitSteps) {
@@ -126,7 +137,11 @@ TEST(IceViscosity, OfModelsIsRead) {
       "<Model name=\"SpongeLayer\"><maxDynamicViscosity>1</maxDynamicViscosity><box label=\"b\">"
       "<min>[0,0,0]</min><max>[1,1,1]</max></box></Model>";
   EXPECT_EQ(problemOf(with(sutherland + sponge + sponge)), "");
-  EXPECT_EQ(problemOf(with(sponge + sutherland)), "Sutherland is given once, before any SpongeLayer");
+  EXPECT_EQ(problemOf(with(sponge + sutherland)), "give Sutherland once, and before any SpongeLayer");
+  EXPECT_EQ(problemOf(with("")), "is empty: it takes at least one Model");
+  EXPECT_EQ(problemOf(with("<Model name=\"SpongeLayer\"><maxDynamicViscosity>1</maxDynamicViscosity><box label=\"b\">"
+                           "<min>[0,1,0]</min><max>[1,0,1]</max></box></Model>")),
+            "the <box> is empty: each number of <min> must be less than that of <max>");
   EXPECT_EQ(problemOf(with("<Model name=\"Power\"/>")), "name: found 'Power', expected 'Sutherland' or 'SpongeLayer'");
 }
 

@@ -159,7 +159,9 @@ TEST(IceMixture, RefusesSidesOfOneGas) {
             "Dirichlet is not available where there are several gases: what flows in is the gas beside the side; give "
             "a Velocity or a Pressure, or Neumann");
   EXPECT_EQ(problemOf(with(R"(<BCType id="1" label="Velocity" var="Dirichlet"><value>[1,0,0]</value></BCType>)")),
-            "found '1', expected all: several gases have one velocity");
+            "found '1', expected all: several gases have one velocity and one pressure");
+  EXPECT_EQ(problemOf(with(R"(<BCType id="1" label="Pressure" var="Dirichlet"><value>1</value></BCType>)")),
+            "found '1', expected all: several gases have one velocity and one pressure");
   EXPECT_EQ(problemOf(with(R"(<BCType id="2" label="Pressure" var="Neumann"><value>0</value></BCType>)")),
             "there is no material 2: the gases are numbers 0 to 1");
   EXPECT_EQ(problemOf(with(R"(<BCType id="0" label="Pressure" var="Dirichlet"><value>1</value></BCType>)")), "");

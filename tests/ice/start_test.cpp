@@ -78,5 +78,17 @@ TEST(CustomStart, OfTaylorsAndGreensVortexHasNoDivergence) {
   EXPECT_NEAR(divergence, 0, 1e-9);
 }
 
+TEST(CustomStart, HasOneFlow) {
+  CustomStart start;
+  start.counterflow = Counterflow{2000};
+  EXPECT_EQ(start.problem(1), "");
+  start.manufactured = Manufactured{"mms_1"};
+  EXPECT_EQ(start.problem(1),
+            "give one of vortices, counterflow and manufacturedSolution: each has a velocity of its own");
+  start.counterflow.reset();
+  EXPECT_EQ(start.problem(1), "");
+  EXPECT_NE(start.problem(2), "");
+}
+
 }  // namespace
 }  // namespace tushar::ice

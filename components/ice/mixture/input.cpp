@@ -65,9 +65,18 @@ bool isWall(const Element& face) {
   return false;
 }
 
-void checkSide(const Element& face, const Element& condition, Diagnostics& diagnostics) {
-  const std::string label = condition.attribute("label").value_or(""), id = condition.attribute("id").value_or("all");
-  const std::string var = condition.attribute("var").value_or("");
+/// What several gases have in common at a side, for all of them; the pressure also as that of the first material, as
+/// Uintah has it.
+void checkMaterial(const Element& condition, int solids, Diagnostics& diagnostics) {
+  const std::string id = condition.attribute("id").value_or("all");
+  const bool isPressure = condition.attribute("label") == euler::boundary::pressure.name;
+  if (id == "all" || (isPressure && (id == "0" || id == fmt::format("{}", solids)))) return;
+  diagnostics.error(condition.whereOf("id"), condition.path(),
+                    fmt::format("found '{}', expected all: several gases have one velocity and one pressure", id));
+}
+
+void checkSide(const Element& face, const Element& condition, int solids, Diagnostics& diagnostics) {
+  const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
   const bool isGiven = var == nameOf(BoundaryKind::dirichlet);
   const bool saysWhat =
       label == euler::boundary::density.name || (label == euler::boundary::temperature.name && !isWall(face));
@@ -78,9 +87,8 @@ void checkSide(const Element& face, const Element& condition, Diagnostics& diagn
     diagnostics.error(condition,
                       "Dirichlet is not available where there are several gases: what flows in is the gas beside "
                       "the side; give a Velocity or a Pressure, or Neumann");
-  else if ((isGiven || var == nameOf(BoundaryKind::symmetry)) && id != "all" && label != euler::boundary::pressure.name)
-    diagnostics.error(condition.whereOf("id"), condition.path(),
-                      fmt::format("found '{}', expected all: several gases have one velocity", id));
+  else if (var != nameOf(BoundaryKind::neumann))
+    checkMaterial(condition, solids, diagnostics);
 }
 
 /// Sides have the conditions of all gases: a velocity and a pressure, and walls a temperature, but no composition.
@@ -89,7 +97,7 @@ void checkSides(const Element& root, int solids, Diagnostics& diagnostics) {
   for (const Element& face : group ? group->children("Face") : std::vector<Element>())
     for (const Element& condition : face.children("BCType")) {
       const int material = input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
-      if (material < 0 || material >= solids) checkSide(face, condition, diagnostics);
+      if (material < 0 || material >= solids) checkSide(face, condition, solids, diagnostics);
     }
 }
 
