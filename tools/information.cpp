@@ -45,6 +45,7 @@ ExitCode describe(const std::string& name, const simulation::Catalogue& known) {
     scene::describeSharedSections(std::cout, known);
   } else if (const auto* component = known.component(name)) {
     component->describe(std::cout);
+    if (!component->conditionWords.sections.empty()) scene::gridForm(*component).describe(std::cout);
   } else if (const auto* analysis = known.analysis(name)) {
     analysis->describe(std::cout);
   } else {

@@ -48,7 +48,8 @@ def described():
     """(name, line) of all that --describe prints, taken down without the parser of the manual."""
     listed = printed("--list").partition("shapes")[0]
     for name in ["scene", *re.findall(r"^  (\w+)", listed, re.MULTILINE)]:
-        yield from ((name, line) for line in printed("--describe", name).splitlines() if not line.startswith("Where "))
+        yield from ((name, line) for line in printed("--describe", name).splitlines()
+                    if not re.match(r"(Where|For) .*, instead:$", line))
 
 
 def printed(*words):

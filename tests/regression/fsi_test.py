@@ -10,7 +10,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import gas_and_bodies as fsi
 from solids import SceneTest, archive_of, columns, globals_of
 from sus import run
-from uda import FolderTest
+from uda import Folder, FolderTest
 
 PLUG, CONTACT, BALL, DISC = (fsi.scene(name).read_text() for name in ("plug", "contact", "ball", "carried_disc"))
 LIGHT = ("<density>1000<", "<density>10<")
@@ -232,7 +232,7 @@ class Given(SceneTest):
             self.assertEqual(other, found[0])
 
 
-class Bits(unittest.TestCase):
+class Bits(FolderTest):
     CASES = {"plug": (150, ("[1,1,1]", "[7,1,1]", "[50,1,1]")), "closed_box": (200, ("[1,1,1]", "[3,1,1]", "[50,1,1]")),
              "cylinder": (40, ("[1,1,1]", "[5,3,1]", "[20,4,1]")), "burst": (40, ("[1,1,1]", "[3,4,1]")),
              "moving_piston": (60, ("[1,1,1]", "[9,1,1]")), "viscous": (30, ("[1,1,1]", "[5,3,1]", "[25,4,1]")),
