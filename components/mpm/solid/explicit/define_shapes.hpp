@@ -11,13 +11,9 @@ inline constexpr ExplicitTasks<Shape::dimension> tasksOf = explicitTasks<Shape>(
 
 /// Of shape functions in one to three dimensions.
 template <template <int> class Shape>
-constexpr TasksOfShapes shapesInSpace() {
-  return {&tasksOf<Shape<1>>, &tasksOf<Shape<2>>, &tasksOf<Shape<3>>};
-}
+inline constexpr TasksOfShapes shapesInSpace{&tasksOf<Shape<1>>, &tasksOf<Shape<2>>, &tasksOf<Shape<3>>};
 /// Of shape functions in radius and axis.
 template <template <int> class Shape>
-constexpr TasksOfShapes shapesAroundAxis() {
-  return {&tasksOf<Shape<1>>, &tasksOf<Shape<2>>, nullptr};
-}
+inline constexpr TasksOfShapes shapesAroundAxis{&tasksOf<Shape<1>>, &tasksOf<Shape<2>>, nullptr};
 
 }  // namespace tushar::mpm::solid
