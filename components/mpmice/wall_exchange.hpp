@@ -134,8 +134,8 @@ class WallExchange {
     return cells_.free[face] < 1 || cells_.free[below] < 1 || step_.swept[face][axis] != 0;
   }
 
-  /// Gas follows a wall that draws back, and makes way for one that comes, with all it holds: what the covered share of
-  /// the face would sweep less what bodies swept.
+  /// Gas follows a wall that draws back, and makes way for one that comes, with all it holds: the volume that the
+  /// covered share of the face would sweep, less the volume that bodies swept.
   void flow(const Index<D>& cell, int axis, int side, double wallVelocity,
             const euler::MixtureViews<D, double>& held) const {
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);

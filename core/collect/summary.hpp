@@ -18,7 +18,7 @@ struct Summary {
 };
 
 /// The summary of a variable of cells or nodes of a generation, on rank 0; empty arrays on the others. The same bits on
-/// any patches and ranks. All ranks call it. Only what is summed up is sent.
+/// any patches and ranks. All ranks call it. Ranks send only their summaries.
 Summary summaryOf(data::Warehouse& warehouse, data::Generation generation, int variable, SummaryOver over);
 
 }  // namespace tushar::collect

@@ -73,10 +73,10 @@ std::string hashOf(const std::vector<std::uint64_t>& blocks) {
   return fmt::format("{:016x}/{}", XXH64(blocks.data(), blocks.size() * sizeof(blocks[0]), 0), blocks.size());
 }
 
-/// How a sum is written, apart from the hashes of older versions.
+/// The text of a sum, which differs from that of a hash of older versions.
 std::string textOfSum(std::uint64_t sum) { return fmt::format("s{:016x}", sum); }
 
-/// What of a file is in none of these ranges, which ascend.
+/// The parts of a file that are in none of these ranges, which ascend.
 std::vector<ByteRange> outside(const std::vector<ByteRange>& ranges, std::uint64_t size) {
   std::vector<ByteRange> others;
   std::uint64_t first = 0;
@@ -173,8 +173,8 @@ std::string damageOfList(const fs::path& folder, std::string& lines) {
   return "";
 }
 
-/// The hash of a file as a manifest of an older version has it; empty if it cannot be read. That of a large file of the
-/// oldest is not by blocks, and made by rank 0 alone.
+/// The hash of a file as a manifest of an older version has it; empty if it cannot be read. The oldest manifests hash a
+/// large file as a whole, not by blocks; rank 0 alone does that.
 std::string hashNow(const fs::path& file, const Line& line, const mpi::Communicator& ranks) {
   const bool isByBlocks = line.hash.find('/') != std::string::npos;
   bool failed = false;

@@ -50,8 +50,8 @@ class CheckedParts {
  public:
   /// `ranks` must outlive it.
   CheckedParts(std::filesystem::path folder, std::vector<FilePart> parts, const mpi::Communicator& ranks);
-  /// Calls `read`, which adds what this rank reads of the part of a file that begins at a byte, and all ranks together
-  /// add every byte once; with null where there is no such part, or it has been checked.
+  /// Calls `read` with a sum, to which it adds the bytes that this rank reads of the part of a file that begins at a
+  /// byte; all ranks together add every byte once. Passes null if there is no such part, or it has been checked.
   void read(const std::string& file, std::uint64_t first, const std::function<void(ByteSum*)>& read);
   /// Reads those that have not been.
   void checkOthers();

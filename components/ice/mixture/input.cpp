@@ -14,7 +14,7 @@ using input::Element;
 
 namespace {
 
-/// From here on Uintah's coefficients mean one velocity, or one temperature.
+/// From this value on, Uintah's coefficients mean one velocity, or one temperature.
 constexpr double oneForAll = 1e9;
 
 void checkSubstance(const GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
