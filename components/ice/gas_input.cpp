@@ -24,7 +24,7 @@ int materialOf(const Element& condition) {
   return input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
 }
 
-/// What is wrong with a condition of the gas: its value, and derivatives other than 0.
+/// Reports an invalid condition of the gas: its value, and derivatives other than 0.
 void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
   const auto text = condition.child("value");

@@ -55,7 +55,7 @@ struct GasScene {
   std::vector<MassExchange> massExchanges = {};   ///< between them
 };
 
-/// What to try if a run fails.
+/// Advice if a run fails.
 inline constexpr const char* adviceForGas = "a smaller CFD/cfl, or CFD/ICE/advection of type FirstOrder";
 
 /// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> except its MPM, and the conditions at the sides of the grid.

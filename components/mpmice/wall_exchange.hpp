@@ -21,7 +21,7 @@ struct BodiesInStep {
   }
 };
 
-/// What the gas of a cell gives to walls in a step, per volume of the cell.
+/// The transfer from the gas of a cell to walls in a step, per volume of the cell.
 template <int D>
 struct Given {
   Vec<D> impulse = Vec<D>::Zero();  ///< N s/m³
@@ -89,7 +89,7 @@ class WallExchange {
   }
 
  private:
-  /// Of several gases, makes volumes of shares: those of the gas in the cell fill the room that it has after the step.
+  /// For several gases, turns shares into volumes, which fill the room that the gas in the cell has after the step.
   void fillRoom(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
     for (std::size_t k = 0; k < held.shares.size(); ++k)
       held.shares[k][cell] += cells_.held.shares[k][cell] * (step_.newFree[cell] - 1);

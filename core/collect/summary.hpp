@@ -5,7 +5,7 @@
 
 namespace tushar::collect {
 
-/// What a summary is taken over: the whole grid, or each plane of cells or nodes across a kernel axis of a grid of one
+/// The scope of a summary: the whole grid, or each plane of cells or nodes across a kernel axis of a grid of one
 /// level.
 struct SummaryOver {
   int axis = -1;  ///< -1: the whole grid

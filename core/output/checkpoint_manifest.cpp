@@ -155,7 +155,7 @@ std::vector<Line> linesOf(const std::string& text) {
   return lines;
 }
 
-/// What is wrong with the manifest, or with the names and sizes of files; `lines` gets its lines, one per file.
+/// The damage of the manifest, or of the names and sizes of files; `lines` gets its lines, one per file.
 std::string damageOfList(const fs::path& folder, std::string& lines) {
   const auto text = textOf(folder / manifestName);
   if (!text) return fmt::format("{} is missing", manifestName);
@@ -196,7 +196,7 @@ std::string hashNow(const fs::path& file, const Line& line, const mpi::Communica
 std::string unreadable(const std::string& name) { return fmt::format("{} cannot be read", name); }
 std::string changed(const std::string& name) { return fmt::format("the content of {} has changed", name); }
 
-/// What is wrong with bytes of a file whose sum is known: ranks read them together.
+/// The damage of bytes of a file whose sum is known; ranks read them together.
 std::string damageOfSum(const fs::path& file, const mpi::Communicator& ranks, std::uint64_t expected,
                         const std::function<std::uint64_t()>& mine) {
   std::uint64_t sum = 0;
@@ -210,7 +210,7 @@ std::string damageOfSum(const fs::path& file, const mpi::Communicator& ranks, st
   return sumsOfRanks(ranks, {&sum, 1}).front() == expected ? "" : changed(file.filename().string());
 }
 
-/// What is wrong with a file, but for parts of it.
+/// The damage of a file, except for parts of it.
 std::string damageOutside(const fs::path& file, const Line& line, const std::vector<Line>& lines,
                           const mpi::Communicator& ranks) {
   if (!line.isSum()) {

@@ -26,7 +26,7 @@ struct FilePart {
 void writeManifest(const std::filesystem::path& folder, const Writers& writers = {},
                    const std::vector<FilePart>& parts = {});
 
-/// What is wrong with a folder that has a manifest.
+/// The damage of a folder that has a manifest.
 struct Inspection {
   std::string damage;           ///< which file is missing, shorter, longer or has other bytes; empty if none
   std::vector<FilePart> parts;  ///< which have not been read
@@ -39,7 +39,7 @@ Inspection inspect(const std::filesystem::path& folder, const mpi::Communicator&
 /// The damage in a folder, parts included. Collective; all get the same.
 std::string damageOf(const std::filesystem::path& folder, const mpi::Communicator& ranks = mpi::Communicator::alone());
 
-/// What is wrong with a part, as in Inspection.
+/// The damage of a part, as in Inspection.
 class DamageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

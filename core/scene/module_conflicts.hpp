@@ -13,7 +13,7 @@
 
 namespace tushar::scene {
 
-/// What the modules above in the scene measure and compute.
+/// The quantities that the modules above in the scene measure and compute.
 struct TakenByModules {
   std::set<std::string> measured, computed;
 };

@@ -31,7 +31,7 @@ bool isOfFlow(const std::string& label) {
   return std::find(labelsOfFlow.begin(), labelsOfFlow.end(), label) != labelsOfFlow.end();
 }
 
-/// What is wrong with an attribute.
+/// The error in an attribute.
 void errorOf(const std::string& attribute, const Element& element, const std::string& problem,
              Diagnostics& diagnostics) {
   diagnostics.error(element.whereOf(attribute), element.path(), attribute + ": " + problem);

@@ -23,7 +23,7 @@ class Component {
   virtual void scheduleComputeStableTimeStep(tasks::TaskList&) const {}
   /// One step, from the old state to a new one.
   virtual void scheduleTimeAdvance(tasks::TaskList& tasks) const = 0;
-  /// What a user can try when a value breaks its bound: continues `try `.
+  /// Advice for a user if a value breaks its bound: continues `try `.
   virtual std::string advice() const { return "a smaller time step (timestep_multiplier in <Time>)"; }
   /// Whether a step with an impossible value is repeated with half the time step even if the scene does not request it.
   virtual bool mayRepeatStep() const { return false; }

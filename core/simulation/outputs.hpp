@@ -20,7 +20,7 @@ class Outputs {
  public:
   /// A new archive will be made in this folder; empty: the current one.
   Outputs(RunState& run, std::filesystem::path parent);
-  /// Of a run that ends by an exception: finishes the output on its way if rank 0 can do so alone, or if all ranks come
+  /// If a run ends by an exception, finishes the output on its way if rank 0 can do so alone, or if all ranks come
   /// here.
   ~Outputs();
   Outputs(const Outputs&) = delete;

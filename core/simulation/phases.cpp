@@ -65,7 +65,7 @@ std::vector<std::string> namesOfState(Names needed, const Names& decided, const 
   return {needed.begin(), needed.end()};
 }
 
-/// What analysis modules sample.
+/// The variables that analysis modules sample.
 std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) {
   std::vector<SaveRequest> samples;
   for (const auto& analysis : analyses)

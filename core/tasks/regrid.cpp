@@ -114,7 +114,7 @@ void unpack(const data::Label& label, const Piece& piece, const Variable& to, co
   });
 }
 
-/// What moves, and how it is written and read; particles are on the finest level only, and stay there.
+/// The variables that move, and how they are written and read; particles are on the finest level only, and stay there.
 class Luggage {
  public:
   Luggage(data::Warehouse& warehouse, const MigratedVariables& variables)

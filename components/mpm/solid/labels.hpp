@@ -128,7 +128,7 @@ inline constexpr std::array<ReductionLabel<Sum>, 7> work{{
     {"PlasticWork", "J", "taken by plastic flow since the start, of models that keep p.plasticStrain"},
     {"KineticEnergyAtStart", "J", "of the particles that are still there"},
 }};
-/// What the body does to a face of the grid.
+/// The action of the body on a face of the grid.
 struct OnFace {
   ReductionLabel<VectorSum> force;
   ReductionLabel<Sum> area;
