@@ -87,8 +87,8 @@ void declareWorkers(CLI::App& app, Arguments& arguments) {
                  "ranks that write outputs and checkpoints; by default one on each node. The files do not depend on it")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--behind", arguments.run.behind,
-                 "MB of an output that a writer may keep while steps go on; without it as many as a rank has of it, or "
-                 "16. 0: steps wait until the system has it")
+                 "MB of an output that a writer may hold while the run continues; by default the share of a rank, at "
+                 "least 16. 0: the run waits until the output is written")
       ->check(CLI::Range(0, 1'000'000));
 }
 
@@ -108,7 +108,7 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->allow_extra_args(false);
   declareWorkers(app, arguments);
   app.add_option("--trace", arguments.trace,
-                 "write what each thread did when to a file, for ui.perfetto.dev or chrome://tracing");
+                 "record what each thread does and when, in a file for ui.perfetto.dev or chrome://tracing");
   app.add_option("--json", arguments.run.jsonPath,
                  "write the report to a file, as JSON; with --check what is wrong with the scene, to the screen where "
                  "no file is given")

@@ -20,7 +20,7 @@ namespace tushar {
 
 namespace {
 
-/// What there is to choose from.
+/// Components, analysis modules and shapes.
 void printList(const simulation::Catalogue& known) {
   const auto components = known.components();
   const auto analyses = known.analyses();
@@ -32,7 +32,7 @@ void printList(const simulation::Catalogue& known) {
   for (const std::string& name : input::geometryNames()) fmt::print("  {}\n", name);
 }
 
-/// What --describe has a manual of.
+/// The topics of --describe.
 std::vector<std::string> manualNames(const simulation::Catalogue& known) {
   std::vector<std::string> names = known.componentNames();
   for (const std::string& other : known.analysisNames()) names.push_back(other);
@@ -50,9 +50,9 @@ ExitCode describe(const std::string& name, const simulation::Catalogue& known) {
     analysis->describe(std::cout);
   } else {
     const std::vector<std::string> names = manualNames(known);
-    fmt::print(
-        stderr, "sus: {}\n",
-        withNumber(fmt::format("nothing is called '{}'{}; there are {}", name, didYouMean(name, names), allOf(names))));
+    fmt::print(stderr, "sus: {}\n",
+               withNumber(fmt::format("there is no manual of '{}'{}; available: {}", name, didYouMean(name, names),
+                                      allOf(names))));
     return ExitCode::badCommandLine;
   }
   return ExitCode::success;
@@ -62,7 +62,7 @@ void printSchema(const std::string& language, const simulation::Catalogue& known
   const input::TagForm scene = scene::sceneForm(known);
   const std::string comment = fmt::format(
       " Scenes of sus {}; made by: sus --schema {}. It leaves open: limits of values, how tags depend on each other,\n"
-      "     what labels and materials there are. sus --check SCENE has all of that.",
+      "     what labels and materials there are. sus --check SCENE checks all of that.",
       TUSHAR_VERSION, language);
   if (language == "rng") return input::writeRelaxNg(std::cout, scene, comment + " ");
   input::writeXmlSchema(std::cout, scene,

@@ -177,7 +177,7 @@ ExitCode refuse(const std::string& sentence) {
 ExitCode dispatch(const Arguments& arguments, const OpenCatalogue& open,
                   std::chrono::steady_clock::time_point startedAt, std::optional<mpi::Session>& session) {
   if ((arguments.isQuestion() || arguments.scene.empty()) && launchedRank() > 0)
-    return ExitCode::success;  // the first says it
+    return ExitCode::success;  // rank 0 reports it
   if (arguments.isQuestion()) return answer(arguments, open(arguments.modules));
   if (arguments.scene.empty()) {
     return refuse(
@@ -201,7 +201,7 @@ ExitCode dispatch(const Arguments& arguments, const OpenCatalogue& open,
   return runScene(arguments, open(arguments.modules), startedAt, session->ranks());
 }
 
-/// A sentence for the user, and what the shell gets.
+/// A message for the user, and the exit code.
 struct Failure {
   std::string text;
   ExitCode code = ExitCode::failure;
@@ -236,8 +236,8 @@ Failure failureOf(const std::exception_ptr& thrown) {
   }
 }
 
-/// What a task takes for its work and gives back stays with the process for the next step: else the system clears the
-/// same pages anew in every step.
+/// Memory that tasks release stays with the process for the next step; otherwise the system would clear the same pages
+/// in every step.
 void keepMemory() {
   constexpr int mebibyte = 1 << 20;
   mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
@@ -245,7 +245,7 @@ void keepMemory() {
 }
 
 /// The C library reserves 64 MB of addresses for each thread that takes memory, of which those of MPI and the one that
-/// writes outputs would use next to nothing: where addresses are limited, these were missing for the state.
+/// writes outputs would use next to nothing: where addresses are limited, the state would lack them.
 void shareMemory(int threads) { mallopt(M_ARENA_MAX, threads); }
 
 /// Says once for all ranks what went wrong, and ends them.

@@ -11,7 +11,7 @@ extern const char* const buildCommit;
 /// The flags of the compiler, for all of the program.
 extern const char* const buildFlags;
 
-/// Version, commit, compiler and libraries but for PETSc, which only a solve loads; and nothing of a run.
+/// Version, commit, compiler and libraries except PETSc, which is loaded only for a solve; nothing about a run.
 output::RunRecord buildRecord();
 
 /// The same and PETSc, a line each.

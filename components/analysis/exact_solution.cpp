@@ -42,7 +42,7 @@ struct ExactSolutionSettings {
   std::optional<int> component;
   input::Expression value{0.0};
 
-  /// What the report calls the variable.
+  /// The name of the variable in the report.
   std::string field() const {
     return component ? label.substr(2) + "." + std::string(1, "xyz"[*component]) : label.substr(2);
   }

@@ -31,7 +31,7 @@ std::string pathOf(int axes) {
   return axes == 1 ? "DataAnalysis/Module/lines/line" : "DataAnalysis/Module/planes/plane";
 }
 
-/// What is wrong with a name; empty if it can be a folder beside those that an archive has.
+/// Why a name is invalid; empty if it can be a folder beside those that an archive has.
 std::string problemOfName(const std::string& name) {
   static const std::set<std::string> taken{"checkpoints", "slice", "particleExtract", "MinMax", "planeAverage"};
   const bool isPath = name.empty() || name.starts_with('.') || name.find('/') != std::string::npos;
@@ -41,7 +41,7 @@ std::string problemOfName(const std::string& name) {
   return {};
 }
 
-/// What is wrong with the points; empty if the grid has cells between them.
+/// Why the points are invalid; empty if the grid has cells between them.
 std::string problemOf(const Extent& extent, int axes, const Level& level) {
   const Vec3 lower = level.domain().lower, upper = level.domain().upper;
   int along = 0;

@@ -30,8 +30,8 @@ struct ExtentList {
 const input::Schema<ExtentList>& linesSchema();
 const input::Schema<ExtentList>& planesSchema();
 
-/// Throws InputError for lines (`axes` = 1) or planes (2) that the grid has no cells on, that go along other axes, and
-/// for names that the archive has no folder for.
+/// Throws InputError for lines (`axes` = 1) or planes (2) without cells of the grid or along other axes, and for names
+/// that cannot be folders of the archive.
 void checkExtents(const std::vector<Extent>& extents, int axes, const grid::Level& level);
 
 /// The cells that it goes through, as a box; where it lies between two cells those above it. Nodes are those at the

@@ -18,8 +18,8 @@ std::optional<bool> isDerived(const simulation::Component& component, std::strin
 /// The number of materials of a component before its gas, which is the number of the gas in the scene.
 int bodiesOf(const simulation::Component& component);
 
-/// Throws InputError for a <material> of a module that is no gas of the component. None is right and, as in Uintah,
-/// any name if there is one material.
+/// Throws InputError for a <material> of a module that is no gas of the component. No <material> is correct, and as in
+/// Uintah any name if there is one material.
 void checkGas(const std::string& material, const simulation::Component& component, const input::Element& module);
 
 }  // namespace tushar::analysis

@@ -94,12 +94,12 @@ class SampleTimes {
   bool due_ = false;
 };
 
-/// The lines of a file up to a time [s], which excludes it, with comments: what a run has left that is now repeated
-/// from there on. The time is in a column, counted from 0. A last line that is incomplete after a kill is left out.
+/// The lines of a file before a time [s], and its comments: what remains valid of a run that is now repeated from there
+/// on. The time is in a column, counted from 0. An incomplete last line, left by a kill, is dropped.
 std::string linesBefore(const std::string& text, double time, int column = 0);
 
-/// Text files that get a line for each sample. From one that a run before has left, the lines are taken out that are
-/// now repeated.
+/// Text files that get a line for each sample. If an earlier run has left one, the lines that are now repeated are
+/// removed from it.
 class SampleFiles {
  public:
   /// `column`: of the time [s] in a line.

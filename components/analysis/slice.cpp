@@ -167,7 +167,7 @@ class Slice : public Analysis {
       archives_[k]->write(parts[k]);
     }
   }
-  /// The lists of a plane's archive may be behind, and a restart takes away what they lack.
+  /// The lists of a plane's archive may be out of date, and a restart removes outputs that they lack.
   void flush() override {
     for (const auto& archive : archives_)
       if (archive) archive->flush();
@@ -186,7 +186,7 @@ class Slice : public Analysis {
     return fmt::format("slice/{}={}", nameOf(at.axis), at.at);
   }
 
-  /// The archive of a plane, without what a run before has left that is now repeated.
+  /// The archive of a plane, without outputs of an earlier run that are now repeated.
   std::unique_ptr<Archive> open(std::size_t plane, const Snapshot& first, const std::filesystem::path& folder) const {
     const auto own = folder / folderOf(settings_.planes[plane]);
     output::makeFolder(own);

@@ -59,7 +59,7 @@ std::vector<output::Array> WaveError::exactProfile(const Level& level) const {
   return {{"x", "m", "position", 1, x}, {"u", "m/s", "exact u", 1, u}};
 }
 
-/// The wave of a scene; throws std::invalid_argument where an end of the grid does not go on as the profile ends.
+/// The wave of a scene; throws std::invalid_argument if the grid does not continue beyond an end as the profile does.
 BurgersWave waveOf(const Burgers<1>& burgers, const Level& level) {
   BurgersProblem problem;
   problem.velocity = [velocity = burgers.settings().velocity, &level](double x) {

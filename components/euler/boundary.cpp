@@ -117,7 +117,7 @@ bool hasFormulas(const Level& level, int axis, int side) {
          std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return hasSome(part.conditions); });
 }
 
-/// Throws NumericalError unless what formulas give beside a cell can be.
+/// Throws NumericalError if formulas give an impossible state beside a cell.
 void checkGiven(const Place& place, const Gas& gas, std::uint64_t cell) {
   const auto require = [&](bool isFine, const grid::BoundaryVariable& label, const std::string& found) {
     if (isFine) return;
@@ -183,8 +183,7 @@ Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, i
   return cell;
 }
 
-/// Takes from the incoming wave of a state what a side that lets waves out takes from it in so many cells, at the same
-/// entropy.
+/// Weakens the incoming wave of a state as a side that lets waves out does over so many cells, at the same entropy.
 template <int D, std::size_t N>
 void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
   const Relaxation& side = rule.relaxes;

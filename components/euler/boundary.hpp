@@ -82,8 +82,8 @@ template <int D>
 bool isWall(const Place& place, const Gas& gas);
 
 /// From the scene's conditions: a wall mirrors the gas. Where Density, Velocity or Pressure is given, gas of these
-/// values flows in; a Temperature makes the third of it, density and pressure. Whatever is not given continues with no
-/// gradient, so that a side without conditions is an outflow.
+/// values flows in; a Temperature and one of density and pressure determine the other. Whatever is not given continues
+/// with no gradient, so that a side without conditions is an outflow.
 ///
 /// Formulas count at `time` [s], in the middle of each cell beyond the side, and mean there what their values would.
 /// Throws NumericalError where one gives a density, or a p + p_inf, that cannot be.

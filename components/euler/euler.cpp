@@ -70,7 +70,7 @@ std::vector<reference::GasLaw> Euler<D>::gases() const {
   return {{settings_.gas.gamma, settings_.gas.pInfinity}};
 }
 
-/// Two gases that part have equal densities and pressures at first: the velocity must be compared, too.
+/// Two gases that move apart have equal densities and pressures at first: the velocity must be compared, too.
 template <int D>
 std::vector<simulation::Criterion> criteria() {
   std::vector<simulation::Criterion> criteria(3);

@@ -6,11 +6,11 @@
 namespace tushar::euler {
 
 namespace c {
-/// Variables of a step, for scalars that the gas carries along.
+/// The mass through the lower and through the upper faces of cells, for scalars that the gas carries along.
 template <int D>
-inline constexpr CellLabel<Vec<D>> massFluxBelow{"c.massFluxBelow", "kg/(m^2 s)", "mass through the lower faces"};
-template <int D>
-inline constexpr CellLabel<Vec<D>> massFluxAbove{"c.massFluxAbove", "kg/(m^2 s)", "mass through the upper faces"};
+inline constexpr std::array<CellLabel<Vec<D>>, 2> massFlux{
+    {{"c.massFluxBelow", "kg/(m^2 s)", "mass through the lower faces"},
+     {"c.massFluxAbove", "kg/(m^2 s)", "mass through the upper faces"}}};
 }  // namespace c
 
 /// The mass that went through the faces of cells in a step, per area and time; empty if nothing needs it.
@@ -20,7 +20,7 @@ struct FaceMasses {
 
   static FaceMasses from(auto& take, bool areKept) {
     if (!areKept) return {};
-    return {.below = take(computes(c::massFluxBelow<D>)), .above = take(computes(c::massFluxAbove<D>))};
+    return {.below = take(computes(c::massFlux<D>[0])), .above = take(computes(c::massFlux<D>[1]))};
   }
   /// Takes those of the cells of a block across an axis from the fluxes.
   template <int K>

@@ -1,8 +1,16 @@
 #pragma once
 
-#include "core/core.hpp"
+#include "components/reference/gas_totals.hpp"
 
 namespace tushar::euler {
+
+/// Labels of the state of a gas.
+template <int D>
+struct StateLabels {
+  CellLabel<double> density;
+  CellLabel<Vec<D>> momentum;
+  CellLabel<double> totalEnergy;
+};
 
 /// Cell variables. The first three are the state; the others are derived if a scene saves them.
 namespace c {
@@ -33,14 +41,8 @@ inline constexpr BoundaryLabel<Vec3> waves{"LODI"};
 
 /// Totals over all cells.
 namespace total {
-inline constexpr ReductionLabel<Sum> mass{"TotalMass", "kg", "mass in all cells"};
-inline constexpr ReductionLabel<VectorSum> momentum{"TotalMomentum", "kg m/s", "momentum in all cells"};
-inline constexpr ReductionLabel<Sum> energy{"TotalEnergy", "J", "internal and kinetic energy in all cells"};
-inline constexpr ReductionLabel<Sum> kineticEnergy{"KineticEnergy", "J", "kinetic energy of all cells"};
-inline constexpr ReductionLabel<Minimum> leastDensity{"LeastDensity", "kg/m^3", "least density of any cell"};
-inline constexpr ReductionLabel<Minimum> leastEnergy{"LeastInternalEnergy", "J/kg",
-                                                     "least internal energy of any cell"};
-inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg", "entropy of all cells over c_v, up to a constant"};
+using namespace simulation::total;
+using namespace reference::total;
 }  // namespace total
 
 }  // namespace tushar::euler

@@ -20,7 +20,7 @@ struct Sutherland {
   }
 };
 
-/// A box in which the gas has another viscosity, as one that swallows waves before a side of the grid.
+/// A box in which the gas has another viscosity, such as a layer that absorbs waves before a side of the grid.
 struct SpongeLayer {
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< m
   double viscosity = 0;                             ///< Pa s

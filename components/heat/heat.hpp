@@ -82,7 +82,7 @@ void conduct(const Patch& patch, const Settings& settings, CellView<const double
 
 /// Marks cells beside which a straight line between cells is wrong by more than `tolerance` [K]: |T_{i-1} - 2 T_i +
 /// T_{i+1}| / 8 along the worst axis, which is h² |T''| / 8. It is four times as much on cells twice as wide, so that
-/// those with more than a quarter stay. Beside a side of the grid the cell within speaks for both.
+/// those with more than a quarter stay. At a side of the grid the inner neighbour decides.
 template <int D>
 void estimateError(const Patch& patch, double tolerance, CellView<const double> temperature, Marks marks) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {

@@ -37,7 +37,7 @@ const Schema<WavesSection>& wavesSchema() {
   return schema;
 }
 
-/// `SINE_BC`: what swings at a side.
+/// `SINE_BC`: what oscillates at a side.
 struct SineSection {
   double omega = 0, amplitude = 0, pressure = 0;
   Vec3 velocity = Vec3::Zero();
@@ -45,12 +45,12 @@ struct SineSection {
 
 const Schema<SineSection>& sineSchema() {
   static const Schema<SineSection> schema =
-      Schema<SineSection>(sineTag, "Pressures or velocities at sides that swing: r + A sin(omega t), var Sine.")
+      Schema<SineSection>(sineTag, "Pressures or velocities at sides that oscillate: r + A sin(omega t), var Sine.")
           .required("omega", &SineSection::omega, "1/s", "2 pi times the frequency")
           .required("A", &SineSection::amplitude, "Pa or m/s", "the amplitude")
           .value("reference_pressure", &SineSection::pressure, 0, "Pa", "r of a Pressure")
           .value("reference_velocity", &SineSection::velocity, Vec3::Zero(), "m/s",
-                 "r of a Velocity; components of 0 do not swing");
+                 "r of a Velocity; components of 0 do not oscillate");
   return schema;
 }
 
@@ -96,7 +96,7 @@ std::vector<BoundaryCondition> readSine(const std::string& label, const Element&
   }
   if (label == euler::boundary::velocity.name) {
     if (section->velocity.isZero(0))
-      diagnostics.error(condition, "needs a <reference_velocity> in <SINE_BC>: components of 0 do not swing");
+      diagnostics.error(condition, "needs a <reference_velocity> in <SINE_BC>: components of 0 do not oscillate");
     BoundaryCondition one{euler::boundary::velocity, BoundaryKind::dirichlet};
     std::array<input::Expression, 3> components;
     for (int axis = 0; axis < 3; ++axis)

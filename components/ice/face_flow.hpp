@@ -93,8 +93,8 @@ class GasBefore {
   double stiffPressure(const Index<D>& face, int axis) const {
     return mean(old_, face, axis, euler::kPressure<D>) + gas_.pInfinity;
   }
-  /// dt / (rho_f h), m/(s Pa): what the normal velocity loses in a time dt [s] per Pa that the pressure rises by across
-  /// the face; 0 if no pressure pushes.
+  /// dt / (rho_f h), m/(s Pa): the decrease of the normal velocity in a time dt [s] per Pa of pressure rise across the
+  /// face; 0 where pressure does not act.
   double mobility(const Index<D>& face, int axis, double dt) const {
     if (isFree(face, axis) || givenVelocity(face, axis)) return 0;
     return dt * level_.inverseSpacing(axis) / density(face, axis);
@@ -135,7 +135,7 @@ class GasBefore {
   euler::Rows<D> old_;
 };
 
-/// The normal velocities at the faces of cells, as the pressure p' at the end of a step makes them:
+/// The normal velocities at the faces of cells, that follow from the pressure p' at the end of a step:
 ///
 ///   u_f = u*_f - dt / (rho_f h) (p'_R - p'_L),   u*_f = the mean of v - dt (v . grad) v of both cells + dt g,
 ///
@@ -183,8 +183,8 @@ class FaceFlow : public GasBefore<D> {
     return this->mean(ahead_, face, axis, euler::kVelocity(axis)) + dt_ * this->gravity()[axis] -
            this->mobility(face, axis, dt_) * rise;
   }
-  /// What u_f loses per Pa that the pressure of the cell above the face changes by, and gains per Pa of that below;
-  /// none of them changes beyond a side, m/(s Pa).
+  /// The decrease of u_f per Pa of change of the pressure in the cell above the face, and its increase per Pa in the
+  /// cell below; beyond a side the pressure does not change. m/(s Pa).
   double loss(const Index<D>& face, int axis) const {
     if (!this->isOpen(face, axis)) return this->mobility(face, axis, dt_);
     const OpenSide side = openSide(face, axis);

@@ -19,12 +19,12 @@ namespace {
 
 constexpr const char* solverTag = "Solver";
 
-/// The number of the material that a condition holds for; -1: all, or what the grid has complained of.
+/// The number of the material that a condition holds for; -1 for all, or if the id is invalid, which the grid reports.
 int materialOf(const Element& condition) {
   return input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
 }
 
-/// What is wrong with a condition of the gas: its value, and derivatives other than 0.
+/// Reports an invalid condition of the gas: its value, and derivatives other than 0.
 void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
   const auto text = condition.child("value");
@@ -65,7 +65,7 @@ void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagn
   }
 }
 
-/// What does not go together at one face: a wall that slips, or a side that lets waves out, and other conditions.
+/// Reports a condition that contradicts the others of its face: a wall that slips, or a side that lets waves out.
 void checkBeside(const Element& condition, bool slips, bool relaxes, Diagnostics& diagnostics) {
   const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
   const bool isGiven = var == nameOf(BoundaryKind::dirichlet);
@@ -77,6 +77,7 @@ void checkBeside(const Element& condition, bool slips, bool relaxes, Diagnostics
     diagnostics.error(condition, "beside LODI of the Pressure only a Temperature may be given");
 }
 
+/// Reports conditions of faces that contradict one another, or that need another one.
 void checkWords(const Element& root, Diagnostics& diagnostics) {
   const auto group = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   for (const Element& face : group ? group->children("Face") : std::vector<Element>()) {
@@ -95,7 +96,7 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
   }
 }
 
-/// A given pressure is ignored, as in Uintah: says so where it is another one than follows.
+/// As in Uintah a given pressure is ignored; notes it where it differs from the one that follows.
 void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
   if (!body.pressure) return;
   if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;
@@ -242,7 +243,7 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
   return read;
 }
 
-/// What a gas can have that it cannot have beside bodies.
+/// Refuses what a gas can have only without bodies.
 void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   const Element tag = *root.child("CFD")->child("ICE");
   const char* sentence = "is not available beside bodies: take it out, or keep only the gas";

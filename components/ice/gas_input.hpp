@@ -55,6 +55,9 @@ struct GasScene {
   std::vector<MassExchange> massExchanges = {};   ///< between them
 };
 
+/// Advice if a run fails.
+inline constexpr const char* adviceForGas = "a smaller CFD/cfl, or CFD/ICE/advection of type FirstOrder";
+
 /// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> except its MPM, and the conditions at the sides of the grid.
 /// Throughout the scene the gas is numbered after the `solids` materials of MPM. Every problem goes to the diagnostics.
 GasScene readGas(const input::Element& root, int solids, input::Diagnostics& diagnostics);

@@ -9,9 +9,7 @@
 
 namespace tushar::ice {
 
-using input::Diagnostics;
-using input::Element;
-using input::Schema;
+using input::Diagnostics, input::Element, input::Schema;
 
 namespace {
 
@@ -40,7 +38,7 @@ const Schema<StepSection>& stepSchema() {
 
 const Schema<HypreSection>& hypreSchema() {
   static const Schema<HypreSection> schema = [] {
-    Schema<HypreSection> tags("Parameters", "How the pressure is solved for, in the words of hypre.");
+    Schema<HypreSection> tags("Parameters", "How the pressure is solved for, in hypre's terms.");
     const std::string cg = "cg", multigrid = "hypre";
     tags.foreignAttribute("variable", "implicitPressure")
         .choice("solver", &HypreSection::solver,
@@ -81,7 +79,7 @@ const Schema<ImplicitSection>& implicitSchema() {
     Schema<ImplicitSection> tags("ImplicitSolver", "Steps that sound does not limit: the pressure is solved for.");
     tags.location(&ImplicitSection::where)
         .section("Parameters", &ImplicitSection::hypre, hypreSchema(), "how, as in Uintah's scenes")
-        .section("Solver", &ImplicitSection::solver, solvers::linearSchema(), "how, in the words of PETSc")
+        .section("Solver", &ImplicitSection::solver, solvers::linearSchema(), "how, in PETSc's terms")
         .ours();
     for (const char* tag : {"max_outer_iterations", "outer_iteration_tolerance", "iters_before_timestep_restart",
                             "iters_before_timestep_recompute"})

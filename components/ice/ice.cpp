@@ -167,7 +167,7 @@ template class Ice<3>;
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind;
   kind.name = "ice";
-  kind.sentence = "a compressible gas in the words of Uintah's ICE, by the method of euler";
+  kind.sentence = "a compressible gas with the input of Uintah's ICE, by the method of euler";
   kind.sections = gasSections();
   kind.takesLevels = true;
   kind.takesPartsOfSides = true;

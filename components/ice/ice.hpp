@@ -29,7 +29,7 @@ class Ice : public euler::Euler<D> {
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
-  std::string advice() const override { return "a smaller CFD/cfl, or CFD/ICE/advection of type FirstOrder"; }
+  std::string advice() const override { return adviceForGas; }
   std::vector<std::string> foreignLabels() const override;
   simulation::OtherNames otherNames() const override;
   std::vector<std::string> gasNames() const override { return {this->settings().name}; }

@@ -28,7 +28,7 @@ const Schema<ScalarRegion>& startSchema() {
         .value("freq", &ScalarRegion::waves, Vec3::Zero(), "1", "waves along each axis")
         .value("linearInitialize", &ScalarRegion::isLinear, false, "1", "slope . d more than that, d as above")
         .value("slope", &ScalarRegion::slope, Vec3::Zero(), "1", "rise through the region along each axis")
-        .ignored("coeff", "belongs to shapes that a formula can have")
+        .ignored("coeff", "belongs to shapes that a formula can describe")
         .ignoredAttribute("name", "for readers");
     for (const char* tag : {"triangularInitialize", "quadraticInitialize", "cubicInitialize",
                             "exponentialInitialize_1D", "exponentialInitialize_2D"})
@@ -114,9 +114,9 @@ const Schema<MassExchange>& massExchangeSchema() {
   static const Schema<MassExchange> schema =
       Schema<MassExchange>("Test", "One gas becomes another one.")
           .location(&MassExchange::where)
-          .required("fromMaterial", &MassExchange::from, "1", "the gas that becomes less")
+          .required("fromMaterial", &MassExchange::from, "1", "the gas that is converted")
           .required("toMaterial", &MassExchange::to, "1", "the gas that it becomes")
-          .required("rate", &MassExchange::rate, "1/s", "part of it in a time", input::nonNegative())
+          .required("rate", &MassExchange::rate, "1/s", "fraction of it per time", input::nonNegative())
           .value("startTime", &MassExchange::startTime, 0, "s", "when that begins");
   return schema;
 }

@@ -37,7 +37,7 @@ const Schema<SpongeTag>& spongeSchema() {
                                            .required("min", &SpongeBox::min, "m", "a corner")
                                            .required("max", &SpongeBox::max, "m", "the opposite one");
   static const Schema<SpongeTag> schema =
-      Schema<SpongeTag>("Model", "name=\"SpongeLayer\": a box with a viscosity of its own, which swallows waves.")
+      Schema<SpongeTag>("Model", "name=\"SpongeLayer\": a box with a viscosity of its own, which absorbs waves.")
           .foreignAttribute("name", "SpongeLayer")
           .required("maxDynamicViscosity", &SpongeTag::viscosity, "Pa s", "the viscosity in it", input::nonNegative())
           .requiredSection("box", &SpongeTag::box, box);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/core.hpp"
+#include "core/simulation/conserved.hpp"
 
 // Variables of every method here; gas/labels.hpp and solid/labels.hpp add their own.
 
@@ -30,9 +31,9 @@ inline constexpr NodeLabel<Vec<D>> acceleration{"g.acceleration", "m/s^2",
 
 /// Totals over all particles.
 namespace total {
-inline constexpr ReductionLabel<Sum> mass{"TotalMass", "kg", "mass of all particles"};
-inline constexpr ReductionLabel<VectorSum> momentum{"TotalMomentum", "kg m/s", "momentum of all particles"};
-inline constexpr ReductionLabel<Sum> kineticEnergy{"KineticEnergy", "J", "kinetic energy of all particles"};
+using simulation::total::kineticEnergy;
+using simulation::total::mass;
+using simulation::total::momentum;
 inline constexpr ReductionLabel<VectorSum> centerOfMass{"CenterOfMassPosition", "kg m",
                                                         "sum of mass times position, as in Uintah"};
 }  // namespace total

@@ -7,8 +7,8 @@
 namespace tushar::mpmice {
 
 /// Open fraction of a face between two cells with gas; bodies cover the fraction `coverage` of the face and leave the
-/// volume fractions `below` and `above` free. More than eight times the free volume beside it is closed: gas cannot
-/// rush out of a cell that is almost full.
+/// volume fractions `below` and `above` free. At most eight times the free volume beside the face is open, so that gas
+/// cannot rush out of a cell that is almost full.
 inline double openShare(double coverage, double below, double above, bool thinWalls) {
   double most = 8 * std::min(below, above);
   if (thinWalls) most = std::min(most, std::max(0.0, 1 - 4 * ((1 - below) + (1 - above))));
@@ -23,7 +23,7 @@ struct OpenFaces {
   double wall(int side) const { return area - open[side]; }
 };
 
-/// How far the walls of a cell face one way: 1 of one plane wall, 0 of two that face each other.
+/// To what degree the walls of a cell face one way: 1 for one plane wall, 0 for two that face each other.
 template <int D>
 double facingOneWay(const Level& level, const std::array<OpenFaces, D>& faces) {
   double open = 0, all = 0;

@@ -10,7 +10,8 @@
 
 namespace tushar::mpmice {
 
-/// What gas holds per volume of its own: rho, rho v, E, and of each of several gases the mass and the share.
+/// The contents of gas per volume of the gas itself: rho, rho v, E, and of each of several gases the mass and the
+/// share.
 template <int D>
 struct Parcel {
   euler::State<D> u{};

@@ -15,7 +15,7 @@ using input::Element;
 
 namespace {
 
-/// Of pairs of materials, those of a body and a gas; Uintah's matrices have the pairs row by row.
+/// Which pairs of materials are a body and a gas; Uintah's matrices have the pairs row by row.
 template <class Visit>
 void forEachPairWithGas(const std::vector<double>& pairs, int solids, int gases, Visit&& visit) {
   std::size_t at = 0;
@@ -35,7 +35,7 @@ bool hasAllPairs(const std::vector<double>& given, const char* name, int materia
   return false;
 }
 
-/// Momentum between the gas and bodies goes by walls, or bodies are rigid; between bodies by their contacts.
+/// The gas and bodies exchange momentum at walls, or bodies are rigid; bodies exchange it by their contacts.
 void checkMomentum(const ice::Exchange& exchange, int solids, int gases, bool areRigid, const Element& tag,
                    Diagnostics& diagnostics) {
   constexpr double walls = 1e9;
@@ -78,7 +78,7 @@ int countSolids(const Element& root) {
   return solids ? static_cast<int>(solids->children("material").size()) : 0;
 }
 
-/// What the gas or the bodies have that they cannot have beside one another.
+/// Refuses what the gas and the bodies cannot have together.
 void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
   const auto mpm = root.child("MPM");
   if (const auto radial = mpm ? mpm->child("axisymmetric") : std::nullopt; radial && radial->text() == "true")
@@ -89,7 +89,7 @@ void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diag
                                   scene.gas.cfl, smallFreeVolume));
 }
 
-/// Conditions on a part of a side are of the gas alone, and bodies have those of whole sides: says so.
+/// Notes that conditions on a part of a side hold for the gas alone, and that bodies have those of whole sides.
 void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagnostics) {
   const auto grid = root.child("Grid");
   const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
@@ -164,7 +164,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
 simulation::ComponentKind kind(bool areRigid) {
   simulation::ComponentKind kind;
   kind.name = areRigid ? "rmpmice" : "mpmice";
-  kind.sentence = areRigid ? "a compressible gas around bodies of particles that move as they started"
+  kind.sentence = areRigid ? "a compressible gas around bodies of particles that keep their velocities"
                            : "a compressible gas and bodies of particles, which interact";
   kind.sections = ice::gasSections();
   kind.sections.insert(kind.sections.end(), {"MPM", "PhysicalBC"});

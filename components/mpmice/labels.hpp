@@ -22,26 +22,25 @@ inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "share of the low
 template <int D>
 inline constexpr CellLabel<Vec<D>> swept{"c.swept", "1",
                                          "volume of bodies that went up through the lower faces, over that of a cell"};
-/// Pressure of a cell's gas on the walls at its faces.
+/// A number on the walls at the lower faces of cells, and one on those at the upper faces.
 template <int D>
-inline constexpr CellLabel<Vec<D>> wallPressureBelow{"c.wallPressureBelow", "Pa", "on walls at the lower faces"};
+using OnWalls = std::array<CellLabel<Vec<D>>, 2>;
 template <int D>
-inline constexpr CellLabel<Vec<D>> wallPressureAbove{"c.wallPressureAbove", "Pa", "on walls at the upper faces"};
+inline constexpr OnWalls<D> wallPressure{{{"c.wallPressureBelow", "Pa", "on walls at the lower faces"},
+                                          {"c.wallPressureAbove", "Pa", "on walls at the upper faces"}}};
 template <int D>
 inline constexpr CellLabel<Vec<D>> wallFriction{"c.wallFriction", "N/m^3", "of walls on the gas of the cell"};
 /// Of an implicit step.
-inline constexpr CellLabel<double> aloneDensity{"c.aloneDensity", "kg/m^3", "of the gas itself"};
 template <int D>
-inline constexpr CellLabel<Vec<D>> aloneMomentum{"c.aloneMomentum", "kg/(m^2 s)", "of the gas itself"};
-inline constexpr CellLabel<double> aloneEnergy{"c.aloneEnergy", "J/m^3", "of the gas itself"};
+inline constexpr euler::StateLabels<D> alone{{"c.aloneDensity", "kg/m^3", "of the gas itself"},
+                                             {"c.aloneMomentum", "kg/(m^2 s)", "of the gas itself"},
+                                             {"c.aloneEnergy", "J/m^3", "of the gas itself"}};
 template <int D>
-inline constexpr CellLabel<Vec<D>> wallSpeedBelow{"c.wallSpeedBelow", "m/s", "of walls at the lower faces"};
+inline constexpr OnWalls<D> wallSpeed{{{"c.wallSpeedBelow", "m/s", "of walls at the lower faces"},
+                                       {"c.wallSpeedAbove", "m/s", "of walls at the upper faces"}}};
 template <int D>
-inline constexpr CellLabel<Vec<D>> wallSpeedAbove{"c.wallSpeedAbove", "m/s", "of walls at the upper faces"};
-template <int D>
-inline constexpr CellLabel<Vec<D>> wallYieldBelow{"c.wallYieldBelow", "m/(s^2 Pa)", "acceleration by pressure, below"};
-template <int D>
-inline constexpr CellLabel<Vec<D>> wallYieldAbove{"c.wallYieldAbove", "m/(s^2 Pa)", "acceleration by pressure, above"};
+inline constexpr OnWalls<D> wallYield{{{"c.wallYieldBelow", "m/(s^2 Pa)", "acceleration by pressure, below"},
+                                       {"c.wallYieldAbove", "m/(s^2 Pa)", "acceleration by pressure, above"}}};
 /// The state before small cells share theirs with others.
 inline constexpr CellLabel<double> unsharedDensity{"c.unsharedDensity", "kg/m^3", "before small cells share it"};
 template <int D>

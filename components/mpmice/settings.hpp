@@ -14,7 +14,7 @@ struct Settings {
   Vec3 gravity = Vec3::Zero();   ///< m/s²
   std::vector<double> heat;      ///< W/(m³ K) between pairs of materials, row by row, the gas last; empty: none flows
   bool thinWalls = false;        ///< bodies thinner than a cell also hold the gas back
-  bool areRigid = false;         ///< bodies move as they started, whatever the gas does
+  bool areRigid = false;         ///< bodies keep their velocities, whatever the gas does
   euler::Diffusion diffusion = {};                ///< in the gas
   std::optional<ice::IceSettings> implicit = {};  ///< where sound does not limit the steps
   std::vector<euler::Settings> gases = {};        ///< each of several gases that share cells; the first is `gas`

@@ -21,7 +21,7 @@ struct BodiesInStep {
   }
 };
 
-/// What the gas of a cell gives to walls in a step, per volume of the cell.
+/// The transfer from the gas of a cell to walls in a step, per volume of the cell.
 template <int D>
 struct Given {
   Vec<D> impulse = Vec<D>::Zero();  ///< N s/m³
@@ -89,7 +89,7 @@ class WallExchange {
   }
 
  private:
-  /// Of several gases, makes volumes of shares: those of the gas in the cell fill the room that it has after the step.
+  /// For several gases, turns shares into volumes, which fill the room that the gas in the cell has after the step.
   void fillRoom(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
     for (std::size_t k = 0; k < held.shares.size(); ++k)
       held.shares[k][cell] += cells_.held.shares[k][cell] * (step_.newFree[cell] - 1);
@@ -134,8 +134,8 @@ class WallExchange {
     return cells_.free[face] < 1 || cells_.free[below] < 1 || step_.swept[face][axis] != 0;
   }
 
-  /// Gas follows a wall that draws back, and makes way for one that comes, with all it holds: what the covered share of
-  /// the face would sweep less what bodies swept.
+  /// Gas follows a wall that draws back, and makes way for one that comes, with all it holds: the volume that the
+  /// covered share of the face would sweep, less the volume that bodies swept.
   void flow(const Index<D>& cell, int axis, int side, double wallVelocity,
             const euler::MixtureViews<D, double>& held) const {
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);

@@ -41,7 +41,8 @@ class CellFriction {
   double all() const { return all_; }
   /// The share of the friction at a face.
   double share(int axis, int side) const { return drag_[axis][side] > 0 ? drag_[axis][side] / all_ : 0; }
-  /// The part of a velocity along the walls: less what goes into an oblique wall, and into each one between walls.
+  /// The part of a velocity along the walls: without the part that goes into an oblique wall or, between walls, into
+  /// each of them.
   Vec<D> alongWalls(const Vec<D>& velocity) const {
     Vec<D> along = velocity - slip_ * velocity.dot(normal_) * normal_;
     for (int a = 0; a < D; ++a) along[a] -= (1 - slip_) * (share(a, 0) + share(a, 1)) * velocity[a];

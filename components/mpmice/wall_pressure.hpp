@@ -5,8 +5,8 @@
 namespace tushar::mpmice {
 
 /// The pressure behind the shock that a wall drives into a gas with a law of its own, whose jump of velocity is
-/// `closing`: e - e_0 = (p + p_0) / 2 (v_0 - v), (p - p_0) (v_0 - v) = closing². Of one whose pressure is that of the
-/// density alone, the second says it. By bisection in the density, to round-off.
+/// `closing`: e - e_0 = (p + p_0) / 2 (v_0 - v), (p - p_0) (v_0 - v) = closing². If the pressure depends on the density
+/// alone, the second equation suffices. By bisection in the density, to round-off.
 inline double shockPressure(const euler::Gas& gas, double density, double last, double closing) {
   const double before = gas.pressureOf(density, last), volume = 1 / density;
   const double energy = gas.energyOf(density, last) * volume;

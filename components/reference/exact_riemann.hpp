@@ -28,7 +28,7 @@ struct RiemannProblem {
 /// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 4.
 class ExactRiemann : public GasReference {
  public:
-  /// Throws std::invalid_argument as solveRiemann does, and where the axis or the diaphragm cannot be.
+  /// Throws std::invalid_argument as solveRiemann does, and for an impossible axis or diaphragm.
   explicit ExactRiemann(const RiemannProblem& problem);
 
   GasState at(const Vec3& x, double t) const override;

@@ -81,7 +81,7 @@ double periodAlong(const Vec3& normal, const grid::Level& level) {
   return period;
 }
 
-/// Throws std::invalid_argument for a diaphragm that the grid has no part of.
+/// Throws std::invalid_argument for a diaphragm outside the grid.
 void checkDiaphragm(double position, const Vec3& normal, const grid::Domain& domain) {
   const Vec3 lower = normal.cwiseProduct(domain.lower), upper = normal.cwiseProduct(domain.upper);
   const double first = lower.cwiseMin(upper).sum(), last = lower.cwiseMax(upper).sum();

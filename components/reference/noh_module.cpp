@@ -14,7 +14,7 @@ const input::Schema<NohSection>& nohSchema() {
       radialSchema<NohSection>("noh",
                                "Errors against Noh's problem: cold gas falls into a plane, a line or a point, "
                                "as the grid has 1, 2 or 3 dimensions.",
-                               "where the gas falls to", 5.0 / 3)
+                               "where the gas converges", 5.0 / 3)
           .value("speed", &NohSection::speed, 1, "m/s", "of the gas towards the centre", input::positive())
           .ours();
   return schema;

@@ -15,8 +15,8 @@ namespace {
 constexpr double kRoundOff = 2 * std::numeric_limits<double>::epsilon();
 constexpr int kMostIterations = 500;
 
-/// One side seen so that its wave runs to the left: the right side is mirrored, u -> -u. Its own pressure has the
-/// stiffness in it; pressures that are passed in have not.
+/// One side, seen so that its wave runs to the left: the right side is mirrored, u -> -u. Its own pressure includes the
+/// stiffness; pressures that are passed in do not.
 struct Side {
   double density, velocity, pressure, gamma, stiffness;
 

@@ -73,7 +73,7 @@ double Sedov::pressureShape(double logLambda, const Shape& shape) const {
 }
 
 /// E = alpha rho0 R^(d+2) / t²: alpha = A (2/(d+2))² int (G lambda² w² / 2 + p / (gamma-1)) lambda^d d ln lambda, A the
-/// area of the unit sphere, by Simpson's rule; inwards of the table pressure is all there is.
+/// area of the unit sphere, by Simpson's rule; further inwards there is only pressure.
 double Sedov::findAlpha() const {
   const double gamma = problem_.gamma, d = dimension();
   const auto density = [&](int k) {

@@ -6,13 +6,13 @@
 
 namespace tushar::reference {
 
-/// What vortices of gas have in common.
+/// The settings that all vortices of gas share.
 struct VortexProblem {
   double density = 1;   ///< rho0, kg/m^3
   double pressure = 1;  ///< p0, Pa
   double gamma = 1.4;   ///< ratio of specific heats
   double radius = 1;    ///< where the speed around the centre is greatest, m
-  int axis = 2;         ///< 0, 1 or 2: what it turns around; it is the same all along it
+  int axis = 2;         ///< 0, 1 or 2: the axis of rotation, along which nothing varies
   MovingFrame frame;    ///< its centre; the velocity is that of the flow
 
   /// Throws std::invalid_argument where a setting is out of range; `name` begins the sentence.

@@ -11,7 +11,7 @@
 namespace tushar {
 
 /// As many numbers as the processor's vector registers hold. An operation acts on each of them as it does on a number
-/// alone, to the same bits, so that results do not depend on what shares a register with what.
+/// alone, to the same bits, so that results do not depend on which numbers share a register.
 class Lanes {
  public:
 #if defined(__AVX512F__)

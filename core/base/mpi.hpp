@@ -61,8 +61,8 @@ class Communicator {
   long sum(long mine) const;
   /// The sum of each over all ranks; bitwise the same on all ranks if they are whole numbers.
   void sum(std::span<double> mine) const;
-  /// Every rank gets `merge(from, into)` over the values of all, in a tree that depends on their number alone, so that
-  /// all get the same bits.
+  /// Merges the values of all ranks by `merge(from, into)`, in a tree that depends only on the number of ranks. Every
+  /// rank gets the same bits.
   void merge(std::span<std::byte> value,
              const std::function<void(const std::byte* from, std::byte* into)>& merge) const;
   /// Merges a value by its own function `merge`.

@@ -30,7 +30,7 @@ int boundCores() {
   return sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
 }
 
-/// Of the exceptions thrown in a loop, keeps that of the lowest index.
+/// Keeps the exception of the lowest index among those thrown in a loop.
 class FirstFailure {
  public:
   template <class Work>

@@ -27,8 +27,8 @@ class Threads {
   /// Sets the number of threads from the next loop on.
   void resize(int count);
 
-  /// Calls `work(0)` to `work(times - 1)`, in any order and several at once, and returns when all are done. Of what
-  /// they throw, that of the least number comes out; the others are called nevertheless.
+  /// Calls `work(0)` to `work(times - 1)`, in any order and several at once, and returns when all are done. If calls
+  /// throw, all are made nevertheless, and the exception of the lowest number is rethrown.
   template <class Work>
   void forEach(int times, const Work& work, trace::Kind kind = trace::Kind::task) {
     run(times, {&work, [](const void* called, int k) { (*static_cast<const Work*>(called))(k); }}, kind);

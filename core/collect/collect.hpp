@@ -14,8 +14,8 @@ struct Part {
   grid::Box stored{};     ///< of cells and nodes: the box in memory
 };
 
-/// The values of a variable on each patch of this rank, in their order. They stay in the warehouse, and are good while
-/// the state is as it is.
+/// The values of a variable on each patch of this rank, in their order. They stay in the warehouse, and are valid until
+/// the state changes.
 struct Parts {
   std::vector<Part> of;
 };

@@ -26,15 +26,15 @@ struct Window {
 };
 
 /// Variables over the whole grid, in an order that no layout changes: particles by id, nodes and cells with x fastest.
-/// Vectors come out in x, y, z. All ranks make the same calls, while the state is as it is.
+/// Vectors come out in x, y, z. All ranks make the same calls, between which the state does not change.
 class Gather {
  public:
   explicit Gather(data::Warehouse& warehouse) : warehouse_(&warehouse) {}
 
   /// The values of a variable of a generation, in memory; none if it is not held. For one rank on its own.
   output::Array array(data::Generation generation, int variable);
-  /// The values of a variable without a copy, on each rank its own: they stay where they are, and are good while the
-  /// state is as it is. None if no rank holds it.
+  /// The values of a variable without a copy, on each rank its own: they stay where they are, and are valid until the
+  /// state changes. None if no rank holds it.
   output::Array stream(data::Generation generation, int variable);
   /// The values in the given order, without a copy.
   output::Array stream(data::Generation generation, int variable, const GridOrder& order);

@@ -15,7 +15,7 @@ class GridOrder {
   /// The cells or nodes of a box of the only level.
   explicit GridOrder(const grid::Box& all) : all_(all) {}
   /// All cells of several levels, in boxes of up to `most` cells along an axis; 0: block by block along the curve.
-  /// `windows`: of each level, a box of the only cells that are in the order; all, if there are none.
+  /// `windows`: for each level, the box of cells that are in the order; if empty, all cells are.
   GridOrder(const grid::Grid& grid, int most, std::vector<grid::Box> windows = {});
 
   std::size_t size() const { return boxes_ ? size_ : all_.size(); }

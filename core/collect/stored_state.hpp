@@ -18,8 +18,8 @@ struct StateNames {
 };
 
 /// The old values of the variables to the last bit, in an order that no layout changes: nodes and cells with x fastest,
-/// particles by (cell, id). Variables that are not held are left out. The values stay where they are, and are good
-/// while the state is as it is.
+/// particles by (cell, id). Variables that are not held are left out. The values stay where they are, and are valid
+/// until the state changes.
 ///
 ///     /particles/<material>/perCell    number of particles of each cell
 ///     /particles/<material>/<label>    shape: particles × components along the axes in use
@@ -37,9 +37,9 @@ class StoredState {
   std::vector<output::Dataset> datasets_;
 };
 
-/// Makes a stored state the old values, on whatever patches the warehouse has; each rank reads what its own need. What
-/// is read is checked by `checks`, and then what is not. Collective. Throws DamageError, and InputError for a variable
-/// of `required` that the file lacks or has in another form, or that has another number of values.
+/// Loads a stored state as the old values, on any patches; each rank reads what its own patches need. `checks` checks
+/// what is read, then the rest. Collective. Throws DamageError, and InputError for a variable of `required` that the
+/// file lacks or has in another form, or that has another number of values.
 void readState(const output::Hdf5Input& file, data::Warehouse& warehouse, const StateNames& names,
                const std::vector<std::string>& required, output::CheckedParts& checks);
 

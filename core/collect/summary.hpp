@@ -5,7 +5,7 @@
 
 namespace tushar::collect {
 
-/// What a summary is taken over: the whole grid, or each plane of cells or nodes across a kernel axis of a grid of one
+/// The scope of a summary: the whole grid, or each plane of cells or nodes across a kernel axis of a grid of one
 /// level.
 struct SummaryOver {
   int axis = -1;  ///< -1: the whole grid
@@ -18,7 +18,7 @@ struct Summary {
 };
 
 /// The summary of a variable of cells or nodes of a generation, on rank 0; empty arrays on the others. The same bits on
-/// any patches and ranks. All ranks call it. Only what is summed up is sent.
+/// any patches and ranks. All ranks call it. Ranks send only their summaries.
 Summary summaryOf(data::Warehouse& warehouse, data::Generation generation, int variable, SummaryOver over);
 
 }  // namespace tushar::collect

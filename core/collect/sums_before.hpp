@@ -9,7 +9,7 @@
 namespace tushar::collect {
 
 /// For each of this rank's keys, the sum of the weights of all smaller keys of all ranks. Weights that are left out are
-/// 1: then it is the place of the key among all. Keys are ascending, and no two of all ranks are the same. A rank needs
+/// 1: then it is the place of the key among all. Keys are ascending, and no key occurs twice on any ranks. A rank needs
 /// memory for its own keys and for about as many of the others. Collective.
 ///
 /// Sorts by samples: the keys are cut into as many sections as there are ranks, of about equal length; a rank merges

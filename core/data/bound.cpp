@@ -14,7 +14,7 @@ struct Look {
   double sum;    ///< not finite where one is not finite, or where they overflow together
 };
 
-/// Lanes that do not wait for one another, for vector instructions; halves are joined until one is left.
+/// Independent lanes, for vector instructions; halves are joined until one is left.
 template <bool SeeksLeast>
 Look lookAt(const double* values, std::size_t count) {
   constexpr std::size_t width = 32;
@@ -39,7 +39,7 @@ Look lookAt(const double* values, std::size_t count) {
   return {least[0], sum[0]};
 }
 
-/// Whether the numbers keep a bound for sure: their sum is finite, and so are they.
+/// Whether the numbers certainly keep a bound: their sum is finite, and so are they.
 bool surelyHolds(Bound bound, const double* values, std::size_t count) {
   if (bound == Bound::finite) return std::isfinite(lookAt<false>(values, count).sum);
   const Look look = lookAt<true>(values, count);

@@ -7,8 +7,8 @@
 namespace tushar::data {
 
 /// Memory that variables have released, for later ones. A buffer is not given to a variable that needs much less than
-/// it holds, so that each size finds its own again in the next step. What lies free never exceeds a bound: the pool and
-/// all that it has lent hold together no more than `bound()` bytes. Not for several threads at once.
+/// it holds, so that each size finds its own buffers again in the next step. Free memory is bounded: the pool and all
+/// that it has lent hold at most `bound()` bytes together. Not for several threads at once.
 class BufferPool {
  public:
   /// Makes room for `bytes` in a buffer, from the pool if it has one that fits; the first `keep` bytes stay as they

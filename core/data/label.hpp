@@ -10,14 +10,14 @@
 
 namespace tushar::data {
 
-/// Where a variable lives; on rims, the faces of a patch beyond which another level begins, are fluxes.
+/// Where a variable lives. Fluxes live on rims: the faces of a patch beyond which another level begins.
 enum class Centring { particle, node, cell, rim, reduction };
 
 /// How one number of a variable is stored.
 enum class Number { real, id, integer };
 
 /// Where the values of a node variable count: on all nodes, or only on those that particles of its material touch. Then
-/// patches give one another only those (tasks/near_rows); the others are undefined, or what each patch wrote.
+/// patches exchange only those (tasks/near_rows); the others are undefined, or as each patch wrote them.
 enum class Counts { everywhere, nearParticles };
 
 /// A variable's name and nature, whatever its type: what the graph, the archive and messages to users work with.

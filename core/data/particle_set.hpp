@@ -98,7 +98,7 @@ class ParticleSet {
   }
 
   /// The rows of nodes that particles of cells() touch: the nodes of their cells and `ghost` beyond, along the first
-  /// `dimension` axes. They are found when they are first asked for, which must not be by several threads at once.
+  /// `dimension` axes. They are found on first use, which must not be by several threads at once.
   const TouchedRows& touched(int ghost, int dimension) const;
 
   /// The ranges of consecutive cells along the first axis, from `cell` on.

@@ -37,8 +37,8 @@ class Reason {
   std::array<char, 32> letters_{};
 };
 
-/// The least of all values and, where given, its reason; +infinity of none. Of the reasons of equal values the first
-/// in the alphabet counts, so that the order of the additions does not matter.
+/// The least of all values and, where given, its reason; +infinity of none. If values are equal, the reason that comes
+/// first in the alphabet is kept, so that the order of the additions does not matter.
 struct Minimum {
   double value = std::numeric_limits<double>::infinity();
   Reason reason{};
@@ -65,7 +65,7 @@ struct Maximum {
 };
 
 /// Makes `a` the rounded sum of both and `b` the rest of it, exactly (D. E. Knuth, The Art of Computer Programming 2,
-/// 4.2.2, theorem B). Of registers: lane by lane.
+/// 4.2.2, theorem B). For registers, lane by lane.
 template <class Number>
 void addExactly(Number& a, Number& b) {
   const Number sum = a + b;
@@ -98,7 +98,7 @@ struct Sum {
   std::vector<double> values() const { return {total()}; }
 };
 
-/// Adds to a Sum by four lanes that do not wait for one another.
+/// Adds to a Sum in four independent lanes.
 class WideSum {
  public:
   explicit WideSum(Sum& sum) : sum_(&sum) {}
@@ -162,9 +162,9 @@ struct Norm {
 /// The time step; tasks of scheduleComputeStableTimeStep lower it, each with the name of its limit as the reason.
 inline constexpr ReductionLabel<Minimum> delT{"delT", "s", "time step"};
 
-/// The factor by which the time step may be multiplied without breaking a bound. A task of scheduleTimeAdvance that
-/// computes less than 1 has the step undone and repeated with a smaller one; the reason names the bound. The step ends
-/// with that task: none after it sees what must not be. The old state stays as it is.
+/// The factor by which the time step may be multiplied without breaking a bound. If a task of scheduleTimeAdvance
+/// computes less than 1, the step is undone and repeated with a smaller one; the reason names the bound. The step ends
+/// with that task, so that no later one sees the invalid values. The old state stays as it is.
 inline constexpr ReductionLabel<Minimum> recomputeTimeStep{"recomputeTimeStep", "1",
                                                            "factor on the time step that keeps every bound"};
 

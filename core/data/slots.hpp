@@ -21,9 +21,9 @@ struct Slots {
   std::vector<grid::Box> stored;   ///< of nodes and cells: the box in each slot, ghosts included
   std::size_t end = 0;             ///< behind the last slot
 
-  /// Whether these are the slots of particles of `other`, none with more room, but for patches that have moved behind
-  /// all of them: what stands there can follow without a second memory, and no patch grows over what another has still
-  /// to fetch.
+  /// Whether particles can move here from the slots `other` within the same memory: each slot is one of `other`,
+  /// with no more room, or lies behind all of them. So no patch overwrites values that another has
+  /// still to move.
   bool extends(const Slots& other) const;
 };
 

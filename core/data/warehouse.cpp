@@ -148,7 +148,7 @@ std::size_t Warehouse::valuesWithCopies(const Layout& layout, int number) const 
   return layout.slots->end + (table_->ghost(number) > 0 ? layout.mostCopies : 0);
 }
 
-/// Little memory stays with its variable for the next step: to give it back and to find it again takes longer than to
+/// A small buffer stays with its variable for the next step: to release it and to find it again takes longer than to
 /// use it.
 void Warehouse::free(Generation generation, int number) {
   constexpr std::size_t little = std::size_t{1} << 13;

@@ -127,9 +127,9 @@ class Warehouse {
 
   /// The sets of a material have their particles on all patches: gives them slots, where possible those of `base`.
   void layOut(Generation generation, int material, Generation base);
-  /// Moves a particle variable from the previous places of the sets to those of generation `set`. What patches have in
-  /// slots that stay is kept, wherever that is; patches that have other slots have undefined values. Gives the memory
-  /// that it had before, if it has another one now: give that back.
+  /// Moves a particle variable from the previous places of the sets to those of generation `set`. Values in slots that
+  /// stay are kept; patches with other slots have undefined values. If the variable has other memory now, returns the
+  /// previous one, which the caller gives back.
   Buffer follow(Generation generation, int number, Generation set);
   /// The memory of a variable, and the places of patches and of sets in it.
   std::byte* memory(Generation generation, int number) { return storage(generation, number).memory.data(); }

@@ -70,8 +70,8 @@ class Grid {
   /// The rank that has a patch.
   int ownerOf(int patch) const { return isMine(patch) ? share_.rank : partition_->ownerOf(patch); }
   const Share& share() const { return share_; }
-  /// Nodes that one of this rank's patches owns: all but those on an upper face behind which only patches of this rank
-  /// stand, which have these nodes, too. Each node of a patch is an own node of one of the rank's.
+  /// Nodes that one of this rank's patches owns: all except those on an upper face that only patches of this rank
+  /// adjoin, which own these nodes instead. So each node of the rank's patches has one owner among them.
   const Box& ownNodes(int patch) const { return own_nodes_[patch - first_patch_]; }
   /// The distribution of patches to ranks.
   RankOffsets rankOffsets() const;

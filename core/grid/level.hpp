@@ -167,8 +167,8 @@ class Level {
   const std::vector<ConditionsOfPart>& parts(int kernelAxis, int side) const {
     return domain_.boundaries.parts[2 * axis(kernelAxis) + side];
   }
-  /// The number of the part of a side that holds the middle of a cell's face; restOfSide if none does. Only where the
-  /// cell is across the side counts; beyond the grid that of the nearest cell, or the one it is an image of.
+  /// The number of the part of a side that holds the middle of a cell's face; restOfSide if none does. The distance
+  /// of the cell from the side does not matter. A cell beyond the grid counts as the nearest one, or as its image.
   template <int D>
   int partAt(int kernelAxis, int side, const Index<D>& cell) const {
     return parts(kernelAxis, side).empty() ? restOfSide

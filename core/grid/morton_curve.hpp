@@ -37,7 +37,7 @@ class MortonCurve {
 
  private:
   std::uint64_t cellsOf(const Box& blocks) const;
-  /// Halves the grid down to one block: `isUpper(lower half, axis)` says which half to go on with. That block.
+  /// Halves the grid down to one block, and returns it; `isUpper(lower half, axis)` chooses the half.
   template <class IsUpper>
   Index3 descend(IsUpper&& isUpper) const;
 

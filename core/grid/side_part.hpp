@@ -13,7 +13,7 @@ inline constexpr std::array<std::string_view, 5> sidePartNames{"circle", "annulu
                                                                "rectangulus"};
 
 /// A part of a side of the grid. Its rim belongs to it, the rim of its hole does not, each to within a billionth of its
-/// size: so round-off does not make a jet lopsided. Coordinates across the side do not matter.
+/// size, so that round-off does not make a jet lopsided. Coordinates across the side do not matter.
 class SidePart {
  public:
   /// Points within `radius` of `origin`, m, on a side across `axis`.

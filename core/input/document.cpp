@@ -51,7 +51,7 @@ struct FoundFile {
 };
 
 /// Finds a file that a tag of the scene `scene` names: beside the scene, in a folder above it, where the run is started
-/// or, at last, beside the scene without the folders that the tag names.
+/// or, finally, beside the scene without the folders that the tag names.
 FoundFile findFile(const std::string& path, const std::string& scene) {
   const std::filesystem::path beside = std::filesystem::absolute(scene).parent_path();
   const auto at = [&](const std::filesystem::path& folder) { return (folder / path).lexically_normal(); };

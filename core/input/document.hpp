@@ -25,7 +25,7 @@ class Document {
 
   /// Overrides one value, such as `Grid/Level/Box/resolution=[200,1,1]`. `Tag[2]` picks the second of several siblings,
   /// `Tag[@label='left']` one by its attribute, and a path that ends in `@type` sets an attribute. Missing tags are
-  /// created. What is overridden is from then on at the location `--set PATH=VALUE`.
+  /// created. The location of the new value is `--set PATH=VALUE`.
   void set(const std::string& change, Diagnostics& diagnostics);
 
   /// Makes the tags at `path`, such as `MaterialProperties/MPM`, count as if they were above their siblings, which can

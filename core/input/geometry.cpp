@@ -66,7 +66,7 @@ Schema<Operands> operandsSchema(const std::string& name, const std::string& sent
   const auto checkCount = [exactlyTwo](const Operands& operands, const Element& element, Diagnostics& diagnostics) {
     const std::size_t count = operands.pieces.size();
     if (exactlyTwo ? count == 2 : count >= 1) return;
-    const char* expected = exactlyTwo ? "two shapes (what to take away from, and what to take away)" : "a shape";
+    const char* expected = exactlyTwo ? "two shapes (the second is cut out of the first)" : "a shape";
     diagnostics.error(element, fmt::format("expected {} in <{}>, found {}", expected, element.name(), count));
   };
   Schema<Operands> schema(name, sentence);
@@ -195,8 +195,8 @@ bool collectAbove(const Element& from, const Element& until, std::vector<Element
   return false;
 }
 
-/// In the same section of the scene (MaterialProperties, PhysicalBC, …), as each has labels of its own, before which
-/// those of others do not count; with those in parts of the section that are read first.
+/// Only in the same section of the scene (MaterialProperties, PhysicalBC, …), as each section has its own labels, which
+/// hide those of others. Parts of the section that are read first count as above.
 std::vector<Element> labelledAbove(const Element& shape) {
   Element section = shape, part = shape;
   while (section.parent() && section.parent()->parent()) {

@@ -17,13 +17,13 @@ std::vector<std::string> geometryNames();
 std::vector<TagForm> geometryForms();
 
 /// The shapes among the children of a `<geom_object>` (or the like), united if there are several; other children are
-/// left to the schema of `parent`. Null, after a sentence, if there is none or if one is wrong.
+/// left to the schema of `parent`. Null, with an error in the diagnostics, if there is none or if one is wrong.
 ///
 /// A shape with a `label` (or `name`) can be used again, further down in the same section of the scene (the tag below
 /// the root), by an empty tag of the same kind with that label.
 PiecePtr readGeometry(const Element& parent, Diagnostics& diagnostics);
 
-/// One shape. Null, after a sentence, if it is unknown or wrong.
+/// One shape. Null, with an error in the diagnostics, if it is unknown or wrong.
 PiecePtr readShape(const Element& shape, Diagnostics& diagnostics);
 
 /// The manual of all shapes, indented by that many blanks.

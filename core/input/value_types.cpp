@@ -17,7 +17,7 @@ std::string threeOf(const std::string& pattern) { return fmt::format(R"(\[ ?{0} 
 
 std::string anyNumberOf(const std::string& pattern) { return fmt::format(R"({0}|\[ ?({0}( ?, ?{0})*)? ?\])", pattern); }
 
-/// A number, or a text that contains a character that no number has.
+/// A number, or a text with a character that does not occur in numbers.
 std::string formula() { return fmt::format(R"({}|[^\[\]]*[^\[\]+\-.0-9eE][^\[\]]*)", number); }
 
 template <class T>

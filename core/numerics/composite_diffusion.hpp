@@ -9,9 +9,9 @@
 namespace tushar::numerics {
 
 /// div(k grad phi) by finite volumes over all levels of a grid, for linear systems. Between cells of one width, and at
-/// the sides of the grid, it is Diffusion. A face between levels is cut into those of the finer cells. Through each
-/// goes, outwards, with R = h/2 / k(-h/4) + h / k(h/2), what the way from the finer cell to the middle of the coarser
-/// one resists,
+/// the sides of the grid, it is Diffusion. A face between levels is cut into those of the finer cells. The flux through
+/// each, outwards, with the resistance R = h/2 / k(-h/4) + h / k(h/2) between the middles of the finer and the coarser
+/// cell, is
 ///
 ///     F = 4/5 (phi* - phi_1) / R + 1/5 k_12 (phi_1 - phi_2) / h,
 ///

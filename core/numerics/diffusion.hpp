@@ -53,7 +53,7 @@ struct Balance {
 };
 
 /// div(k grad phi) by finite volumes, centred: of second order. At a side of the grid with a Dirichlet condition phi is
-/// given, with a Neumann condition its outward derivative; through any other goes no flux. Parts of a side may have
+/// given, with a Neumann condition its outward derivative; no flux goes through any other. Parts of a side may have
 /// conditions of their own. Between cells k is the harmonic mean.
 template <int D>
 class Diffusion {

@@ -34,7 +34,7 @@ class LeafCells {
 
 /// A field of a level, beside a face behind which cells are finer, by a polynomial through the cells of the level: of
 /// second degree along each axis of the face, with their mixed term. Cells that are not there are not used: beside
-/// finer ones, and at sides of the grid, it leans on those of the other side.
+/// finer ones, and at sides of the grid, it uses those on the other side.
 template <int D>
 class FaceInterpolation {
  public:

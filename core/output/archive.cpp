@@ -122,7 +122,7 @@ void Archive::flush() {
   if (state_->vtkhdf_pace.isBehind()) state_->writeVtkHdfFiles();
 }
 
-/// The VTKHDF files keep their pace: a run that goes on from here writes them anew.
+/// The VTKHDF files are not brought up to date for it: a run that continues from here writes them again.
 ArchivePoint Archive::sync(int step, double time) {
   if (state_->pace.isBehind()) state_->writeLists();
   keepUp();

@@ -70,9 +70,9 @@ class Archive {
   void keepUp();
   /// Writes them if they are out of date.
   void flush();
-  /// Writes them, and waits until the lines of globals are on the disk. Where the archive stands then: this, kept in a
-  /// checkpoint, makes up for lists lost in a power cut. Outputs may go with it, except for those of the last seconds
-  /// only.
+  /// Writes them, and waits until the lines of globals are on the disk. Returns the extent of the archive then: kept in
+  /// a checkpoint, it replaces lists that a power cut destroys. Outputs may go with it, except for those of the last
+  /// seconds only.
   ArchivePoint sync(int step, double time);
 
   /// The folder of this run, `sod.uda.001`.

@@ -56,7 +56,7 @@ std::uint64_t sumOfWords(const std::byte* words, std::size_t count) {
   return total;
 }
 
-/// What of ranges that follow one another is between two of their bytes, counted from the start of the first.
+/// The parts of consecutive ranges between two of their bytes, counted from the start of the first.
 std::vector<ByteRange> between(std::span<const ByteRange> ranges, std::uint64_t first, std::uint64_t last) {
   std::vector<ByteRange> found;
   for (std::uint64_t before = 0; const ByteRange& range : ranges) {
@@ -86,7 +86,7 @@ std::uint64_t ByteSum::power(std::uint64_t number) {
   return last_power_;
 }
 
-/// Adds part of a word, before which there are bytes of the word that are not meant.
+/// Adds part of a word; the bytes of the word before it do not count.
 void ByteSum::addWord(std::uint64_t number, std::span<const std::byte> bytes, std::uint64_t before) {
   if (bytes.empty()) return;
   std::array<std::byte, wordBytes> word{};

@@ -31,7 +31,7 @@ class ByteSum {
   std::uint64_t step_ = 0, step_power_ = 1;  ///< from the one before it
 };
 
-/// One of several, who share something evenly.
+/// One of several ranks that share work evenly.
 struct ShareOf {
   int one = 0, several = 1;
 };

@@ -73,10 +73,10 @@ std::string hashOf(const std::vector<std::uint64_t>& blocks) {
   return fmt::format("{:016x}/{}", XXH64(blocks.data(), blocks.size() * sizeof(blocks[0]), 0), blocks.size());
 }
 
-/// How a sum is written, apart from the hashes of older versions.
+/// The text of a sum, which differs from that of a hash of older versions.
 std::string textOfSum(std::uint64_t sum) { return fmt::format("s{:016x}", sum); }
 
-/// What of a file is in none of these ranges, which ascend.
+/// The parts of a file that are in none of these ranges, which ascend.
 std::vector<ByteRange> outside(const std::vector<ByteRange>& ranges, std::uint64_t size) {
   std::vector<ByteRange> others;
   std::uint64_t first = 0;
@@ -155,7 +155,7 @@ std::vector<Line> linesOf(const std::string& text) {
   return lines;
 }
 
-/// What is wrong with the manifest, or with the names and sizes of files; `lines` gets its lines, one per file.
+/// The damage of the manifest, or of the names and sizes of files; `lines` gets its lines, one per file.
 std::string damageOfList(const fs::path& folder, std::string& lines) {
   const auto text = textOf(folder / manifestName);
   if (!text) return fmt::format("{} is missing", manifestName);
@@ -173,8 +173,8 @@ std::string damageOfList(const fs::path& folder, std::string& lines) {
   return "";
 }
 
-/// The hash of a file as a manifest of an older version has it; empty if it cannot be read. That of a large file of the
-/// oldest is not by blocks, and made by rank 0 alone.
+/// The hash of a file as a manifest of an older version has it; empty if it cannot be read. The oldest manifests hash a
+/// large file as a whole, not by blocks; rank 0 alone does that.
 std::string hashNow(const fs::path& file, const Line& line, const mpi::Communicator& ranks) {
   const bool isByBlocks = line.hash.find('/') != std::string::npos;
   bool failed = false;
@@ -196,7 +196,7 @@ std::string hashNow(const fs::path& file, const Line& line, const mpi::Communica
 std::string unreadable(const std::string& name) { return fmt::format("{} cannot be read", name); }
 std::string changed(const std::string& name) { return fmt::format("the content of {} has changed", name); }
 
-/// What is wrong with bytes of a file whose sum is known: ranks read them together.
+/// The damage of bytes of a file whose sum is known; ranks read them together.
 std::string damageOfSum(const fs::path& file, const mpi::Communicator& ranks, std::uint64_t expected,
                         const std::function<std::uint64_t()>& mine) {
   std::uint64_t sum = 0;
@@ -210,7 +210,7 @@ std::string damageOfSum(const fs::path& file, const mpi::Communicator& ranks, st
   return sumsOfRanks(ranks, {&sum, 1}).front() == expected ? "" : changed(file.filename().string());
 }
 
-/// What is wrong with a file, but for parts of it.
+/// The damage of a file, except for parts of it.
 std::string damageOutside(const fs::path& file, const Line& line, const std::vector<Line>& lines,
                           const mpi::Communicator& ranks) {
   if (!line.isSum()) {

@@ -26,7 +26,7 @@ struct FilePart {
 void writeManifest(const std::filesystem::path& folder, const Writers& writers = {},
                    const std::vector<FilePart>& parts = {});
 
-/// What is wrong with a folder that has a manifest.
+/// The damage of a folder that has a manifest.
 struct Inspection {
   std::string damage;           ///< which file is missing, shorter, longer or has other bytes; empty if none
   std::vector<FilePart> parts;  ///< which have not been read
@@ -39,7 +39,7 @@ Inspection inspect(const std::filesystem::path& folder, const mpi::Communicator&
 /// The damage in a folder, parts included. Collective; all get the same.
 std::string damageOf(const std::filesystem::path& folder, const mpi::Communicator& ranks = mpi::Communicator::alone());
 
-/// What is wrong with a part, as in Inspection.
+/// The damage of a part, as in Inspection.
 class DamageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -50,8 +50,8 @@ class CheckedParts {
  public:
   /// `ranks` must outlive it.
   CheckedParts(std::filesystem::path folder, std::vector<FilePart> parts, const mpi::Communicator& ranks);
-  /// Calls `read`, which adds what this rank reads of the part of a file that begins at a byte, and all ranks together
-  /// add every byte once; with null where there is no such part, or it has been checked.
+  /// Calls `read` with a sum, to which it adds the bytes that this rank reads of the part of a file that begins at a
+  /// byte; all ranks together add every byte once. Passes null if there is no such part, or it has been checked.
   void read(const std::string& file, std::uint64_t first, const std::function<void(ByteSum*)>& read);
   /// Reads those that have not been.
   void checkOthers();

@@ -22,8 +22,8 @@ struct RunRecord {
 /// are here, not in outputs, so that equal results have equal bytes. A run without an end was killed.
 class RunLog {
  public:
-  /// Of the archive: it rises where an older sus would take what a newer one has written for damaged. 2: the manifests
-  /// of checkpoints have sums of parts of files.
+  /// The format of the archive: it rises when an older sus would take what a newer one writes for damaged. 2: the
+  /// manifests of checkpoints have sums of parts of files.
   static constexpr int format = 2;
 
   /// Why a file with this text must not be extended: a newer version has written it. Empty: it may be.

@@ -106,8 +106,7 @@ class FileInFlight::Chunks {
       of[k] = chunks.entries(first + k, dataset.array.components);
       round.corners.push_back(chunks.corner(first + k));
     }
-    const std::size_t mine =
-        writers_.mine() < 0 ? 0 : of[static_cast<std::size_t>(writers_.mine())].count * entryBytes(dataset.array);
+    const std::size_t mine = writers_.mine() < 0 ? 0 : of[writers_.mine()].count * entryBytes(dataset.array);
     std::vector<std::byte> buffer;
     if (mine > 0) buffer = behind_.buffer(mine);
     const std::span<const std::byte> entries = pieces.bring(dataset.array, of, buffer);

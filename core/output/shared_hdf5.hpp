@@ -28,11 +28,11 @@ struct Storage {
   int compression = 0;         ///< gzip level, 0 (none) to 9
 };
 
-/// An HDF5 file that ranks write together: the first makes it, has `header` write what is its alone, and writes the
-/// datasets whose values are in memory; all bring the values of those that have a source. How many ranks and writers
-/// there are changes no byte, nor whether steps go on meanwhile: when one is made, the values have been taken over, and
-/// `behind` brings them to the file. Collective: all have the same datasets. Both functions throw FileError on a rank
-/// that cannot write, and FailedElsewhere on the others; what is there of the file then is the caller's to remove.
+/// An HDF5 file that ranks write together: rank 0 makes it, calls `header` for what it alone has, and writes the
+/// datasets whose values are in memory; all ranks contribute the values of those that have a source. No byte depends on
+/// the number of ranks and writers, or on steps taken meanwhile: the constructor takes the values over, and `behind`
+/// brings them to the file. Collective: all have the same datasets. Both functions throw FileError on a rank that
+/// cannot write, and FailedElsewhere on the others; the caller then removes the incomplete file.
 class FileInFlight {
  public:
   /// `writers` and `behind` must outlive it.

@@ -8,8 +8,8 @@
 
 namespace tushar::report {
 
-/// The norms of an error, from the numbers of its reduction. Left out are those of nothing: where no place was
-/// measured, and errors relative to a field that is 0 everywhere.
+/// The norms of an error, from the numbers of its reduction. Norms without a meaning are left out: those of no places,
+/// and those relative to a field that is 0 everywhere.
 ErrorNorms normsOf(const MeasuredError& error, const std::vector<double>& values);
 
 /// A sentence on the first norm that is not finite: such a run has no valid errors. None if all are.

@@ -156,7 +156,7 @@ std::string memoryLine(const Report& report) {
 /// 1.9.
 double costOnLevels(int dimension) { return std::array{10.0, 2.5, 1.9}.at(std::clamp(dimension, 1, 3) - 1); }
 
-/// What a uniform grid of the finest cells would have taken, and whether refinement has paid.
+/// The cost of a uniform grid of the finest cells, and whether refinement has paid.
 std::string uniformLine(const Report& report) {
   if (report.updates <= 0 || report.uniformUpdates <= 0) return "";
   const double saved = report.uniformUpdates / report.updates;

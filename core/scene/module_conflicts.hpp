@@ -13,7 +13,7 @@
 
 namespace tushar::scene {
 
-/// What the modules above in the scene measure and compute.
+/// The quantities that the modules above in the scene measure and compute.
 struct TakenByModules {
   std::set<std::string> measured, computed;
 };
@@ -22,7 +22,7 @@ struct TakenByModules {
 /// place for the errors of a field, and for an energy budget; a variable has one task that computes it.
 void refuseTwice(const simulation::Analysis& analysis, const input::Element& module, TakenByModules& taken);
 
-/// Names files of an archive that two modules would write, or a module and the archive itself for a saved global.
+/// Reports files of an archive that two modules would write, or a module and the archive itself for a saved global.
 void refuseSharedFiles(const std::vector<std::unique_ptr<simulation::Analysis>>& analyses,
                        const std::vector<simulation::SaveRequest>& saves, input::Diagnostics& diagnostics);
 

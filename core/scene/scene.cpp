@@ -188,8 +188,8 @@ Element whereOfLevels(const Element& grid, const AmrSettings& amr) {
   return levels.size() > 1 ? levels[1] : *amr.tag;
 }
 
-/// Refuses several levels for a component that runs on one. Which others run on several their modules know, and those
-/// may not be built yet: the sentence does without.
+/// Refuses several levels for a component that runs on one. The message does not list components that run on several,
+/// as their modules may not be built yet.
 void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrSettings& amr,
                       Diagnostics& diagnostics) {
   if (!kind.takesLevels)
@@ -243,8 +243,8 @@ void renameLabels(const simulation::OtherNames& names, std::vector<SaveRequest>&
   saves = std::move(kept);
 }
 
-/// Reports what is wrong with the labels that are saved and sampled. Takes out, with a note, what Uintah has and no
-/// task here.
+/// Reports what is wrong with the labels that are saved and sampled. Removes, with a note, labels that Uintah has and
+/// no task here computes.
 void checkLabels(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
                  std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   renameLabels(otherNames(component, analyses), saves, diagnostics);
@@ -268,7 +268,7 @@ void checkLabels(const Component& component, const std::vector<std::unique_ptr<A
 }
 
 /// Checks the labels even if other parts of the scene are wrong: those of a component and of its modules do not depend
-/// on the grid. Whether it could: some component or module cannot be had on so small a grid as this takes.
+/// on the grid. Returns false if it cannot: some components and modules cannot be made on the small grid that it uses.
 bool checkLabelsWithoutGrid(const MakeComponent& make, const std::vector<ReadModule>& modules,
                             std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   const auto [level, component] = tryOut(make);

@@ -182,8 +182,9 @@ const Schema<RegridderSection>& regridderSchema() {
                   "at least 2",
                   input::between(1, 16))
         .optional("cell_refinement_ratio", &RegridderSection::ratios, "1",
-                  "of each level, the last one of further ones; 2, 4, 8 … along all axes that the grid uses. "
-                  "4 makes two levels of each",
+                  "from each level to the next; the last one holds for further levels, too. 2, 4, 8 … along all axes "
+                  "that the "
+                  "grid uses; 4 counts as two levels",
                   input::atLeast(1))
         .optional("min_patch_size", &RegridderSection::blocks, "1",
                   "cells of a block, which is refined as a whole: an even number from 4 on that divides the "
@@ -228,7 +229,7 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
                 [](std::ostream& out, int indent) { thresholdsSchema().describeContents(out, indent); })
         .forms({std::move(form)});
   }
-  input::noteTag(section, "doMultiTaskgraphing", "one graph of tasks has all levels");
+  input::noteTag(section, "doMultiTaskgraphing", "all levels are in one graph of tasks");
   input::noteTag(section, "FineCoarseInterfaces", "values between levels are of second order");
   return section;
 }
@@ -287,7 +288,7 @@ void checkBlocks(const Element& amr, const std::optional<std::vector<Index3>>& b
             input::toText(*blocks)));
 }
 
-/// Checks which of the materials that have its variable a criterion is for; from its number follows the name.
+/// Checks which of the materials that have its variable a criterion is for; its number determines the name.
 void checkMaterial(Criterion& criterion, const std::vector<std::string>& materials, Diagnostics& diagnostics) {
   std::string& given = criterion.material;
   if (given.empty()) return;

@@ -8,9 +8,7 @@
 
 namespace tushar::scene {
 
-using input::Diagnostics;
-using input::Element;
-using input::Schema;
+using input::Diagnostics, input::Element, input::Schema;
 
 namespace {
 

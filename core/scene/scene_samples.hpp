@@ -18,7 +18,7 @@ simulation::OtherNames otherNames(const simulation::Component& component,
 std::string nameHere(const simulation::OtherNames& names, const std::string& name);
 
 /// Replaces the names and materials of sampled variables by those used here, and removes, with a note, variables of
-/// Uintah that no task computes here. Names materials that there are not, and variables that are neither of cells nor
+/// Uintah that no task computes here. Reports materials that do not exist, and variables that are neither of cells nor
 /// of nodes.
 void settleSamples(const simulation::Component& component,
                    const std::vector<std::unique_ptr<simulation::Analysis>>& analyses, input::Diagnostics& diagnostics);

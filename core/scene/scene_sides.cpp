@@ -31,14 +31,14 @@ bool isOfFlow(const std::string& label) {
   return std::find(labelsOfFlow.begin(), labelsOfFlow.end(), label) != labelsOfFlow.end();
 }
 
-/// What is wrong with an attribute.
+/// The error in an attribute.
 void errorOf(const std::string& attribute, const Element& element, const std::string& problem,
              Diagnostics& diagnostics) {
   diagnostics.error(element.whereOf(attribute), element.path(), attribute + ": " + problem);
 }
 
 Schema<ConditionSection> conditionTag() {
-  return Schema<ConditionSection>("BCType", "What a variable does at a face.")
+  return Schema<ConditionSection>("BCType", "The condition for a variable at a face.")
       .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material that it holds for, or all");
 }
 
@@ -103,7 +103,7 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
   for (const std::string_view name : sideNames) sides.emplace_back(name, static_cast<int>(sides.size()));
   const auto point = [](const char* what) { return std::string(what) + ", as 0 0.5 0.5"; };
   return Schema<FaceSection>("Face", "A side of the grid, or a part of one.")
-      .optionalChoiceAttribute("side", &FaceSection::side, sides, "all of this side but its parts")
+      .optionalChoiceAttribute("side", &FaceSection::side, sides, "all of this side except its parts")
       .optionalChoiceAttribute("circle", &FaceSection::circle, sides, "the part of this side in a circle")
       .optionalChoiceAttribute("annulus", &FaceSection::annulus, sides, "the part between two circles")
       .optionalChoiceAttribute("ellipse", &FaceSection::ellipse, sides, "the part in an ellipse")
@@ -129,7 +129,7 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
       .optionalAttribute("outer_lower", &FaceSection::outerLower, "m", point("a corner of a rectangulus"))
       .optionalAttribute("outer_upper", &FaceSection::outerUpper, "m", point("the opposite one"))
       .ignoredAttribute("name", "for readers")
-      .list("BCType", &FaceSection::conditions, condition, "what a variable does there");
+      .list("BCType", &FaceSection::conditions, condition, "the condition for a variable there");
 }
 
 namespace {

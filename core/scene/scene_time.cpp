@@ -122,7 +122,7 @@ const Schema<CheckpointSettings>& checkpointSchema() {
   using Settings = CheckpointSettings;
   static const Schema<Settings> schema =
       Schema<Settings>("checkpoint",
-                       "The whole state, from which sus --restart goes on: at the start, at one of these "
+                       "The whole state, from which sus --restart continues: at the start, at one of these "
                        "intervals, and at the end.")
           .attributeValue("cycle", &Settings::cycle, 2, "1", "how many are kept", input::atLeast(1))
           .optionalAttribute("interval", &Settings::interval, "s", "simulated time between them", input::positive())

@@ -63,7 +63,7 @@ class Analysis {
   /// Processes the variables of samples(): in each of the layers() and windows(), as a summary(), or everywhere.
   /// Files of its own go to the folder of the archive.
   virtual void sample(const std::vector<output::Snapshot>&, const std::filesystem::path&) {}
-  /// The files that sample() writes. No two modules may write one; asked for once the names of variables() are settled.
+  /// The files that sample() writes. Each belongs to one module. Called once the names of variables() are settled.
   virtual std::vector<OwnFile> files() const { return {}; }
   /// Completes its files, so that a run that goes on from here finds in them what was sampled so far. Called on the
   /// first rank before each checkpoint is written, and at the end of the run. May throw FileError.

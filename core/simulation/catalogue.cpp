@@ -42,7 +42,7 @@ void Catalogue::addModule(const Module& module, std::function<Catalogue()> load)
 std::vector<std::string> Catalogue::componentNames() const { return keysOf(components_); }
 std::vector<std::string> Catalogue::analysisNames() const { return keysOf(analyses_); }
 
-/// Puts what a module brings in the places that are kept for it.
+/// Fills the entries reserved for a module with its contents.
 void Catalogue::take(const LoadModule& load) const {
   const Catalogue brought = load();
   for (const ComponentKind* kind : brought.components()) components_.insert_or_assign(kind->name, *kind);

@@ -32,7 +32,7 @@ struct ConditionWords {
   std::vector<std::string> vars = {};  ///< further `var`s of a BCType
   /// Tags of BoundaryConditions with what such conditions need.
   std::vector<SectionForm> sections = {};
-  /// What a BCType with one of these words means; `sides` is its BoundaryConditions. Problems go to the diagnostics.
+  /// The meaning of a BCType with such a word; `sides` is its BoundaryConditions. Problems go to the diagnostics.
   std::function<std::vector<grid::BoundaryCondition>(const input::Element& sides, const input::Element& condition,
                                                      input::Diagnostics&)>
       read = {};

@@ -53,7 +53,7 @@ void Checkpoints::writeLast() {
   if (outputs_.folder().empty() || !(control_ || isCutShort)) return;
   write();
   if (isCutShort)
-    run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} sus --restart {} goes on from here", run_.time.step(),
+    run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} sus --restart {} continues from here", run_.time.step(),
                                    run_.time.time(), outputs_.folder()));
 }
 

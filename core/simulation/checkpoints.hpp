@@ -17,7 +17,7 @@ class Checkpoints {
  public:
   Checkpoints(RunState& run, Outputs& outputs);
 
-  /// What the first rank says of damaged checkpoints goes there.
+  /// Sets the function that gets the messages of rank 0 about damaged checkpoints.
   void setWarning(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
   /// Reads the checkpoint from which the run continues; instead of a damaged one, the one before it. Throws InputError
   /// where there is none, or for one that does not fit the scene.

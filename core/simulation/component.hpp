@@ -23,18 +23,18 @@ class Component {
   virtual void scheduleComputeStableTimeStep(tasks::TaskList&) const {}
   /// One step, from the old state to a new one.
   virtual void scheduleTimeAdvance(tasks::TaskList& tasks) const = 0;
-  /// What a user can try when a value breaks its bound: continues `try `.
+  /// Advice for a user if a value breaks its bound: continues `try `.
   virtual std::string advice() const { return "a smaller time step (timestep_multiplier in <Time>)"; }
-  /// Whether an impossible value has the step repeated with half the time step even if the scene does not request it.
+  /// Whether a step with an impossible value is repeated with half the time step even if the scene does not request it.
   virtual bool mayRepeatStep() const { return false; }
   /// Variables that Uintah's component of this kind computes, whether or not this one does.
   virtual std::vector<std::string> foreignLabels() const { return {}; }
   /// Variables with another name in Uintah's component of this kind.
   virtual OtherNames otherNames() const { return {}; }
-  /// What of the scene has no effect on its grid.
+  /// Notes on parts of the scene that have no effect on its grid.
   virtual std::vector<InputProblem> notes() const { return {}; }
-  /// The gases of the scene, in the order of its material numbers behind all others: materials whose variables belong
-  /// to no material here.
+  /// The names of the gases, whose variables belong to no material here. In the scene they are the last materials, in
+  /// this order.
   virtual std::vector<std::string> gasNames() const { return {}; }
   /// Why it cannot run on a grid of several levels, if its kind can; empty if it can: continues `needs a grid of one
   /// level: `.

@@ -58,7 +58,7 @@ const ModuleCard& open(const fs::path& file) {
   return *card;
 }
 
-/// What a module of this program has; loads it where it has not been.
+/// The contents of a module of this program, which is loaded if necessary.
 const Catalogue& loadOwn(const std::string& name) {
   std::map<std::string, Catalogue>& loaded = ownModules().loaded;
   if (const auto found = loaded.find(name); found != loaded.end()) return found->second;

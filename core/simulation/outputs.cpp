@@ -75,7 +75,7 @@ void Outputs::reopenArchive(const output::ArchiveOptions& how) {
   const output::ArchivePoint from = archivePointOf(run_);
   output::CheckpointStore(restart.archive, 1).goBackTo(restart.step);
   archive_ = std::make_unique<output::Archive>(restart.archive, problem.archive.filebase, from, problem.inputXml, how);
-  run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} goes on in {}", run_.time.step(), run_.time.time(),
+  run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} continues in {}", run_.time.step(), run_.time.time(),
                                  archive_->folder().string()));
 }
 
@@ -168,8 +168,8 @@ void Outputs::save() {
   seconds_ += secondsSince(started);
 }
 
-/// As much as a rank has of an output on average, or what is little beside a state. Nothing of a small output: a thread
-/// would take as long to wake up.
+/// The share of an output that a rank has on average, or an amount that is little compared with a state. Nothing for a
+/// small output: waking a thread would take as long as writing it.
 std::size_t Outputs::mostBehind(std::uint64_t bytes) const {
   constexpr std::uint64_t small = std::uint64_t{1} << 20, little = std::uint64_t{16} << 20;
   if (bytes <= small) return 0;

@@ -20,7 +20,7 @@ class Outputs {
  public:
   /// A new archive will be made in this folder; empty: the current one.
   Outputs(RunState& run, std::filesystem::path parent);
-  /// Of a run that ends by an exception: finishes the output on its way if rank 0 can do so alone, or if all ranks come
+  /// If a run ends by an exception, finishes the output on its way if rank 0 can do so alone, or if all ranks come
   /// here.
   ~Outputs();
   Outputs(const Outputs&) = delete;
@@ -39,8 +39,8 @@ class Outputs {
   void saveIfDue();
   /// Begins to write an output, if the scene has any and this step has none yet: steps may go on.
   void save();
-  /// Throws what has failed on rank 0 alone since the ranks last agreed by the clock of the run; FailedElsewhere on the
-  /// others.
+  /// If something has failed on rank 0 alone since the ranks last agreed by the clock of the run, throws that there,
+  /// and FailedElsewhere on the others.
   void throwIfFailed();
   /// Waits for the output on its way.
   void finishOutput();
@@ -73,7 +73,7 @@ class Outputs {
   /// Gives the output on its way its name when it is written, and lists it; `ranks` as for SnapshotInFlight::finish().
   void finish(const mpi::Communicator& ranks);
   void finishIfWritten();
-  /// Does something with the archive on rank 0. If it fails, throwIfFailed() tells: so all ranks end together.
+  /// Does something with the archive on rank 0. throwIfFailed() throws its failure later, on all ranks.
   void onArchive(const std::function<void(output::Archive&)>& action);
   std::size_t mostBehind(std::uint64_t bytes) const;
   void makeArchive(const output::ArchiveOptions& how);

@@ -39,10 +39,10 @@ Names united(Names a, const Names& b) {
 /// The totals of what is conserved, of those that are diagnosed.
 std::vector<ConservedTotal> totalsAmong(const Names& diagnosed) {
   std::vector<ConservedTotal> totals;
-  for (const auto& [quantity, label] : {std::pair{Conserved::mass, "TotalMass"},
-                                        {Conserved::momentum, "TotalMomentum"},
-                                        {Conserved::energy, "TotalEnergy"}})
-    if (diagnosed.contains(label)) totals.push_back({quantity, label});
+  for (const auto& [quantity, label] : {std::pair{Conserved::mass, total::mass.name},
+                                        {Conserved::momentum, total::momentum.name},
+                                        {Conserved::energy, total::energy.name}})
+    if (diagnosed.contains(label)) totals.push_back({quantity, std::string(label)});
   return totals;
 }
 
@@ -65,7 +65,7 @@ std::vector<std::string> namesOfState(Names needed, const Names& decided, const 
   return {needed.begin(), needed.end()};
 }
 
-/// What analysis modules sample.
+/// The variables that analysis modules sample.
 std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) {
   std::vector<SaveRequest> samples;
   for (const auto& analysis : analyses)

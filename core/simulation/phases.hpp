@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <iosfwd>
 #include <memory>
 #include <string>
@@ -8,22 +7,11 @@
 
 #include "core/simulation/analysis.hpp"
 #include "core/simulation/component.hpp"
+#include "core/simulation/conserved.hpp"
 #include "core/simulation/settings.hpp"
 #include "core/tasks/scheduler.hpp"
 
 namespace tushar::simulation {
-
-/// What a method may conserve.
-enum class Conserved { mass, momentum, energy };
-
-/// The reduction that has the total of what is conserved.
-struct ConservedTotal {
-  Conserved quantity;
-  std::string label;
-
-  /// As reports and checkpoints have it.
-  std::string name() const { return std::array{"mass", "momentum", "energy"}[static_cast<std::size_t>(quantity)]; }
-};
 
 /// The task lists of a run, compiled against each other: an earlier one must provide what a later one reads.
 ///

@@ -31,8 +31,8 @@ struct Restart {
 
 /// Notes a damage of the checkpoint.
 void noteDamage(Restart& restart, const std::string& damage);
-/// Makes the next of the others that is whole the one to take, as far as it is read now; notes the damage of those that
-/// are not. False where none is.
+/// Selects the next of the others that is intact, as far as it is read now, and notes the damage of those that are not.
+/// False if none is.
 bool takeNext(Restart& restart, const mpi::Communicator& ranks);
 /// Throws InputError on the first rank, with all that was noted, and FailedElsewhere on the others.
 [[noreturn]] void refuseDamaged(const Restart& restart, const mpi::Communicator& ranks);

@@ -36,7 +36,7 @@ class RunClock {
   bool isInterrupted() const { return interrupted_; }
   /// Whether a file is to end the run.
   bool isStopped() const { return stopped_; }
-  /// Something has failed on this rank, and the others are to know.
+  /// Notes a failure on this rank, of which the others are informed.
   void noteFailure() { failed_ = true; }
   /// Whether something had failed on a rank when they last agreed.
   bool hasFailed() const { return failed_; }

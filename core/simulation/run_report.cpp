@@ -44,7 +44,7 @@ Report RunReport::make(double fileMemory) {
   return report;
 }
 
-/// What the last step leaves free is known once it has gone back to the system.
+/// The memory that the last step left free is what returning it to the system saves.
 void RunReport::addMemory(Report& report, double fileMemory) {
   const ResidentMemory memory = residentMemory();
   run_.warehouse.releaseFreeMemory();

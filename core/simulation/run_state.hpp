@@ -42,7 +42,7 @@ struct RunState {
 
   Problem problem;
   const mpi::Communicator& ranks;
-  mpi::Communicator files;                ///< the same ranks: what they say of files is apart from what tasks say
+  mpi::Communicator files;                ///< the same ranks: messages about files, apart from those of tasks
   output::Writers writers;                ///< among these
   std::optional<std::size_t> mostBehind;  ///< bytes of an output that a writer may keep; else what suits it
   data::VariableTable table;

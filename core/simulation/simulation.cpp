@@ -80,7 +80,7 @@ void Simulation::openLog() {
   run_.ranks.onFirst([&] { log_.emplace(outputs_.folder(), record_); });
 }
 
-/// `mpirun` leaves an interrupted run two seconds: the checkpoint, by which it goes on, comes first.
+/// `mpirun` gives an interrupted run two seconds, so the checkpoint, which a restart needs, comes first.
 void Simulation::saveEnd() {
   const bool isCut = run_.clock.isInterrupted() || run_.clock.isStopped();
   if (failure_) saveLastGood();
@@ -96,7 +96,7 @@ void Simulation::saveNow() {
     return run_.progress.line("nothing is saved: the scene asks for no outputs, globals or checkpoints");
   outputs_.save();
   checkpoints_.write();
-  run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} saved on request; sus --restart {} goes on from here",
+  run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} saved on request; sus --restart {} continues from here",
                                  run_.time.step(), run_.time.time(), outputs_.folder()));
 }
 

@@ -9,8 +9,8 @@
 namespace tushar::simulation {
 
 /// The state of a run as it is now, from all ranks: the particles of every material with p.x, and the variables that
-/// are asked for. Each rank has its own values; they are not copied, and good while the state is as it is. All ranks
-/// call it.
+/// are asked for. Each rank has its own values; they are not copied, and valid until the state changes. All ranks call
+/// it.
 output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests);
 
 /// The part of it that an analysis module samples, in the memory of rank 0; particles of the materials of which it

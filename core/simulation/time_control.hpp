@@ -22,7 +22,7 @@ struct TimeSettings {
   double maxWallTime = std::numeric_limits<double>::max();  ///< s
   bool endAtMaxTimeExactly = false;
   bool clampTimeToOutput = false;
-  bool recomputeTimeStep = false;  ///< whether a value that breaks its bound makes the step be repeated
+  bool recomputeTimeStep = false;  ///< whether the step is repeated if a value breaks its bound
 };
 
 /// Where a run is in time, and how far the next step may go.
@@ -37,7 +37,7 @@ class TimeControl {
   bool done() const;
 
   /// The next time step [s] from what the physics allow: timestep_multiplier times `stable`, within max_delt_increase,
-  /// delt_min and delt_max; at the start no longer than delt_init, be that below delt_min; and (where the scene
+  /// delt_min and delt_max; at the start no longer than delt_init, even if that is below delt_min; and (where the scene
   /// requests it) up to maxTime or the next output exactly. A rest up to maxTime that rounding alone would leave is
   /// part of the step. Throws NumericalError for a step that is not positive or too small to move time on.
   double next(const data::Minimum& stable, double nextOutput);
@@ -57,8 +57,8 @@ class TimeControl {
   int repeats() const { return repeats_; }
   /// Steps that were undone and repeated so far.
   int retries() const { return retries_; }
-  /// How many steps each limit has ruled: the reason of the stable step, a tag of the Time section, or the bound that
-  /// made the step be repeated.
+  /// How many steps each limit has determined: the reason of the stable step, a tag of the Time section, or the bound
+  /// that made the step be repeated.
   const std::map<data::Reason, int>& limits() const { return limits_; }
 
  private:

@@ -85,12 +85,12 @@ struct NewtonSettings {
 class Solver {
  public:
   virtual ~Solver() = default;
-  /// From the guess in `x`, the owned unknowns, by any Krylov method. Throws std::runtime_error for options that PETSc
-  /// refuses.
+  /// Solves a linear system from the guess in `x`, the owned unknowns, by any Krylov method. Throws std::runtime_error
+  /// for options that PETSc refuses.
   virtual Outcome solve(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
                         std::span<double> x) const = 0;
-  /// From the guess in `u`, owned unknowns and ghosts, by Newton's method with line search. Throws what the problem
-  /// throws.
+  /// Solves a nonlinear system from the guess in `u`, owned unknowns and ghosts, by Newton's method with line search.
+  /// Throws what the problem throws.
   virtual Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
                         std::span<double> u) const = 0;
   /// See the free functions of these names.

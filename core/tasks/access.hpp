@@ -94,8 +94,8 @@ template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::computes> computes(const data::FieldLabel<C, T>& label) {
   return {&label};
 }
-/// Writes every node that is the patch's own (Grid::ownNodes): no node is written by two patches of a rank. What
-/// stands on the other nodes of the patch comes from the patches that own them, after the task.
+/// Writes every node that is the patch's own (Grid::ownNodes): no node is written by two patches of a rank. The
+/// framework fills in the other nodes of the patch after the task, from the patches that own them.
 template <class T>
 FieldAccess<data::NodeLabel<T>, AccessKind::computes> computesOwn(const data::NodeLabel<T>& label) {
   return {&label, 0, true};
@@ -126,7 +126,7 @@ struct OptionalAccess {
   }
   auto bind(const TaskContext& context) const { return on ? std::optional(access.bind(context)) : std::nullopt; }
 };
-/// An access that is declared only where `on`: the body gets a std::optional view.
+/// An access that is declared only if `on`: the body gets a std::optional view.
 template <class Label, AccessKind Kind>
 OptionalAccess<FieldAccess<Label, Kind>> when(bool on, FieldAccess<Label, Kind> access) {
   using View = decltype(access.bind(std::declval<const TaskContext&>()));

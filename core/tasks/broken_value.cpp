@@ -191,7 +191,7 @@ class Search {
                       place_ * static_cast<std::size_t>(grid_.dimension());
     return fmt::format(" at x = {} m", textOf(x, grid_.dimension()));
   }
-  /// The values in a cell but that of the particle itself, at most four.
+  /// The values in a cell except that of the particle itself, at most four.
   std::string valuesIn(const Index3& cell) const {
     const int patch = grid_.patchOf(cell, level().number()).id();
     if (!grid_.isMine(patch)) return "";

@@ -87,7 +87,7 @@ class TaskContext {
   }
 
  private:
-  /// What a view of particles is made of, and one of nodes or cells: the same for values of any type.
+  /// The parts of a view of particles, and of nodes or cells, which do not depend on the type of the values.
   struct ParticlePlace {
     std::byte* values;
     const data::ParticleSet* set;

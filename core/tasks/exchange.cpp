@@ -56,7 +56,7 @@ void Exchange::begin(bool hasStopped) {
   fillFromHere();
 }
 
-/// Before the exchange settles ghosts: the nodes were computed without those that it settles.
+/// Runs before the exchange settles ghosts, as the nodes were computed without these ghosts.
 void Exchange::settleNear() {
   for (const BoundGhostFill& fill : fills_)
     if (isNear(fill)) near_.settle(fill.set, warehouse_->table()[fill.variable].material);
@@ -116,7 +116,7 @@ void Exchange::fillFromHere() {
   });
 }
 
-/// All patches of all ranks have settled a set, or none: what a stopped graph has settled is forgotten.
+/// All patches of all ranks have settled a set, or none: sets that a stopped graph has settled are discarded.
 void Exchange::noteUnresolved() {
   resolves_.assign(fills_.size(), false);
   std::set<std::pair<Generation, int>> settled;
@@ -197,7 +197,8 @@ void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, con
   });
 }
 
-/// Ghosts in coarser cells, once these are complete. With messages, all that the patch has of other ranks.
+/// Ghosts in coarser cells, once these are complete. If there are messages, all ghosts that the patch gets from other
+/// ranks.
 void Exchange::fillFromCoarser(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages) {
   const GhostPlan& plan = planOf(fill);
   const data::Label& label = *warehouse_->table()[fill.variable].label;
@@ -254,11 +255,11 @@ void Exchange::linkLocalGhosts(const BoundGhostFill& fill) {
     hasSome.push_back(warehouse_->particles(fill.set, material, patch.id()).owned() > 0);
   const GhostPlan& plan = planOf(fill);
   const auto link = [&](int place) {
-    const Patch& patch = patches[static_cast<std::size_t>(place)];
+    const Patch& patch = patches[place];
     const trace::Span span(trace::Kind::message, "link ghosts", patch.id());
     ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
-    for (const GhostCopy& copy : plan.into[static_cast<std::size_t>(place)])
-      if (isHere(copy) && hasSome[static_cast<std::size_t>(copy.from - first)] && copy.shift == Index3{})
+    for (const GhostCopy& copy : plan.into[place])
+      if (isHere(copy) && hasSome[copy.from - first] && copy.shift == Index3{})
         set.addGhosts(copy.box, warehouse_->particles(fill.set, material, copy.from),
                       warehouse_->distance(fill.set, material, patch.id(), copy.from));
     set.markGhosts();

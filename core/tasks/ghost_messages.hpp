@@ -44,7 +44,7 @@ class Packer {
       : warehouse_(warehouse), fill_(fill), name_(warehouse.table()[fill.variable]), message_(message) {}
 
   void addGrid(const GhostCopy& copy);
-  /// Of nodes only rows near particles: how many, and the place, length and values of each.
+  /// For nodes, only rows near particles: how many, and the place, length and values of each.
   void addNear(const GhostCopy& copy, const data::TouchedRows& rows);
   /// How many particles each cell has that has some: how many cells, and the place and number of each.
   void addCounts(const GhostCopy& copy);
@@ -71,7 +71,7 @@ class ReceivedMessages {
   std::vector<std::pair<Index3, data::ParticleRange>> takeCounts(const GhostCopy& copy);
   /// Whether a rank says that it has stopped.
   bool readStopped(int from) { return *next(from, 1) != std::byte{0}; }
-  /// What addGrid or addNear has packed: goes to where values of `bytes` each stand.
+  /// Copies the values that addGrid or addNear has packed, of `bytes` bytes each, to their places.
   void takeGrid(const GhostCopy& copy, std::size_t bytes, const CellValues& to);
   void takeNear(const GhostCopy& copy, std::size_t bytes, const CellValues& to);
 

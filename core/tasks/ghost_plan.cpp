@@ -35,8 +35,8 @@ Box nodesGiven(const Patch& patch, const Index3& shift) {
   return nodes;
 }
 
-/// How far beyond a patch, in its cells, stands what it gives to or takes from others for ghosts of a width. Where
-/// there are levels: twice the width for a coarser neighbour, and two coarse cells for slopes.
+/// How far from a patch, in its cells, the values lie that it exchanges with others for ghosts of a width. Where there
+/// are levels: twice the width for a coarser neighbour, and two coarse cells for slopes.
 int neighbourhoodOf(const Grid& grid, const GhostReach& reach) {
   if (grid.levels() > 1) return 2 * reach.width + 4;
   return reach.width + (reach.centring == data::Centring::node ? 1 : 0);

@@ -49,7 +49,7 @@ struct GhostReach {
   friend auto operator<=>(const GhostReach&, const GhostReach&) = default;
 };
 
-/// How many cells a block of a grid of several levels must have along each axis, so that ghosts of a width stand in
+/// How many cells a block of a grid of several levels must have along each axis, so that ghosts of a width lie in
 /// blocks of the next levels: those in finer cells within half a block of this level, those in coarser ones and the
 /// cells that their slopes are taken from within half a block of the coarser level.
 constexpr int fewestCellsOfBlock(int width) { return 2 * std::max(width, (width + 1) / 2 + 1); }

@@ -11,7 +11,7 @@
 namespace tushar::tasks {
 
 /// Which nodes of the patches of this rank are near particles: of variables that count only there
-/// (data::Counts::nearParticles), patches give one another no others.
+/// (data::Counts::nearParticles), patches exchange no others.
 ///
 /// A patch that computes a node sees all particles that touch it, so it alone can decide whether any does. Where ghosts
 /// of particles are not settled, all nodes count as near.

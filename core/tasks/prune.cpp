@@ -18,7 +18,8 @@ bool isNeeded(const Task& task, const Names& live) {
                      [&](const Access& access) { return access.writes() && live.contains(access.label->name); });
 }
 
-/// What is live before a kept task, from what is live after it. To a reduction every task adds its part.
+/// The variables that are live before a kept task, from those that are live after it. Every task adds its part to a
+/// reduction.
 void stepBack(const Task& task, Names& live) {
   for (const Access& access : task.accesses)
     if ((access.kind == AccessKind::computes || access.kind == AccessKind::creates) &&

@@ -114,7 +114,7 @@ void unpack(const data::Label& label, const Piece& piece, const Variable& to, co
   });
 }
 
-/// What moves, and how it is written and read; particles are on the finest level only, and stay there.
+/// The variables that move, and how they are written and read; particles are on the finest level only, and stay there.
 class Luggage {
  public:
   Luggage(data::Warehouse& warehouse, const MigratedVariables& variables)
@@ -262,11 +262,11 @@ grid::RankOffsets sharesOf(const grid::Grid& grid, const grid::BlockTiling& next
     if (grid.isFinest(patch)) pieces.findReaders(patch, readers);
   for (const int reader : readers)
     pieces.of(reader, [&](const Piece& piece) {
-      if (grid.isMine(piece.from)) ofPatches[static_cast<std::size_t>(reader)] += luggage.particlesOf(piece);
+      if (grid.isMine(piece.from)) ofPatches[reader] += luggage.particlesOf(piece);
     });
   ranks.sum(ofPatches);
   for (int patch = 0; patch < next.count(); ++patch) {
-    double& cost = ofPatches[static_cast<std::size_t>(patch)];
+    double& cost = ofPatches[patch];
     cost = costs.ofParticle * cost + costs.ofCell * static_cast<double>(next.tile(patch).cells.size());
   }
   return grid::evenShares(ofPatches, ranks.size());

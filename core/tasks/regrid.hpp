@@ -5,7 +5,7 @@
 
 namespace tushar::tasks {
 
-/// What a cell and a particle cost, in any unit.
+/// The costs of a cell and of a particle, in any unit.
 struct PatchCosts {
   double ofCell = 1, ofParticle = 1;
 };

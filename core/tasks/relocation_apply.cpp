@@ -145,7 +145,7 @@ void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int f
   while (waiting >= 0) letInOne();
 }
 
-/// What is in its generation already moves within its memory, where the slots allow it.
+/// A variable that is in its generation already moves within its memory, if the slots allow it.
 void Relocation::carry(const Carried& carried, std::size_t place, Generation to, int material, Moves& moves) {
   const data::SharedSlots before = warehouse_->slots(carried.from, carried.variable);
   const data::SharedSlots after = warehouse_->slotsOfSets(Generation::fresh, material);

@@ -37,7 +37,7 @@ void located(const CompiledTask& task, int patch, int material, const StepInfo& 
   }
 }
 
-/// Keeps, of the values on all patches that cannot be, that of the first cell; of several of one cell that of the first
+/// Of the invalid values on all patches, keeps the one in the first cell; if one cell has several, that of the first
 /// patch.
 class FirstRefusal {
  public:
@@ -77,7 +77,7 @@ void Scheduler::workOn(std::size_t place, const CompiledTask& task, const Work& 
   costs_[place] += seconds(Clock::now() - started);
 }
 
-/// Those that have their ghosts first; the others when the messages are there.
+/// Patches that have their ghosts come first, the others when their messages have arrived.
 template <class Work>
 void Scheduler::forEachPatch(CompiledTask& task, const Work& work) {
   const int patches = warehouse_->patches();
@@ -93,7 +93,7 @@ void Scheduler::forEachPatch(CompiledTask& task, const Work& work) {
   if (finishExchange(task)) workOnAll(late);
 }
 
-/// False if a rank that this one hears of has stopped.
+/// False if a rank from which this one receives messages has stopped.
 bool Scheduler::finishExchange(CompiledTask& task) {
   const auto started = Clock::now();
   heard_stop_ = !exchange_.finish() || heard_stop_;
@@ -195,7 +195,7 @@ std::optional<data::Minimum> Scheduler::factorOf(const CompiledTask& task) {
   return factor.value < 1 ? std::optional(factor) : std::nullopt;
 }
 
-/// No rank begins what all do together where one has stopped, or has no patches.
+/// No rank begins a collective task if a rank has stopped, or if it has no patches itself.
 bool Scheduler::mayRunTogether() {
   heard_stop_ = warehouse_->ranks().any(hasStopped());
   ranksWithPatches();
@@ -232,7 +232,7 @@ void Scheduler::shareFaces(const CompiledTask& task) {
       if (!hasStopped()) exchange_.shareFaces(shared.variable, shared.set);
 }
 
-/// All ranks relocate together, or none. A relocation behind which no task comes is made when the step counts.
+/// All ranks relocate together, or none. If no task follows a relocation, its moves are made when the step is accepted.
 void Scheduler::relocate(const CompiledTask& task, const StepInfo& at) {
   for (int m = 0; m < static_cast<int>(task.materials.size()) && (m == 0 || !hasStopped()); ++m) {
     const MaterialBinding& binding = task.of(m);

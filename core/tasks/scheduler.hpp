@@ -16,7 +16,7 @@ struct StepInfo {
   double time = 0;         ///< s
   double delT = 0;         ///< s; 0 if it has no meaning
   int repeats = 0;         ///< of this step so far
-  bool mayRepeat = false;  ///< whether a NumericalError has the step repeated, instead of being thrown
+  bool mayRepeat = false;  ///< whether a NumericalError repeats the step instead of being thrown
 };
 
 /// Names where an error happened: task, patch (-1: on all at once), material (-1: none), step, time.
@@ -33,7 +33,7 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 class Scheduler {
  public:
   /// Uses up to `threads` threads, but no more than this rank has patches, and one for each `cellsPerThread` cells of a
-  /// rank (if that is not 0): of a grid that is refined these become more and fewer.
+  /// rank (if that is not 0): their number changes on a refined grid.
   explicit Scheduler(data::Warehouse& warehouse, int threads = 1, int cellsPerThread = 0)
       : warehouse_(&warehouse),
         most_threads_(threads),
@@ -42,11 +42,11 @@ class Scheduler {
         exchange_(warehouse, threads_),
         relocation_(warehouse, threads_) {}
 
-  /// Runs every task on every patch, and checks the bounds of what it wrote. The old generation
-  /// is never touched. A body that throws and a broken bound end the run of the graph: a NumericalError comes out with
-  /// task, patch, material, step and time added, the same on all ranks; anything else as TaskError on the rank where it
-  /// happened. A task is run on all patches in any case, and of several errors the first comes out: that of the first
-  /// cell, or patch.
+  /// Runs every task on every patch, and checks the bounds of what it wrote. The old generation is never touched. A
+  /// body that throws and a broken bound end the run of the graph: a NumericalError comes out with task, patch,
+  /// material, step and time added, the same on all ranks; anything else as TaskError on the rank where it
+  /// happened. A failing task still runs on all patches; of several errors, that of the first cell, or patch,
+  /// is thrown.
   ///
   /// If a task requests a smaller time step by recomputeTimeStep, the graph ends with that task and the factor and
   /// reason come back; running the graph once more repeats the step. Otherwise returns nothing.

@@ -127,7 +127,7 @@ std::vector<Carried> TaskGraph::carriedBy(std::size_t t, int material, data::Var
   live.emplace(data::particleId.name);
   std::vector<Carried> carried;
   for (const std::string& name : live) {
-    // What no task of this list names, an earlier list has made: it is only carried.
+    // Variables that no task of this list names are made by an earlier list, and only carried.
     const auto known = labels.find(name);
     if (known != labels.end() && known->second->centring != Centring::particle) continue;
     const int number = known == labels.end() ? table.find(name, material) : table.number(*known->second, material);

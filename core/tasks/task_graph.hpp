@@ -40,7 +40,7 @@ struct CompiledTask {
   std::vector<int> reductions, readReductions;  ///< that it computes, and reads
   bool mayStartEarly = false;  ///< whether patches that have their ghosts may be worked on while others wait for theirs
   bool isLast = false;         ///< of its graph
-  int recomputeTimeStep = -1;  ///< number of that reduction, for a task that may have the step repeated
+  int recomputeTimeStep = -1;  ///< number of that reduction, for a task that may request to repeat the step
   double seconds = 0;          ///< time spent in it so far
   double exchangeSeconds = 0;  ///< of that, time spent filling ghosts before it
 

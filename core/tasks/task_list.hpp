@@ -104,7 +104,7 @@ class TaskList {
   void add(Task task);
 
  private:
-  /// What one call of a body covers.
+  /// The scope of one call of a body.
   enum class Sees { patch, allMaterials, rank };
 
   void add(std::string_view name, TaskKind kind, std::vector<std::string>&& materials, std::vector<Access>&& accesses,

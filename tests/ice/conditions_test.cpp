@@ -10,6 +10,7 @@ namespace {
 
 using Overrides = std::vector<std::string>;
 using test::changedScene;
+using test::problemOf;
 
 const std::string sod = "ups/ice/sod.ups", channel = "ups/ice/channel.ups", pulse = "ups/ice/pulse.ups",
                   shear = "ups/ice/shear_wave.ups";
@@ -23,14 +24,6 @@ std::string condition(const std::string& label, const std::string& var, const st
   return "<BCType id=\"0\" label=\"" + label + "\" var=\"" + var + "\"><value>" + value + "</value></BCType>";
 }
 
-std::string problemOf(const std::string& scene) {
-  try {
-    scene::readScene(scene, {}, catalogue());
-    return "";
-  } catch (const InputError& error) {
-    return error.problems().size() == 1 ? error.problems()[0].sentence : std::string(error.what());
-  }
-}
 std::string fingerprintOf(const std::string& scene, const Overrides& overrides = {}) {
   return test::runScene(scene, overrides).fingerprint;
 }
@@ -64,7 +57,7 @@ TEST(IceConditions, OnlyComponentsOfVelocitiesThatAreThereSwing) {
             fingerprintOf(withSide(condition("Velocity", "Dirichlet", "[0.5 + 0.1 * sin(20 * t), 0, 0]"))));
   EXPECT_EQ(
       problemOf(withSide(condition("Velocity", "Sine", "[0,0,0]"), "<SINE_BC><omega>20</omega><A>0.1</A></SINE_BC>")),
-      "needs a <reference_velocity> in <SINE_BC>: components of 0 do not swing");
+      "needs a <reference_velocity> in <SINE_BC>: components of 0 do not oscillate");
 }
 
 TEST(IceConditions, WavesLeaveByAllSides) {

@@ -9,6 +9,7 @@ namespace {
 
 using test::changedScene;
 using test::driftOf;
+using test::problemOf;
 using Overrides = std::vector<std::string>;
 
 const std::string sod = "ups/ice/sod_implicit.ups", vortex = "ups/ice/vortex_slow.ups",
@@ -21,16 +22,6 @@ double errorOf(const report::Report& report, const std::string& quantity) {
   for (const report::ErrorNorms& error : report.errors)
     if (error.field == quantity) return error.norms.at("L1");
   throw std::logic_error("nothing measured the " + quantity);
-}
-
-/// What is wrong with the scene, without its place.
-std::string problemOf(const std::string& scene, const Overrides& overrides = {}) {
-  try {
-    scene::readScene(scene, overrides, catalogue());
-    return "";
-  } catch (const InputError& error) {
-    return error.problems().size() == 1 ? error.problems()[0].sentence : std::string(error.what());
-  }
 }
 
 const std::string control = "<knob_for_speedSound>0</knob_for_speedSound>";

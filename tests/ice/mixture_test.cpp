@@ -11,6 +11,7 @@ namespace {
 using Overrides = std::vector<std::string>;
 using test::changedScene;
 using test::driftOf;
+using test::problemOf;
 
 const std::string tube = "ups/ice/two_gases.ups", waterTube = "ups/ice/water_air.ups",
                   drift = "ups/ice/water_drifts.ups", three = "ups/ice/three_gases.ups";
@@ -25,15 +26,6 @@ double greatestError(const std::string& scene, const std::string& variable, cons
 
 double meanError(const std::string& scene, const Overrides& overrides) {
   return test::runScene(scene, overrides).errors.at(0).norms.at("L1");
-}
-
-std::string problemOf(const std::string& scene, const Overrides& overrides = {}) {
-  try {
-    scene::readScene(scene, overrides, catalogue());
-    return "";
-  } catch (const InputError& error) {
-    return error.problems().size() == 1 ? error.problems()[0].sentence : std::string(error.what());
-  }
 }
 
 const Overrides short3{"Time/maxTime=0.1", "Grid/Level/Box/resolution=[16,16,1]"};

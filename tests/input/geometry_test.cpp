@@ -297,7 +297,7 @@ TEST(Geometry, SaysThatAShapeInAUnionIsUnknown) {
 
 TEST(Geometry, SaysHowManyShapesAreNeeded) {
   EXPECT_EQ(problemsOf("<a><difference>" + box("[0,0,0]", "[1,1,1]") + "</difference></a>"),
-            Lines{"s.ups:2:5: M/a/difference: expected two shapes (what to take away from, and what to take away) in "
+            Lines{"s.ups:2:5: M/a/difference: expected two shapes (the second is cut out of the first) in "
                   "<difference>, found 1"});
   EXPECT_EQ(problemsOf("<a><union/></a>"), Lines{"s.ups:2:5: M/a/union: expected a shape in <union>, found 0"});
 }

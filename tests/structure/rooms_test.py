@@ -67,7 +67,7 @@ class Rooms(unittest.TestCase):
         wrong = []
         for path in self.includes:
             opened, expected = NAMESPACE.findall(tree.read(path)), namespace_of(tree.folder_of(path))
-            if path.startswith("components/") and path.endswith("/module.cpp"):  # what sus calls when it loads it
+            if re.match(r"components/.*/(module|solid_mpm_\w+)\.cpp", path):  # what sus calls when it loads it
                 expected = "tushar::modules"
             if opened and not any(name == expected or name.startswith(expected + "::") for name in opened):
                 wrong.append(f"{path} opens {opened[0]}, not {expected}")

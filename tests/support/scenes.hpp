@@ -35,6 +35,17 @@ inline std::string changedScene(const std::string& scene, const std::string& fro
   return path;
 }
 
+/// The sentence of the problem of a scene that is refused, without its place, or all problems if there are several; ""
+/// if the scene is accepted.
+inline std::string problemOf(const std::string& scene, const std::vector<std::string>& overrides = {}) {
+  try {
+    scene::readScene(scene, overrides, catalogue());
+    return "";
+  } catch (const InputError& error) {
+    return error.problems().size() == 1 ? error.problems()[0].sentence : std::string(error.what());
+  }
+}
+
 /// The drift of a quantity that a report has.
 inline double driftOf(const report::Report& report, const std::string& name) {
   for (const report::Drift& drift : report.drifts)

@@ -7,7 +7,7 @@ namespace tushar::euler {
 
 namespace {
 
-/// Whether gases in a cell can have its state.
+/// Whether the state of a cell is possible for its gases.
 template <int D, class Held, class T>
 bool isPossible(const std::vector<Settings>& gases, const std::vector<Held>& held, const StateViews<D, T>& state,
                 const Index<D>& cell) {

@@ -12,7 +12,7 @@ struct OldGas {
     return {.mass = take(requiresOld(c::gasMass, ghost)), .share = take(requiresOld(c::gasShare, ghost))};
   }
 };
-/// What it makes of it.
+/// What a step computes for each of several gases.
 struct NewGas {
   CellView<double> mass, share;
 
@@ -43,10 +43,9 @@ Mixture<K> mixtureOf(const std::vector<Settings>& gases) {
 
 /// One step of several gases: that of Advance, of all together, with limited slopes of the mass and the share of each
 /// in place of the density's. Shares go with the velocity of the contact at faces, so that where velocity and pressure
-/// are uniform they stay so. Slopes of three gases need not add up; they are scaled until the shares at a face are 1
-/// together, with the densities of the gases as they are.
-/// Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; E. Johnsen & T. Colonius, J. Comput. Phys.
-/// 219 (2006) 715, of shares with HLLC.
+/// are uniform they stay so. Slopes of three gases need not add up; they are scaled until the shares at a face add up
+/// to 1, and the densities of the gases stay as they are. Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181
+/// (2002) 577; E. Johnsen & T. Colonius, J. Comput. Phys. 219 (2006) 715, of shares with HLLC.
 template <int D>
 using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>& gases, const OldState<D>& old,
                                 const std::vector<OldGas>& oldGases, double time, double dt, const NewState<D>& fresh,
@@ -60,8 +59,8 @@ inline constexpr int kMostGases = 3;
 template <int D>
 AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
 
-/// Where fluxes through the rim of a level were corrected, shares no longer add up to 1: it is as if the cell had got
-/// wider. Divides them by their sum, which is what the flux of volume is corrected by. Others stay as they are.
+/// Where fluxes through the rim of a level were corrected, shares no longer add up to 1, as if the cell had become
+/// wider. Divides them by their sum, the correction of the flux of volume. Other cells stay as they are.
 template <int D>
 void closeShares(const Patch& patch, const std::vector<Settings>& gases, const std::vector<CellView<double>>& shares);
 
@@ -73,9 +72,9 @@ struct ChangedGas {
     return {.mass = take(modifies(c::gasMass)), .share = take(modifies(c::gasShare))};
   }
 };
-/// As mendNewCells for several gases: the numbers of new cells are interpolated each by itself, so that the density is
-/// to be the sum of the masses again, and the shares are to be 1 together. Where that makes no gas, all children of a
-/// cell get their means.
+/// As mendNewCells for several gases: the numbers of new cells are interpolated each by itself, so the density becomes
+/// the sum of the masses again, and the shares are made to add up to 1. Where that makes no gas, all children of a cell
+/// get their means.
 template <int D>
 void mendNewMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& newCells,
                     const ChangedState<D>& state, const std::vector<ChangedGas>& held);

@@ -18,10 +18,10 @@ struct DiffusingCell {
   double soundSpeed = 0;    ///< m/s
 };
 
-/// The diffusive fluxes of blocks of cells whose viscosity and conduction differ: through a face flows what the mean of
-/// both cells' coefficients lets through. Eddies smaller than cells add rho (C Delta)² sqrt(2 S : S) to the viscosity,
-/// S the symmetric part of grad v at the face and Delta the cubic root of a cell's volume.
-/// Source: J. Smagorinsky, Mon. Weather Rev. 91 (1963) 99.
+/// The diffusive fluxes of blocks of cells whose viscosity and conduction differ: the coefficients at a face are the
+/// means of those of both cells. Eddies smaller than cells add rho (C Delta)² sqrt(2 S : S) to the viscosity, S the
+/// symmetric part of grad v at the face and Delta the cubic root of a cell's volume. Source: J. Smagorinsky, Mon.
+/// Weather Rev. 91 (1963) 99.
 template <int D>
 class Diffuser {
  public:
@@ -41,7 +41,7 @@ class Diffuser {
       }
   }
 
-  /// From now on the cells of `block`, of which `cellAt(cell)` gives each and those around it.
+  /// Moves to the cells of `block`; `cellAt(cell)` gives each of them and of those around it.
   template <class CellAt>
   void hold(const Box& block, CellAt&& cellAt) {
     for (Rows<D>* rows : {&w_, &coefficients_, &flux_}) rows->hold(block.grown(1, D));

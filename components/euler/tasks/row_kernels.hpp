@@ -67,8 +67,8 @@ void halfStepRow(const G& gas, const Pointers<D, kGases<G>>& lower, const Pointe
   }
 }
 
-/// Changes primitive values by a change of the conserved ones; lowers `least` to the density and p + p_inf, or
-/// what a law has in its place, found, and below 0 if a gas of several has less than nothing.
+/// Changes primitive values by a change of the conserved ones; lowers `least` to the density and p + p_inf that it
+/// finds, or what a law has in its place, and below 0 if one of several gases has a negative amount.
 template <int D, class G>
 void changeRow(const G& gas, const Pointers<D, kGases<G>>& change, int count, const Pointers<D, kGases<G>>& values,
                double* least) {
@@ -124,8 +124,8 @@ inline void updateRow(const double* old, const double* flux, std::ptrdiff_t stri
   for (std::ptrdiff_t i = 0; i < count; ++i) result[i * step] = old[i * step] - ratio * (flux[i + stride] - flux[i]);
 }
 
-/// The same of a share, which flows as no matter does: z' = z - ratio (F_upper - F_lower - z (v_upper - v_lower)), with
-/// the velocity of a face from the fluxes of all shares, which are 1 together. So equal shares stay equal.
+/// The update of a share, which is not conserved as matter is: z' = z - ratio (F_upper - F_lower - z (v_upper -
+/// v_lower)), with the velocity of a face from the fluxes of all shares, which add up to 1. So equal shares stay equal.
 template <int K>
 void updateShareRow(const double* start, const double* old, const std::array<const double*, K>& shares, int gas,
                     std::ptrdiff_t stride, double ratio, int count, double* result) {

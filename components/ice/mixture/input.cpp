@@ -14,7 +14,7 @@ using input::Element;
 
 namespace {
 
-/// From here on Uintah's coefficients mean one velocity, or one temperature.
+/// From this value on, Uintah's coefficients mean one velocity, or one temperature.
 constexpr double oneForAll = 1e9;
 
 void checkSubstance(const GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
@@ -65,8 +65,8 @@ bool isWall(const Element& face) {
   return false;
 }
 
-/// What several gases have in common at a side, for all of them; the pressure also as that of the first material, as
-/// Uintah has it.
+/// Reports a condition that does not hold for all gases; that of the pressure may be given for the first material, as
+/// in Uintah.
 void checkMaterial(const Element& condition, int solids, Diagnostics& diagnostics) {
   const std::string id = condition.attribute("id").value_or("all");
   const bool isPressure = condition.attribute("label") == euler::boundary::pressure.name;

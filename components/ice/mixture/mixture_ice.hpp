@@ -19,11 +19,11 @@ class MixtureIce : public Component, public reference::GasSolution {
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
+  void scheduleRefine(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
-  std::string advice() const override { return "a smaller CFD/cfl, or CFD/ICE/advection of type FirstOrder"; }
+  std::string advice() const override { return adviceForGas; }
   std::vector<std::string> foreignLabels() const override;
   simulation::OtherNames otherNames() const override;
-  void scheduleRefine(TaskList& tasks) const override;
   std::vector<simulation::Criterion> criteria() const override { return euler::criteria<D>(); }
   std::vector<reference::GasLaw> gases() const override;
   void scheduleMeasureError(TaskList& tasks, const reference::GasReference& exact,

@@ -33,7 +33,7 @@ struct MixtureStart {
     }
     return start;
   }
-  /// Throws InputError unless the shares are 1 together.
+  /// Throws InputError unless the shares add up to 1.
   void check(const Gases& gases, const Vec3& point) const {
     if (!(std::abs(filled - 1) < 1e-9))
       throw InputError({{gases.front().where, "MaterialProperties/ICE/material",
@@ -43,8 +43,8 @@ struct MixtureStart {
   }
 };
 
-/// The state at the start of all cells.
-/// Throws InputError where the shares at a centre are not 1 together, and as euler::initialize does.
+/// The state at the start of all cells. Throws InputError where the shares at a centre do not add up to 1, and as
+/// euler::initialize does.
 template <int D>
 void initializeMixture(const Patch& patch, const Gases& gases, const euler::NewState<D>& fresh,
                        const std::vector<euler::NewGas>& held) {
@@ -122,7 +122,7 @@ void computeMixedTemperature(const Patch& patch, const Gases& gases, const euler
              [&](const Index<D>& cell) { temperature[cell] = temperatureAt<D>(gases, state, held, cell); });
 }
 
-/// Mass of each gas over its own volume. Less than a millionth of a cell is round-off, or all but.
+/// Mass of each gas over its own volume. A share below a millionth of the cell is round-off, or almost.
 template <int D>
 void computeOwnDensity(const Patch& patch, const Gases&, const std::vector<euler::OldGas>& held,
                        const std::vector<CellView<double>>& density) {

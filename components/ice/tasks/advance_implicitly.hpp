@@ -104,7 +104,7 @@ class ImplicitStep {
     const double weight = flow_.isFree(face, axis) ? 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis] : 0;
     return 0.5 * (after_.number(below, p) + after_.number(face, p)) + viscous + (face[axis] == 0 ? -weight : weight);
   }
-  /// p' beyond a face of a cell; beyond an open side what makes the mean of both p' in the side, Pa.
+  /// p' beyond a face of a cell; beyond an open side the value whose mean with that of the cell is p' in the side, Pa.
   double pressureBeyond(const Index<D>& cell, int axis, int side) const {
     const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(axis);
     const std::size_t p = euler::kPressure<D>;

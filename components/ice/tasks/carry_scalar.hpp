@@ -35,8 +35,8 @@ struct ScalarBefore {
   static ScalarBefore from(auto& take, const CarriedScalar* scalar) {
     return {.density = take(requiresOld(euler::c::density, 2)),
             .held = take(requiresOld(scalar->held(), 2)),
-            .below = take(requiresNew(euler::c::massFluxBelow<D>, 1)),
-            .above = take(requiresNew(euler::c::massFluxAbove<D>, 1))};
+            .below = take(requiresNew(euler::c::massFlux<D>[0], 1)),
+            .above = take(requiresNew(euler::c::massFlux<D>[1], 1))};
   }
   double value(const Index<D>& cell) const { return held[cell] / density[cell]; }
 };
@@ -195,7 +195,7 @@ void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::G
   });
 }
 
-/// Where a scalar has interior sources: it rises by their value in each step, as far as their greatest.
+/// Where a scalar has interior sources: it rises by their value in each step, up to the greatest of them.
 template <int D>
 void raiseScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const double> density,
                  CellView<double> held) {

@@ -14,12 +14,11 @@ void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<cons
 }
 
 /// dt = cfl / s, s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2, r = sum_d (|v_d| + k c) / h_d + 2 nu / h_d²: the rate at
-/// which gas crosses a cell, with the acceleration a_d = |g_d - (dp/dx_d) / rho| that it has, so that it does not from
-/// rest cross cells within the step. |v_d| is the greatest of the cell and of what sides give at its faces. p is the
-/// pressure that the last step ended with: that of the gas has besides what conduction brought in, which sound evens
-/// out before it moves anything. k is Uintah's `knob_for_speedSound`, nu the greatest diffusivity. Throws
-/// NumericalError where a density, or p + p_inf, is not positive. Source: N. Kwatra & al., J. Comput. Phys. 228 (2009)
-/// 4146, section 3.3.
+/// which gas crosses a cell, with its acceleration a_d = |g_d - (dp/dx_d) / rho|, so that gas at rest does not cross
+/// cells within the step. |v_d| is the greatest of the cell and of what sides give at its faces. p is the pressure that
+/// the last step ended with: the pressure of the gas also has what conduction brought in, which sound evens out before
+/// it moves anything. k is Uintah's `knob_for_speedSound`, nu the greatest diffusivity. Throws NumericalError where a
+/// density, or p + p_inf, is not positive. Source: N. Kwatra & al., J. Comput. Phys. 228 (2009) 4146, section 3.3.
 template <int D>
 void limitImplicitStep(const Patch& patch, const euler::Settings& method, const IceSettings& settings,
                        const euler::OldState<D>& before, double time, CellView<const double> pressure, Minimum& dt) {

@@ -27,6 +27,48 @@ struct PressureViews {
   }
 };
 
+/// A face of a cell.
+template <int D>
+struct CellFace {
+  int axis, side;        ///< side 0: the lower face, 1: the upper one
+  Index<D> index, next;  ///< the face, by the cell above it; the cell behind it
+  double ratio, out;     ///< dt / h, s/m; the same with the sign of the outward normal
+};
+
+/// Calls visit(CellFace) for each face of a cell, axis by axis, the lower face first.
+template <int D, class Visit>
+void forEachFaceOf(const Level& level, const Index<D>& cell, double dt, Visit&& visit) {
+  for (int d = 0; d < D; ++d) {
+    const double ratio = dt * level.inverseSpacing(d);
+    visit(CellFace<D>{d, 0, cell, cell - Index<D>::unit(d), ratio, -ratio});
+    visit(CellFace<D>{d, 1, cell + Index<D>::unit(d), cell + Index<D>::unit(d), ratio, ratio});
+  }
+}
+
+/// The equation weight d = 0 of a cell, d the change of its pressure.
+template <int D>
+numerics::CellEquation<D> equationWith(const Index<D>& cell, double weight) {
+  numerics::CellEquation<D> equation{{}, 0};
+  equation.left.cells[0] = cell;
+  equation.left.weights[0] = weight;
+  return equation;
+}
+
+/// Adds weight (d - d_n) to the left-hand side, d_n the change in the cell `next`; it is 0 beyond the grid.
+template <int D>
+void couple(const FaceFlow<D>& flow, const Index<D>& next, double weight, numerics::Balance<D>& left) {
+  left.weights[0] += weight;
+  if (!flow.isOnGrid(next)) return;
+  left.cells[left.count] = next;
+  left.weights[left.count++] = -weight;
+}
+
+/// p_n - p [Pa] across a face, before the step.
+template <int D>
+double riseAcross(const FaceFlow<D>& flow, const Index<D>& cell, const CellFace<D>& face) {
+  return flow.old().number(face.next, euler::kPressure<D>) - flow.old().number(cell, euler::kPressure<D>);
+}
+
 /// The equation for the change of a cell's pressure, p' - p, of the internal energy
 /// (rho e)' = rho e - dt div((rho e + p) u_f) + dt v . grad p, with u_f of p', the enthalpy at faces and v . grad p
 /// before the step. In gas rho e + p = gamma (p + p_inf) / (gamma - 1), so that with d = p' - p, and u_f of d = 0,
@@ -37,69 +79,75 @@ struct PressureViews {
 template <int D>
 numerics::CellEquation<D> pressureEquation(const Level& level, const FaceFlow<D>& flow, const Index<D>& cell,
                                            double dt) {
-  const std::size_t p = euler::kPressure<D>;
   const double gamma = flow.gas().gamma;
-  numerics::CellEquation<D> equation{{}, 0};
-  numerics::Balance<D>& left = equation.left;
-  left.cells[0] = cell;
-  left.weights[0] = 1;
-  for (int d = 0; d < D; ++d) {
-    const double ratio = dt * level.inverseSpacing(d);
-    const double velocity = flow.old().number(cell, euler::kVelocity(d));
-    for (const int side : {0, 1}) {
-      const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
-      const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : face;
-      const double enthalpy = gamma * flow.stiffPressure(face, d);
-      const double out = (side == 0 ? -1 : 1) * ratio;
-      const double rise = flow.old().number(next, p) - flow.old().number(cell, p);
-      equation.right -= out * enthalpy * flow.unchanged(face, d);
-      equation.right += 0.5 * (gamma - 1) * out * velocity * rise;
-      const double weight = ratio * enthalpy * flow.loss(face, d);
-      left.weights[0] += weight;
-      if (!flow.isOnGrid(next)) continue;
-      left.cells[left.count] = next;
-      left.weights[left.count++] = -weight;
-    }
-  }
+  numerics::CellEquation<D> equation = equationWith(cell, 1);
+  forEachFaceOf<D>(level, cell, dt, [&](const CellFace<D>& face) {
+    const double enthalpy = gamma * flow.stiffPressure(face.index, face.axis);
+    const double velocity = flow.old().number(cell, euler::kVelocity(face.axis));
+    equation.right -= face.out * enthalpy * flow.unchanged(face.index, face.axis);
+    equation.right += 0.5 * (gamma - 1) * face.out * velocity * riseAcross(flow, cell, face);
+    couple(flow, face.next, face.ratio * enthalpy * flow.loss(face.index, face.axis), equation.left);
+  });
   return equation;
 }
 
-/// The same in a gas with a law of its own, from dp/dt + v . grad p = -rho c² div v, over rho c²:
+/// The equation in a gas with a law of its own, from dp/dt + v . grad p = -rho c² div v, over rho c²:
 ///
 ///   d / (rho c²) - dt div(loss_f (d_R - d_L)) = -dt div u_f - dt v . grad p / (rho c²),
 ///
 /// symmetric and positive definite, too.
 template <int D>
 numerics::CellEquation<D> equationByLaw(const Level& level, const FaceFlow<D>& flow, const Index<D>& cell, double dt) {
-  const std::size_t p = euler::kPressure<D>;
   const double rho = flow.old().number(cell, euler::kDensity);
-  const double softness = 1 / (rho * flow.gas().soundSpeedSquared(rho, flow.old().number(cell, p)));
-  numerics::CellEquation<D> equation{{}, 0};
-  numerics::Balance<D>& left = equation.left;
-  left.cells[0] = cell;
-  left.weights[0] = softness;
-  for (int d = 0; d < D; ++d) {
-    const double ratio = dt * level.inverseSpacing(d);
-    const double velocity = flow.old().number(cell, euler::kVelocity(d));
-    for (const int side : {0, 1}) {
-      const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
-      const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : face;
-      const double out = (side == 0 ? -1 : 1) * ratio;
-      const double rise = flow.old().number(next, p) - flow.old().number(cell, p);
-      const double weight = ratio * flow.loss(face, d);
-      equation.right -= out * flow.unchanged(face, d) + 0.5 * softness * out * velocity * rise;
-      left.weights[0] += weight;
-      if (!flow.isOnGrid(next)) continue;
-      left.cells[left.count] = next;
-      left.weights[left.count++] = -weight;
-    }
-  }
+  const double softness = 1 / (rho * flow.gas().soundSpeedSquared(rho, flow.old().number(cell, euler::kPressure<D>)));
+  numerics::CellEquation<D> equation = equationWith(cell, softness);
+  forEachFaceOf<D>(level, cell, dt, [&](const CellFace<D>& face) {
+    const double velocity = flow.old().number(cell, euler::kVelocity(face.axis));
+    equation.right -= face.out * flow.unchanged(face.index, face.axis) +
+                      0.5 * softness * face.out * velocity * riseAcross(flow, cell, face);
+    couple(flow, face.next, face.ratio * flow.loss(face.index, face.axis), equation.left);
+  });
   return equation;
 }
 
-/// Solves for the change of pressure in the step in all cells [Pa], from the state before it; the last step's pressure
-/// is the first guess; gives the pressure at the end. The residual is how far the gas would miss that pressure, so the
-/// tolerance is relative to the greatest pressure where that is less than the right-hand side.
+/// Solves for the change of pressure in the step in all cells [Pa] where isEmpty(p, cell) is false, from the state
+/// that the flow of each patch holds, and computes the pressure at the end. The last step's pressure is the first
+/// guess. The residual is how far the gas would miss that pressure, so the tolerance is relative to the greatest
+/// pressure where that is less than the right-hand side. Throws NumericalError if the solver gives up.
+template <int D, class IsEmpty, class EquationOf>
+void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, const IceSettings& settings,
+                    const std::vector<FaceFlow<D>>& flows, const std::vector<CellView<const double>>& guess,
+                    const std::vector<PressureViews>& fresh, const SolveTotals& totals, IsEmpty&& isEmpty,
+                    EquationOf&& equationOf) {
+  const auto old = [&](std::size_t p, const Index<D>& cell) {
+    return flows[p].old().number(cell, euler::kPressure<D>);
+  };
+  std::vector<CellView<double>> changes;
+  std::vector<CellView<const double>> first;
+  double greatest = 0;
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const CellView<double>& change = changes.emplace_back(fresh[p].change);
+    forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
+      change[cell] = isEmpty(p, cell) ? 0 : guess[p][cell] - old(p, cell);
+      if (!isEmpty(p, cell)) greatest = std::max(greatest, std::abs(old(p, cell) + flows[p].gas().pInfinity));
+    });
+    first.emplace_back(change.values(), change.stored(), change.box());
+  }
+  const double cells = static_cast<double>(patches.front()->level().cells().size());
+  numerics::CellSystem<D> system(patches, ranks);
+  const solvers::Outcome outcome =
+      system.solve(settings.solver, first, equationOf, ranks.max(greatest) * std::sqrt(cells));
+  system.requireConvergence(outcome, "the pressure", "CFD/ICE/ImplicitSolver", "c.pressure",
+                            ", or a smaller <delt_max>");
+  system.take(changes);
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    forEach<D>(patches[p]->cells(),
+               [&](const Index<D>& cell) { fresh[p].atEnd[cell] = old(p, cell) + changes[p][cell]; });
+  totals.iterations.add(outcome.krylovIterations);
+  solvers::addTimes(outcome, totals.assembly, totals.preconditioner, totals.solution);
+}
+
+/// Solves for the change of pressure in the step [Pa], from the state before it, and computes the pressure at the end.
 /// Throws NumericalError if the solver gives up.
 template <int D>
 void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, const euler::Settings& method,
@@ -107,38 +155,16 @@ void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, c
                    const std::vector<CellView<const double>>& guess, const std::vector<PressureViews>& fresh,
                    const SolveTotals& totals) {
   const Level& level = patches.front()->level();
-  const std::size_t number = euler::kPressure<D>;
   const euler::GhostRules<D> rules = euler::ghostRules<D>(level, method.gas, time);
   std::vector<FaceFlow<D>> flows;
-  std::vector<CellView<double>> changes;
-  std::vector<CellView<const double>> first;
-  double greatest = 0;
-  for (std::size_t p = 0; p < patches.size(); ++p) {
-    const CellView<double>& change = changes.emplace_back(fresh[p].change);
-    flows.emplace_back(level, method, settings, rules, patches[p]->cells(), dt).hold(patches[p]->cells(), before[p]);
-    forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
-      const double old = flows[p].old().number(cell, number);
-      change[cell] = guess[p][cell] - old;
-      greatest = std::max(greatest, std::abs(old + method.gas.pInfinity));
-    });
-    first.emplace_back(change.values(), change.stored(), change.box());
-  }
-  const double scale = ranks.max(greatest) * std::sqrt(static_cast<double>(level.cells().size()));
-  numerics::CellSystem<D> system(patches, ranks);
-  const auto equationOf = [&](std::size_t p, const Index<D>& cell) {
-    return method.gas.law ? equationByLaw<D>(level, flows[p], cell, dt)
-                          : pressureEquation<D>(level, flows[p], cell, dt);
-  };
-  const solvers::Outcome outcome = system.solve(settings.solver, first, equationOf, scale);
-  system.requireConvergence(outcome, "the pressure", "CFD/ICE/ImplicitSolver", "c.pressure",
-                            ", or a smaller <delt_max>");
-  system.take(changes);
   for (std::size_t p = 0; p < patches.size(); ++p)
-    forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
-      fresh[p].atEnd[cell] = flows[p].old().number(cell, number) + changes[p][cell];
-    });
-  totals.iterations.add(outcome.krylovIterations);
-  solvers::addTimes(outcome, totals.assembly, totals.preconditioner, totals.solution);
+    flows.emplace_back(level, method, settings, rules, patches[p]->cells(), dt).hold(patches[p]->cells(), before[p]);
+  solveForChange<D>(
+      patches, ranks, settings, flows, guess, fresh, totals, [](std::size_t, const Index<D>&) { return false; },
+      [&](std::size_t p, const Index<D>& cell) {
+        return method.gas.law ? equationByLaw<D>(level, flows[p], cell, dt)
+                              : pressureEquation<D>(level, flows[p], cell, dt);
+      });
 }
 
 }  // namespace tushar::ice

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpm/labels.hpp"
+#include "components/reference/gas_totals.hpp"
 
 namespace tushar::mpm::gas {
 
@@ -32,12 +33,8 @@ inline constexpr CellLabel<double> density{"c.density", "kg/m^3", "mean density 
 namespace total {
 using namespace mpm::total;
 inline constexpr ReductionLabel<Sum> internalEnergy{"InternalEnergy", "J", "internal energy of all particles"};
-inline constexpr ReductionLabel<Sum> energy{"TotalEnergy", "J", "kinetic and internal energy of all particles"};
-inline constexpr ReductionLabel<Minimum> leastDensity{"LeastDensity", "kg/m^3", "least density of any particle"};
-inline constexpr ReductionLabel<Minimum> leastEnergy{"LeastInternalEnergy", "J/kg",
-                                                     "least internal energy of any particle"};
-inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg",
-                                             "entropy of all particles over c_v, but for a constant"};
+using namespace reference::total;
+using simulation::total::energy;
 }  // namespace total
 
 }  // namespace tushar::mpm::gas

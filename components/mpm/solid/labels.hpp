@@ -113,7 +113,7 @@ inline constexpr ReductionLabel<Sum> volume{"TotalVolumeDeformed", "m^3", "of al
 inline constexpr ReductionLabel<Sum> thermalEnergy{"ThermalEnergy", "J", "mass times specific heat times temperature"};
 inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
     "RigidReactionForce", "N",
-    "force that a contact of type rigid or specified holds the others with, against their stresses"};
+    "force with which a contact of type rigid or specified holds the others against their stresses"};
 inline constexpr ReductionLabel<Sum> strainEnergy{
     "StrainEnergy", "J", "strain energy of elastic materials and, of others, what the last step added, as in Uintah"};
 /// Sums of the numbers of p.work, in their order.
@@ -128,22 +128,25 @@ inline constexpr std::array<ReductionLabel<Sum>, 7> work{{
     {"PlasticWork", "J", "taken by plastic flow since the start, of models that keep p.plasticStrain"},
     {"KineticEnergyAtStart", "J", "of the particles that are still there"},
 }};
+/// The action of the body on a face of the grid.
+struct OnFace {
+  ReductionLabel<VectorSum> force;
+  ReductionLabel<Sum> area;
+};
 /// The faces of the grid in the order x-, x+, y-, y+, z-, z+.
-inline constexpr std::array<ReductionLabel<VectorSum>, 6> boundaryForce{{
-    {"BndyForce_xminus", "N", "force of the body on the face x-"},
-    {"BndyForce_xplus", "N", "force of the body on the face x+"},
-    {"BndyForce_yminus", "N", "force of the body on the face y-"},
-    {"BndyForce_yplus", "N", "force of the body on the face y+"},
-    {"BndyForce_zminus", "N", "force of the body on the face z-"},
-    {"BndyForce_zplus", "N", "force of the body on the face z+"},
-}};
-inline constexpr std::array<ReductionLabel<Sum>, 6> contactArea{{
-    {"BndyContactArea_xminus", "m^2", "area of the body on the face x-"},
-    {"BndyContactArea_xplus", "m^2", "area of the body on the face x+"},
-    {"BndyContactArea_yminus", "m^2", "area of the body on the face y-"},
-    {"BndyContactArea_yplus", "m^2", "area of the body on the face y+"},
-    {"BndyContactArea_zminus", "m^2", "area of the body on the face z-"},
-    {"BndyContactArea_zplus", "m^2", "area of the body on the face z+"},
+inline constexpr std::array<OnFace, 6> onFaces{{
+    {{"BndyForce_xminus", "N", "force of the body on the face x-"},
+     {"BndyContactArea_xminus", "m^2", "area of the body on the face x-"}},
+    {{"BndyForce_xplus", "N", "force of the body on the face x+"},
+     {"BndyContactArea_xplus", "m^2", "area of the body on the face x+"}},
+    {{"BndyForce_yminus", "N", "force of the body on the face y-"},
+     {"BndyContactArea_yminus", "m^2", "area of the body on the face y-"}},
+    {{"BndyForce_yplus", "N", "force of the body on the face y+"},
+     {"BndyContactArea_yplus", "m^2", "area of the body on the face y+"}},
+    {{"BndyForce_zminus", "N", "force of the body on the face z-"},
+     {"BndyContactArea_zminus", "m^2", "area of the body on the face z-"}},
+    {{"BndyForce_zplus", "N", "force of the body on the face z+"},
+     {"BndyContactArea_zplus", "m^2", "area of the body on the face z+"}},
 }};
 }  // namespace total
 

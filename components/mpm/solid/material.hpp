@@ -19,7 +19,7 @@ struct Body {
   input::Expression temperature;       ///< K
   double color = 0;
   int levels = 1;  ///< sizes of particles that fill its shape; negative: none protrudes from it
-  /// Rows of A, and b: its particles start at A X + b (m) where they else would at X.
+  /// Rows of A, and b: its particles start at A X + b (m) instead of X.
   Vec3 affineRow0 = Vec3::UnitX(), affineRow1 = Vec3::UnitY(), affineRow2 = Vec3::UnitZ(), affineShift = Vec3::Zero();
   std::shared_ptr<const Seeds> seeds;  ///< where its particles start; null: in equal parts of cells
 
@@ -50,7 +50,7 @@ void forEachParticleIn(const Level& level, const Body& body, const Index<D>& cel
   });
 }
 
-/// A material: how it answers to being deformed, and the bodies made of it.
+/// A material: its response to deformation, and the bodies made of it.
 struct Material {
   std::string name;
   int index = 0;       ///< its number in the scene

@@ -87,7 +87,7 @@ std::string typeOf(const Element& tag) {
   return other == otherWords.end() ? type : other->second;
 }
 
-/// Whether a model has thermal expansion: as in Uintah, of its neo-Hookean ones.
+/// Whether a model has thermal expansion: as in Uintah, only neo-Hookean ones.
 template <class M>
 inline constexpr bool expands =
     std::is_same_v<M, CompNeoHook> || std::is_same_v<M, Ucnh> || std::is_same_v<M, CompNeoHookPlastic>;

@@ -16,7 +16,7 @@ class Surroundings {
   /// After the task that gives g.record velocities and masses, and before forces accelerate nodes: computes
   /// g.surroundingForce.
   virtual void scheduleForces(TaskList& tasks, const std::vector<Material>& materials) const = 0;
-  /// When p.x has both its values, of the start and of the end of the step, and g.record the velocities of both, before
+  /// Called when p.x is known at the start and at the end of the step, and g.record has the velocities of both, before
   /// particles are relocated.
   virtual void scheduleMotion(TaskList& tasks, const std::vector<Material>& materials) const = 0;
 };

@@ -14,8 +14,8 @@ inline double temperatureOf(const euler::Gas& gas, double density, double last) 
   return (last + gas.pInfinity) / (gas.gasConstant() * density);
 }
 
-/// Viscosity and conduction through the faces beside bodies, as far as these are open. T and v count in the middle of
-/// a cell's gas, and where a cell has none, that of its neighbour at the face stands for it.
+/// Viscosity and conduction through the faces beside bodies, as far as these are open. T and v count in the middle of a
+/// cell's gas; if a cell has none, they are those of its neighbour at the face.
 template <int D>
 class DiffusionBeside {
  public:

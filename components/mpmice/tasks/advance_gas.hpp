@@ -20,8 +20,8 @@ struct UnsharedGas {
   }
 };
 
-/// rho, v, p of the gas in the cells of the work's box; if there is none, of some gas that moves nowhere: what flows
-/// from there is closed off.
+/// rho, v, p of the gas in the cells of the work's box; if there is none, of some gas at rest, whose fluxes the closed
+/// faces hold back.
 template <int D, class G>
 void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
                 euler::Rows<D, euler::kGases<G>>& w) {
@@ -126,7 +126,7 @@ void refuseFarGas(const Patch& patch, const Settings& settings, const NearBodies
   });
 }
 
-/// Whether the gas of a cell can be; of several gases refuseFarGas looks.
+/// Whether the gas of a cell is possible; refuseFarGas checks several gases.
 template <int D, class G>
 bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, double>& fresh) {
   if constexpr (euler::kGases < G >> 1)
@@ -136,7 +136,7 @@ bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, doub
 }
 
 /// A step of a block with bodies in or around it: `euler`'s, through open faces alone, and what walls do. Returns
-/// whether the gas away from bodies can be; beside them small cells have still to share.
+/// whether the gas away from bodies is possible; beside them small cells have still to share.
 template <int D, class Flux, class Shape, class G>
 bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells<D>& cells,
                      const WallExchange<D>& exchange, const NearBodies<D>& near, euler::Work<D, euler::kGases<G>>& work,
@@ -161,7 +161,7 @@ bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells
   return fine;
 }
 
-/// The step of a patch with the law of its gas. Returns whether the gas away from bodies can be.
+/// The step of a patch with the law of its gas. Returns whether the gas away from bodies is possible.
 template <int D, class Flux, class Shape, class G>
 bool advanceWith(const G& law, const Patch& patch, double dt, const GasInCells<D>& cells,
                  const WallExchange<D>& exchange, const NearBodies<D>& near, const UnsharedGas<D>& fresh,

@@ -72,7 +72,7 @@ class WallHeat {
       for (int side = 0; side < 2; ++side) sum += through(cell, a, side);
     return sum;
   }
-  /// What the bodies of a cell get: their share, by capacity, of the heat through each of its faces.
+  /// The heat that the bodies of a cell receive: their share, by capacity, of that through each of its faces.
   double taken(const Index<D>& cell) const {
     double sum = 0;
     for (int a = 0; a < D; ++a)

@@ -27,8 +27,8 @@ struct WarmThings {
   Eigen::VectorXd volume;       ///< share of the cell
 };
 
-/// Temperatures after dt of C_a dT_a/dt = sum_b H_ab theta_a theta_b (T_b - T_a), implicit: as stiff as it may be, all
-/// end at one temperature. `pairs` holds H [W/(m³ K)] of each pair, row by row.
+/// Temperatures after dt of C_a dT_a/dt = sum_b H_ab theta_a theta_b (T_b - T_a), implicit: however stiff the exchange
+/// is, all end at one temperature. `pairs` holds H [W/(m³ K)] of each pair, row by row.
 inline Eigen::VectorXd temperaturesAfter(const WarmThings& things, const std::vector<double>& pairs, double dt) {
   const Eigen::Index count = things.capacity.size();
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(count, count);

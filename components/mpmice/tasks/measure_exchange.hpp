@@ -127,8 +127,8 @@ std::vector<BlockedStrips<D>> blockedStrips(const Patch& patch, const std::vecto
   return strips;
 }
 
-/// The mass that leaks through bodies along an axis in a step, over a cell's volume: of what comes in through one face
-/// and leaves through the other, the part for which there is no straight way past the bodies in the cell.
+/// The mass that leaks through bodies along an axis in a step, over a cell's volume: the part of the flow in through
+/// one face and out through the other that has no straight way past the bodies in the cell.
 inline double leakAlong(double in, double out, double openIn, double openOut, double straight) {
   if (!(in * out > 0)) return 0;
   const double through = std::min(std::abs(in), std::abs(out)), width = std::min(openIn, openOut);

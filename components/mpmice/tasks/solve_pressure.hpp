@@ -11,8 +11,8 @@ struct GasAlone {
   euler::StateViews<D, const double> state;
 
   static GasAlone from(auto& take, int ghost) {
-    return {.state = {take(requiresNew(c::aloneDensity, ghost)), take(requiresNew(c::aloneMomentum<D>, ghost)),
-                      take(requiresNew(c::aloneEnergy, ghost))}};
+    return {.state = {take(requiresNew(c::alone<D>.density, ghost)), take(requiresNew(c::alone<D>.momentum, ghost)),
+                      take(requiresNew(c::alone<D>.totalEnergy, ghost))}};
   }
 };
 template <int D>
@@ -20,8 +20,8 @@ struct NewGasAlone {
   euler::StateViews<D, double> state;
 
   static NewGasAlone from(auto& take) {
-    return {.state = {take(computes(c::aloneDensity)), take(computes(c::aloneMomentum<D>)),
-                      take(computes(c::aloneEnergy))}};
+    return {.state = {take(computes(c::alone<D>.density)), take(computes(c::alone<D>.momentum)),
+                      take(computes(c::alone<D>.totalEnergy))}};
   }
 };
 
@@ -32,10 +32,10 @@ struct WallSpeeds {
   CellView<const Vec<D>> below, above, yieldBelow, yieldAbove;
 
   static WallSpeeds from(auto& take) {
-    return {.below = take(requiresNew(c::wallSpeedBelow<D>)),
-            .above = take(requiresNew(c::wallSpeedAbove<D>)),
-            .yieldBelow = take(requiresNew(c::wallYieldBelow<D>)),
-            .yieldAbove = take(requiresNew(c::wallYieldAbove<D>))};
+    return {.below = take(requiresNew(c::wallSpeed<D>[0])),
+            .above = take(requiresNew(c::wallSpeed<D>[1])),
+            .yieldBelow = take(requiresNew(c::wallYield<D>[0])),
+            .yieldAbove = take(requiresNew(c::wallYield<D>[1]))};
   }
   double at(const Index<D>& cell, int axis, int side) const {
     return side == 0 ? below[cell][axis] : above[cell][axis];
@@ -49,10 +49,10 @@ struct NewWallSpeeds {
   CellView<Vec<D>> below, above, yieldBelow, yieldAbove;
 
   static NewWallSpeeds from(auto& take) {
-    return {.below = take(computes(c::wallSpeedBelow<D>)),
-            .above = take(computes(c::wallSpeedAbove<D>)),
-            .yieldBelow = take(computes(c::wallYieldBelow<D>)),
-            .yieldAbove = take(computes(c::wallYieldAbove<D>))};
+    return {.below = take(computes(c::wallSpeed<D>[0])),
+            .above = take(computes(c::wallSpeed<D>[1])),
+            .yieldBelow = take(computes(c::wallYield<D>[0])),
+            .yieldAbove = take(computes(c::wallYield<D>[1]))};
   }
 };
 
@@ -142,38 +142,25 @@ template <int D>
 numerics::CellEquation<D> pressureEquationBeside(const ice::FaceFlow<D>& flow, const FreeSpace<D>& space,
                                                  const WallSpeeds<D>& walls, double free, const Index<D>& cell,
                                                  double dt) {
-  const std::size_t p = euler::kPressure<D>;
   const double gamma = flow.gas().gamma;
-  numerics::CellEquation<D> equation{{}, 0};
-  numerics::Balance<D>& left = equation.left;
-  left.cells[0] = cell;
-  left.weights[0] = space.isEmpty(cell) ? 1 : free;
+  numerics::CellEquation<D> equation = ice::equationWith(cell, space.isEmpty(cell) ? 1 : free);
   if (space.isEmpty(cell)) return equation;
-  const double own = gamma * (flow.old().number(cell, p) + flow.gas().pInfinity);
-  for (int d = 0; d < D; ++d) {
-    const double ratio = dt * flow.level().inverseSpacing(d);
-    const OpenFaces faces = space.faces(cell, d);
-    for (const int side : {0, 1}) {
-      const double out = (side == 0 ? -1 : 1) * ratio;
-      if (const double wall = faces.wall(side); wall > 0) {
-        equation.right -= out * wall * own * walls.at(cell, d, side);
-        left.weights[0] += ratio * wall * own * dt * walls.yield(cell, d, side);
-      }
-      const double open = faces.open[side];
-      if (!(open > 0)) continue;
-      const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
-      const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : face;
-      const double enthalpy = open * gamma * flow.stiffPressure(face, d);
-      const double rise = flow.old().number(next, p) - flow.old().number(cell, p);
-      const double weight = ratio * enthalpy * flow.loss(face, d);
-      equation.right -= out * enthalpy * flow.unchanged(face, d);
-      equation.right += 0.5 * (gamma - 1) * open * out * flow.old().number(cell, euler::kVelocity(d)) * rise;
-      left.weights[0] += weight;
-      if (!flow.isOnGrid(next)) continue;
-      left.cells[left.count] = next;
-      left.weights[left.count++] = -weight;
+  const double own = gamma * (flow.old().number(cell, euler::kPressure<D>) + flow.gas().pInfinity);
+  std::array<OpenFaces, D> faces;
+  for (int d = 0; d < D; ++d) faces[d] = space.faces(cell, d);
+  ice::forEachFaceOf<D>(flow.level(), cell, dt, [&](const ice::CellFace<D>& face) {
+    if (const double wall = faces[face.axis].wall(face.side); wall > 0) {
+      equation.right -= face.out * wall * own * walls.at(cell, face.axis, face.side);
+      equation.left.weights[0] += face.ratio * wall * own * dt * walls.yield(cell, face.axis, face.side);
     }
-  }
+    const double open = faces[face.axis].open[face.side];
+    if (!(open > 0)) return;
+    const double enthalpy = open * gamma * flow.stiffPressure(face.index, face.axis);
+    const double velocity = flow.old().number(cell, euler::kVelocity(face.axis));
+    equation.right -= face.out * enthalpy * flow.unchanged(face.index, face.axis);
+    equation.right += 0.5 * (gamma - 1) * open * face.out * velocity * ice::riseAcross(flow, cell, face);
+    ice::couple(flow, face.next, face.ratio * enthalpy * flow.loss(face.index, face.axis), equation.left);
+  });
   return equation;
 }
 
@@ -185,44 +172,22 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
                          const std::vector<WallSpeeds<D>>& walls, const std::vector<CellView<const double>>& guess,
                          const std::vector<ice::PressureViews>& fresh, const ice::SolveTotals& totals) {
   const Level& level = patches.front()->level();
-  const std::size_t number = euler::kPressure<D>;
   const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas.gas);
   std::vector<ice::FaceFlow<D>> flows;
   std::vector<FreeSpace<D>> spaces;
-  std::vector<CellView<double>> changes;
-  std::vector<CellView<const double>> first;
-  double greatest = 0;
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    const CellView<double>& change = changes.emplace_back(fresh[p].change);
     flows
         .emplace_back(level, settings.gas, *settings.implicit, rules, patches[p]->cells(), dt,
                       flatAtBodies<D>(level, cells[p]))
         .hold(patches[p]->cells(), alone[p].state);
     spaces.emplace_back(level, settings, cells[p]);
-    forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
-      const double old = flows[p].old().number(cell, number);
-      change[cell] = spaces[p].isEmpty(cell) ? 0 : guess[p][cell] - old;
-      if (!spaces[p].isEmpty(cell)) greatest = std::max(greatest, std::abs(old + settings.gas.gas.pInfinity));
-    });
-    first.emplace_back(change.values(), change.stored(), change.box());
   }
-  const double scale = ranks.max(greatest) * std::sqrt(static_cast<double>(level.cells().size()));
-  numerics::CellSystem<D> system(patches, ranks);
-  const solvers::Outcome outcome = system.solve(
-      settings.implicit->solver, first,
+  ice::solveForChange<D>(
+      patches, ranks, *settings.implicit, flows, guess, fresh, totals,
+      [&](std::size_t p, const Index<D>& cell) { return spaces[p].isEmpty(cell); },
       [&](std::size_t p, const Index<D>& cell) {
         return pressureEquationBeside<D>(flows[p], spaces[p], walls[p], cells[p].free[cell], cell, dt);
-      },
-      scale);
-  system.requireConvergence(outcome, "the pressure", "CFD/ICE/ImplicitSolver", "c.pressure",
-                            ", or a smaller <delt_max>");
-  system.take(changes);
-  for (std::size_t p = 0; p < patches.size(); ++p)
-    forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
-      fresh[p].atEnd[cell] = flows[p].old().number(cell, number) + changes[p][cell];
-    });
-  totals.iterations.add(outcome.krylovIterations);
-  solvers::addTimes(outcome, totals.assembly, totals.preconditioner, totals.solution);
+      });
 }
 
 /// Pressure of the gas on walls, that at the end of the step, and where they close in, von Neumann's and Richtmyer's

@@ -11,7 +11,7 @@ template <int D>
 struct WallPressures {
   CellView<Vec<D>> below, above;
   static WallPressures from(auto& take) {
-    return {.below = take(computes(c::wallPressureBelow<D>)), .above = take(computes(c::wallPressureAbove<D>))};
+    return {.below = take(computes(c::wallPressure<D>[0])), .above = take(computes(c::wallPressure<D>[1]))};
   }
 };
 
@@ -87,8 +87,8 @@ struct KnownWalls {
   std::optional<CellView<const Vec<D>>> friction = {};
 
   static KnownWalls from(auto& take, int ghost, bool isViscous) {
-    return {.below = take(requiresNew(c::wallPressureBelow<D>, ghost)),
-            .above = take(requiresNew(c::wallPressureAbove<D>, ghost)),
+    return {.below = take(requiresNew(c::wallPressure<D>[0], ghost)),
+            .above = take(requiresNew(c::wallPressure<D>[1], ghost)),
             .friction = take(when(isViscous, requiresNew(c::wallFriction<D>, ghost)))};
   }
 };

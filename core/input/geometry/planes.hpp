@@ -26,8 +26,8 @@ class Polygon : public GeometryPiece {
   Box3 bounds_;
 };
 
-/// The corners of a polygon: a line `x y` for each, in the file `path`. A line that is not right, fewer than three of
-/// them, or no such file gets a sentence at `tag`, and there are none.
+/// The corners of a polygon: a line `x y` for each, in the file `path`. If a line is malformed, there are fewer than
+/// three, or there is no such file, reports an error at `tag` and returns no corners.
 std::vector<Vec3> readPolygon(const std::string& path, const Element& tag, Diagnostics& diagnostics);
 
 /// A plane through a point; its normal points into the body.

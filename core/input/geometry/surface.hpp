@@ -39,8 +39,8 @@ class Surface : public GeometryPiece {
 std::string whyOpen(const Triangles& triangles);
 
 /// The triangles of a file: STL, as text or binary, where its name ends in `.stl`; else those of NAME.tri, three
-/// numbers of points a line, counted from 0, and the points of NAME.pts, three coordinates a line. A line that is not
-/// right, a file that ends early or that is none gets a sentence with its name at `tag`, and there are none.
+/// numbers of points a line, counted from 0, and the points of NAME.pts, three coordinates a line. If a line is
+/// malformed, or a file is missing or ends early, reports an error with its name at `tag` and returns no triangles.
 Triangles readTriangles(const std::string& path, const Element& tag, Diagnostics& diagnostics);
 
 }  // namespace tushar::input

@@ -100,7 +100,7 @@ std::optional<std::string> slurp(const std::string& path) {
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-/// Three numbers a line; empty lines are ignored. `problem` says which line is not so.
+/// Three numbers a line; empty lines are ignored. Otherwise `problem` names the line.
 template <class Number>
 std::vector<std::array<Number, 3>> readTriples(const std::string& text, std::string& problem) {
   std::vector<std::array<Number, 3>> triples;

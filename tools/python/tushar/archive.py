@@ -59,7 +59,8 @@ def _xml(path: str) -> ElementTree.Element:
 
 
 def unlisted(folder: str, known: Set[str]) -> List[Tuple[int, float, str]]:
-    """Step, time [s] and file of the outputs that index.xml lacks: it is behind while a run goes on, or was killed."""
+    """Step, time [s] and file of the outputs that index.xml lacks: it may be out of date while a run goes on, or after
+    a kill."""
     found = []
     for name in os.listdir(folder):
         if name in known or not re.fullmatch(r"t\d{5,}\.h5", name):
@@ -131,7 +132,7 @@ class Archive(Sequence[Snapshot]):
             raise ArchiveError(f"cannot read '{path}', which is damaged: {error}") from None
 
     def _read(self, index: ElementTree.Element) -> None:
-        """What the index says; ValueError for words where numbers belong."""
+        """Contents of the index; ValueError for words where numbers belong."""
         self.version = index.get("version", "")
         if int(index.get("format", FORMAT)) > FORMAT:
             raise ArchiveError(f"'{self.folder}' has format {index.get('format')}, and this reader knows formats up to "
@@ -148,7 +149,7 @@ class Archive(Sequence[Snapshot]):
         self.files = [os.path.join(self.folder, name) for _, _, name in outputs]
 
     def _not_an_archive(self) -> str:
-        """What the path is instead, and what may be meant."""
+        """What the path is instead of an archive, and the archive that may be meant."""
         numbered = sorted(glob.glob(glob.escape(self.folder) + ".[0-9]*"))
         above, name = os.path.split(self.folder)
         if os.path.isdir(self.folder):
@@ -209,7 +210,8 @@ class Archive(Sequence[Snapshot]):
         return int(np.argmin(np.abs(np.array(self.times) - time)))
 
     def variable(self, name: str, centrings: Sequence[str] = ()) -> Variable:
-        """The saved variable of that name, among those of some centrings; by default of those that its letter means."""
+        """The saved variable of that name, among those of some centrings; by default of the one that its first letter
+        means."""
         wanted = centrings or BY_LETTER.get(name[:2], ("particle", "cell", "node"))
         names = [other for other, variable in self.variables.items() if variable.centring in wanted]
         kind = "variable" if len(wanted) == 3 else " or ".join(wanted) + " variable"
@@ -230,7 +232,8 @@ class Archive(Sequence[Snapshot]):
 
     @property
     def runs(self) -> List[Dict[str, Any]]:
-        """What run.json says of each start and restart: program, command line, dates and end; [] of older archives."""
+        """The entries of run.json, one for each start and restart: program, command line, dates and end; [] of older
+        archives."""
         try:
             with open(os.path.join(self.folder, "run.json"), encoding="utf-8") as file:
                 found: List[Dict[str, Any]] = json.load(file)["runs"]
@@ -284,7 +287,7 @@ class Archive(Sequence[Snapshot]):
 
 
 class OutputError(ArchiveError, IndexError):
-    """A number that no output has."""
+    """The error for a number that no output has."""
 
 
 def open_archive(path: Any) -> Archive:

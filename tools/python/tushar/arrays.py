@@ -44,7 +44,7 @@ class Array(NDArrayOperatorsMixin):
         return f"<Array {self.name}{unit}, shape {self.shape}, {self.dtype}, not read yet>"
 
     def __getitem__(self, key: Any) -> Any:
-        """What numpy's indexing of all values gives; slices and numbers read from the disk what they select."""
+        """As numpy's indexing of all values; slices and numbers read only what they select."""
         if not is_basic(key):
             return self.values[key]
         if any(runs_backwards(item) for item in (key if isinstance(key, tuple) else (key,))):
@@ -88,7 +88,7 @@ class Array(NDArrayOperatorsMixin):
         return getattr(ufunc, method)(*[item.values if isinstance(item, Array) else item for item in inputs], **options)
 
     def __getattr__(self, name: str) -> Any:
-        """What else numpy's arrays have, such as `max()`, `mean(axis=0)` and `T`: of all values, read now."""
+        """Other attributes of numpy's arrays, such as `max()`, `mean(axis=0)` and `T`: of all values, read now."""
         if name.startswith("_"):
             raise AttributeError(name)
         return getattr(self.values, name)

@@ -1,4 +1,4 @@
-"""The errors of the package: each says in a sentence or more what is wrong and, where it can, what to do."""
+"""The errors of the package: each message states what is wrong and, where possible, what to do."""
 from __future__ import annotations
 
 import difflib
@@ -11,19 +11,19 @@ if TYPE_CHECKING:
 
 
 class TusharError(Exception):
-    """Anything that this package finds wrong."""
+    """Base class of the errors of this package."""
 
 
 class ArchiveError(TusharError):
-    """What is wrong with an archive, or with what was asked of it."""
+    """An error in an archive, or in a request for its contents."""
 
 
 class MissingLibrary(TusharError, ImportError):
-    """A library that is optional and not installed."""
+    """An optional library that is not installed."""
 
 
 class SusError(TusharError):
-    """A run that failed. `sentences` are what sus said, `code` its exit code, `run` what is left of the run."""
+    """A run that failed. `sentences` are the messages of sus, `code` is its exit code, `run` what the run left."""
 
     def __init__(self, message: str, code: int = 1, run: Optional[Run] = None) -> None:
         super().__init__(message)
@@ -33,7 +33,7 @@ class SusError(TusharError):
 
 
 class CommandError(SusError):
-    """Exit code 2: options that sus does not take."""
+    """Exit code 2: options that sus does not accept."""
 
 
 class InputError(SusError):

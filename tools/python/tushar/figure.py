@@ -56,7 +56,7 @@ def choose(output: Output) -> Tuple[List[str], List[str]]:
 
 
 def broken(title: str, letters: int) -> str:
-    """A title in lines of so many letters; where it can be, broken before the time or the place."""
+    """A title in lines of at most so many letters, broken before the time or the place if possible."""
     lines: List[str] = []
     for part in title.split(",  "):
         if lines and len(lines[-1]) + len(part) + 3 <= letters:
@@ -67,7 +67,7 @@ def broken(title: str, letters: int) -> str:
 
 
 class Figure:
-    """One output of an archive as a figure. `notes` tells what was chosen or could not be drawn. Raises ArchiveError if
+    """One output of an archive as a figure. `notes` state what was chosen or could not be drawn. Raises ArchiveError if
     nothing can."""
 
     def __init__(self, archive: Archive, index: int = -1, variables: Sequence[str] = (), title: Optional[str] = None,
@@ -188,7 +188,7 @@ class Figure:
                 self._seen(part, quantity, seen)
 
     def _lengths(self) -> List[float]:
-        """Those of the axes on paper, the longest 1; none is so short that its marks do not fit."""
+        """Lengths of the axes on paper, the longest 1; none is too short for its marks."""
         long = [high - low for low, high in map(self.output.extent, range(3))]
         return [max(0.15, length / max(long)) for length in long]
 

@@ -57,7 +57,7 @@ def _planes(archive: Archive, label: str, view: View) -> Optional[Tuple[float, f
 
 
 def _round(low: float, high: float, view: View) -> Range:
-    """The same to both sides of 0 for a difference."""
+    """For a difference, a range symmetric about 0."""
     most = max(abs(low), abs(high))
     return (-most, most) if view.other and low < 0 else (float(low), float(high))
 
@@ -91,7 +91,7 @@ def check_path(path: str) -> str:
 
 def write(archive: Archive, path: str, variables: Sequence[str] = (), title: Optional[str] = None,
           view: Optional[View] = None, progress: Optional[Progress] = None) -> Tuple[str, List[str]]:
-    """Writes a film, .gif or .mp4 (.gif where there is no ffmpeg): its path, and notes. `progress` hears of each
+    """Writes a film, .gif or .mp4 (.gif where there is no ffmpeg): its path, and notes. Calls `progress` after each
     picture."""
     ending = check_path(path)
     notes: List[str] = []
@@ -110,7 +110,7 @@ def write(archive: Archive, path: str, variables: Sequence[str] = (), title: Opt
 
 def _pictures(archive: Archive, drawn: Iterator[Figure], notes: List[str],
               progress: Optional[Progress]) -> Iterator[Any]:
-    """The pictures one by one, as bytes; what there is to say of them is added to `notes`."""
+    """The pictures one by one, as bytes; adds remarks on them to `notes`."""
     for figure in drawn:
         notes += [note for note in figure.notes if note not in notes]
         if progress:

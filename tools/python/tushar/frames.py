@@ -20,7 +20,7 @@ DIMS = {"cell": ("z", "y", "x"), "node": ("z_node", "y_node", "x_node")}
 
 
 def tails(count: int) -> List[str]:
-    """What follows a variable's name for each of its components: .x, .y, .z."""
+    """Suffixes of a variable's name for its components: .x, .y, .z."""
     return TAILS.get(count, [f".{k + 1}" for k in range(count)])
 
 
@@ -221,7 +221,8 @@ def _field(snapshot: Snapshot, variable: Variable, owner: Optional[str]) -> Any:
 
 
 def _values(snapshot: Snapshot, variable: Variable, owner: Optional[str], key: Any, like: Any) -> Values:
-    """What an output has there; not a number where it lacks the field, as a start lacks what steps compute."""
+    """Values of an output there; NaN where it lacks the field, as the initial output lacks variables that steps
+    compute."""
     with Snapshot(snapshot.archive, snapshot.index, snapshot.path, snapshot.time, snapshot.step) as own:
         held = {name for name, *_ in fields_of(own)}
         if not held & {variable.name, f"{variable.name}.{owner}"}:

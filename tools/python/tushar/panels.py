@@ -37,7 +37,7 @@ def words(label: str) -> str:
 
 
 def name_of(output: Output, quantity: Quantity, on_line: bool = False) -> str:
-    """What an axis calls a quantity: density, |velocity|, velocity x, difference of density."""
+    """The name of a quantity on an axis: density, |velocity|, velocity x, difference of density."""
     base = quantity.variable.name
     name = next((name for known, _, name in GAS if known == base), words(base))
     if quantity.component is not None:

@@ -27,11 +27,11 @@ SUS = str(ROOT / "build/release/sus")
 
 
 class SceneError(SusError):
-    """What sus says of a scene that it does not run."""
+    """The messages of sus for a scene that it does not run."""
 
 
 def scene_path(scene: Path) -> pathlib.Path:
-    """A scene as the caller or, failing that, the root of the repository knows it."""
+    """The path of a scene relative to the working folder or, failing that, to the root of the repository."""
     return pathlib.Path(scene).resolve() if os.path.exists(scene) else ROOT / scene
 
 
@@ -55,7 +55,7 @@ def find_sus(sus: Optional[Path] = None) -> str:
 
 
 def command_of(sus: Path, scene: Path, sets: Sequence[str], folder: Path, options: Sequence[str] = ()) -> List[str]:
-    """A run without words on the screen; its files and report.json go into `folder`."""
+    """A run that prints nothing; its files and report.json go into `folder`."""
     words = [str(sus), str(scene_path(scene)), "--quiet", "--json", str(pathlib.Path(folder, "report.json")),
              "--output", str(folder), *options]
     for override in sets:

@@ -106,12 +106,12 @@ def _end(process: subprocess.Popen[str]) -> None:
 
 
 def launcher(ranks: int) -> List[str]:
-    """What starts a program on several ranks; nothing for one."""
+    """The words that start a program on several ranks; none for one."""
     return [] if ranks == 1 else ["mpirun", "-n", str(ranks)]
 
 
 def error_of(code: int, errors: str, done: Run) -> SusError:
-    """The error that belongs to an exit code, with what sus said."""
+    """The error that belongs to an exit code, with the messages of sus."""
     said = errors.strip() or str(done.report.get("failure", ""))
     if code < 0:
         said = said or f"sus was ended by signal {-code}"

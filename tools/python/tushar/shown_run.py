@@ -39,8 +39,8 @@ def film_interval(scene: str, sets: Sequence[str]) -> Optional[float]:
 
 
 def run_shown(scene: str, sets: Sequence[str]) -> str:
-    """Runs a scene by tools/run, or by the program that $SUS names: the folder of its archive. What sus says goes to
-    standard error. SusError, with the exit code of sus, for a run that failed; sus has said why."""
+    """Runs a scene by tools/run, or by the program that $SUS names: the folder of its archive. The output of sus goes
+    to standard error. SusError, with the exit code of sus, for a run that failed; sus has printed why."""
     program = [find_sus()] if os.environ.get("SUS") else ["bash", str(ROOT / "tools/run")]
     overrides = [word for item in sets for word in ("--set", item)]
     with tempfile.TemporaryDirectory() as folder:

@@ -44,7 +44,7 @@ class Snapshot:
         self.close()
 
     def close(self) -> None:
-        """Closes the file; arrays that were not read yet can no longer be."""
+        """Closes the file; arrays that have not been read yet can no longer be read."""
         if self._opened:
             self._opened.close()
         self._opened = None

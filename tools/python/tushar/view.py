@@ -1,4 +1,4 @@
-"""What a picture shows of an output: which values, where, and of which material."""
+"""The part of an output that a picture shows: which values, where, and of which material."""
 from __future__ import annotations
 
 import dataclasses
@@ -81,7 +81,7 @@ class Quantity:
 
 
 class Output:
-    """An output as a view shows it. `notes` say what was chosen or left out."""
+    """An output as a view shows it. `notes` state what was chosen or left out."""
 
     def __init__(self, snapshot: Snapshot, view: View) -> None:
         self.snapshot, self.view, self.grid = snapshot, view, snapshot.grid
@@ -195,7 +195,8 @@ class Output:
         return float(self.grid.lower[axis]), float(self.grid.upper[axis])
 
     def planes(self, quantity: Quantity) -> Tuple[float, float, float]:
-        """Where three slices show most [m]: the middle of the grid, of particles the rows of cells that hold most."""
+        """The places of three slices that show most [m]: the middle of the grid or, for particles, the rows of cells
+        with the most of them."""
         if self.view.planes:
             return self.view.planes
         if quantity.variable.centring != "particle":

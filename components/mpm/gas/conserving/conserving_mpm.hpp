@@ -1,8 +1,7 @@
 #pragma once
 
 #include "components/mpm/gas/conserving/scheme.hpp"
-#include "components/mpm/gas/material.hpp"
-#include "components/reference/gas_solution.hpp"
+#include "components/mpm/gas/gas_method.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
@@ -24,19 +23,15 @@ namespace tushar::mpm::gas::conserving {
 ///
 /// conserving_mpm.cpp is the schedule; the bodies of its tasks are beside it.
 template <int D>
-class ConservingMpm : public Component, public reference::GasSolution {
+class ConservingMpm : public GasMethod<ConservingGasDynamics> {
  public:
-  ConservingMpm(const ConservingGasDynamics& method, std::vector<Gas> materials)
-      : method_(method), materials_(std::move(materials)) {}
+  using GasMethod::GasMethod;
 
-  std::string whyOneLevel() const override { return "its gas fills the grid, and particles are on the finest level"; }
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
-  std::vector<reference::GasLaw> gases() const override { return lawsOf(materials_); }
-  void scheduleMeasureError(TaskList& tasks, const reference::GasReference& reference,
-                            const reference::Clock& clock) const override;
+  void scheduleMeasureError(TaskList&, const reference::GasReference&, const reference::Clock&) const override;
 
  private:
   /// Adds the tasks whose bodies depend on the transfer.
@@ -49,9 +44,6 @@ class ConservingMpm : public Component, public reference::GasSolution {
   void scheduleRedistribute(TaskList& tasks) const;
   void scheduleGridState(TaskList& tasks, bool isStart = false) const;
   bool isMixture() const { return materials_.size() > 1; }
-
-  ConservingGasDynamics method_;
-  std::vector<Gas> materials_;
 };
 
 extern template class ConservingMpm<1>;

@@ -1,10 +1,9 @@
 #pragma once
 
+#include "components/mpm/gas/gas_method.hpp"
 #include "components/mpm/gas/labels.hpp"
-#include "components/mpm/gas/material.hpp"
 #include "components/mpm/gas/paper/method.hpp"
 #include "components/mpm/shapes/linear.hpp"
-#include "components/reference/gas_solution.hpp"
 
 namespace tushar::mpm::gas::paper {
 
@@ -13,24 +12,18 @@ namespace tushar::mpm::gas::paper {
 /// gas_mpm.cpp is the schedule: task by task with the numbers of the paper's equations. The bodies of the tasks are in
 /// tasks/.
 template <int D>
-class GasMpm : public Component, public reference::GasSolution {
+class GasMpm : public GasMethod<GasDynamics> {
  public:
-  GasMpm(const GasDynamics& method, std::vector<Gas> materials) : method_(method), materials_(std::move(materials)) {}
+  using GasMethod::GasMethod;
 
-  const GasDynamics& method() const { return method_; }
-  const std::vector<Gas>& materials() const { return materials_; }
-
-  std::string whyOneLevel() const override { return "its gas fills the grid, and particles are on the finest level"; }
+  std::string advice() const override {
+    return "a smaller <cfl>, more particles per cell (<res>), or <redistribute> in <gas_dynamics>";
+  }
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
-  std::string advice() const override {
-    return "a smaller <cfl>, more particles per cell (<res>), or <redistribute> in <gas_dynamics>";
-  }
-  std::vector<reference::GasLaw> gases() const override { return lawsOf(materials_); }
-  void scheduleMeasureError(TaskList& tasks, const reference::GasReference& reference,
-                            const reference::Clock& clock) const override;
+  void scheduleMeasureError(TaskList&, const reference::GasReference&, const reference::Clock&) const override;
 
  private:
   /// Cells beyond a patch whose particles touch its nodes.
@@ -46,9 +39,6 @@ class GasMpm : public Component, public reference::GasSolution {
   void scheduleFilterDensity(TaskList& tasks) const;
   void scheduleComputePressure(TaskList& tasks) const;
   void scheduleShareCellVolume(TaskList& tasks) const;
-
-  GasDynamics method_;
-  std::vector<Gas> materials_;
 };
 
 extern template class GasMpm<1>;

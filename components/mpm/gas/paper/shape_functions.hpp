@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// What the places of all cells of a level have in common: it is found once for all of them.
+/// The part of the places of cells that is the same for all cells of a level, found once.
 template <int D>
 struct CellPlaces {
   Vec<D> middle;          ///< of the grid, m

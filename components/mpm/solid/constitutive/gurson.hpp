@@ -71,7 +71,7 @@ struct GursonPlastic {
                              const State&) const {
     return stressWork(d, oldStress, stress);
   }
-  /// From plastic work and from the volume change.
+  /// By plastic work and by the change of volume, K.
   double temperatureChange(const Deformation& d, const Matrix3&, const State& state) const {
     const VolumeState volume = base.volumeState(d, 0, 0);
     const double byVolume = std::visit([&](const auto& model) { return model.heating(volume); }, base.equationOfState);

@@ -9,10 +9,10 @@
 
 namespace tushar::mpm::solid {
 
-/// An explosive that burns by programme: a detonation starts at a point, or at a plane and runs to both sides, and has
-/// a given velocity whatever the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From
-/// t_b = T0 + |x - x_0| / D on it burns a particle of mass m, in the time in which it goes 1.5 (m / rho_0)^(1/3) far.
-/// sigma = -p I, with the pressures of Murnaghan and of Jones, Wilkins and Lee in proportion.
+/// An explosive that burns by programme: a detonation starts at a point, or at a plane to both sides, and runs at a
+/// given velocity whatever the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From t_b = T0 + |x -
+/// x_0| / D on, it burns a particle of mass m in the time in which it runs 1.5 (m / rho_0)^(1/3). sigma = -p I, with
+/// the pressures of Murnaghan and of Jones, Wilkins and Lee in proportion.
 struct ProgramBurn {
   struct State {
     double burned;  ///< F, 1

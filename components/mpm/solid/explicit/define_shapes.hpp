@@ -9,15 +9,11 @@ namespace tushar::mpm::solid {
 template <class Shape>
 inline constexpr ExplicitTasks<Shape::dimension> tasksOf = explicitTasks<Shape>();
 
-/// Of shape functions in one to three dimensions.
+/// The tasks of shape functions in one to three dimensions.
 template <template <int> class Shape>
-constexpr TasksOfShapes shapesInSpace() {
-  return {&tasksOf<Shape<1>>, &tasksOf<Shape<2>>, &tasksOf<Shape<3>>};
-}
-/// Of shape functions in radius and axis.
+inline constexpr TasksOfShapes shapesInSpace{&tasksOf<Shape<1>>, &tasksOf<Shape<2>>, &tasksOf<Shape<3>>};
+/// The tasks of shape functions in radius and axis.
 template <template <int> class Shape>
-constexpr TasksOfShapes shapesAroundAxis() {
-  return {&tasksOf<Shape<1>>, &tasksOf<Shape<2>>, nullptr};
-}
+inline constexpr TasksOfShapes shapesAroundAxis{&tasksOf<Shape<1>>, &tasksOf<Shape<2>>, nullptr};
 
 }  // namespace tushar::mpm::solid

@@ -116,9 +116,9 @@ void addSurroundings(Schema<MpmSection>& mpm) {
       .value("use_CBDI_boundary_condition", &MpmSection::loadsAtCorners, false, "1",
              "pressures act at the corners of the faces of particles, and grow with these (Sadeghirad, Brannon & "
              "Guilkey 2013). As in Uintah a particle without a face within 26 degrees of the surface bears none, and a "
-             "<torque> acts only where a pressure does, there four times")
+             "<torque> acts only where a pressure does, and counts four times")
       .value("keepPressBCNormalToSurface", &MpmSection::turnsPressures, false, "1",
-             "pressures turn with the particles they act on; else they keep their direction of the start")
+             "pressures turn with the particles they act on; otherwise they keep their initial direction")
       .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
       .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
              "friction between materials heats them, where heat is conducted")
@@ -327,8 +327,7 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
   for (Contact& contact : problem.contacts) {
     contact.actsTwice = contact.actsTwice || (read.xpic && contact.type != Contact::Type::planeFriction);
     contact.normalsInCells = read.axisymmetric;
-    if (contact.hasMaster())
-      problem.materials[static_cast<std::size_t>(contact.master)].isRigid = true;  // as in Uintah
+    if (contact.hasMaster()) problem.materials[contact.master].isRigid = true;  // as in Uintah
   }
   problem.method.thermalContact = properties.mpm.thermalContact.has_value();
   problem.start = {read.axisymmetric, readLoads(root, read.useLoadCurves, diagnostics),

@@ -1,19 +1,10 @@
 #include "components/mpm/solid/explicit/define_shapes.hpp"
 
-namespace tushar::mpm::solid {
-namespace {
-
-constexpr TasksOfShapes inSpace = shapesInSpace<CubicShape>();
-
-}  // namespace
-}  // namespace tushar::mpm::solid
-
 namespace tushar::modules {
 
-using namespace mpm::solid;
-
 simulation::Catalogue mpm_solid_cubic() {
-  defineShapes(Interpolator::cubic, inSpace);
+  using namespace mpm::solid;
+  defineShapes(Interpolator::cubic, shapesInSpace<mpm::CubicShape>);
   return {};
 }
 

@@ -76,7 +76,7 @@ void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagno
                      "the first step as in Uintah");
 }
 
-/// What is always so here.
+/// Tags for behaviour that is always on here.
 void addFixedHeat(Schema<Section>& mpm) {
   mpm.custom("interpolateParticleTempToGridEveryStep", noteFrozenTemperature,
              {"interpolateParticleTempToGridEveryStep"},

@@ -115,8 +115,8 @@ Schema<SurfaceSection> surfaceSchema(const std::string& name, const std::string&
       .requiredSection("load_curve", &SurfaceSection::curve, curveSchema())
       .optional("outward_normal", &SurfaceSection::outwardNormal, "1",
                 "needed for a pressure with <use_CBDI_boundary_condition>, where it acts on the faces of particles "
-                "towards the normal of the shape, or (false) on the opposite ones; else the sign of the load says "
-                "where to")
+                "towards the normal of the shape, or (false) on the opposite ones; otherwise the sign of "
+                "the load decides")
       .ignored("res", "particles are counted");
 }
 

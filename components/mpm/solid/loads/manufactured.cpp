@@ -13,7 +13,7 @@ constexpr double pi = std::numbers::pi;
 
 double barSpeed(const Elastic& e) { return std::sqrt(e.young / e.density); }
 
-/// u_i = A sin(pi X_i) sin(pi (phi_i + c t)): each axis on its own, the sides of the unit cube stay where they are.
+/// u_i = A sin(pi X_i) sin(pi (phi_i + c t)): each axis independently; the sides of the unit cube stay where they are.
 class AxisAligned : public Manufactured {
  public:
   double farthestAtStart() const override { return amplitude; }

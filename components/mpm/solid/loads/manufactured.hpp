@@ -18,8 +18,8 @@ struct Elastic {
 /// The constants of a material whose model is cnh_mms.
 Elastic elasticOf(const Material& material);
 
-/// A manufactured solution: a prescribed motion, and the body force under which a neo-Hookean solid moves like that, to
-/// measure errors against. Kamojjala, Brannon, Sadeghirad & Guilkey, Eng. Comput. 31 (2015) 193.
+/// A manufactured solution: a prescribed motion, and the body force that makes a neo-Hookean solid move like that: a
+/// reference for errors. Kamojjala, Brannon, Sadeghirad & Guilkey, Eng. Comput. 31 (2015) 193.
 class Manufactured {
  public:
   virtual ~Manufactured() = default;

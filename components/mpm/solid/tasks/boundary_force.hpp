@@ -40,11 +40,11 @@ void scheduleBoundaryForces(TaskList& tasks, const std::vector<Material>& materi
   for (int face = 0; face < 6; ++face) {
     if (isThin[face / 2])
       tasks.perMaterial("mpm::measureThinBoundary", measureThinBoundary, materials, with(face), volume, stress,
-                        computes(total::boundaryForce[face]), computes(total::contactArea[face]));
+                        computes(total::onFaces[face].force), computes(total::onFaces[face].area));
     else
       tasks.perMaterial("mpm::measureBoundary", measureBoundary<D>, materials, with(face),
-                        requiresNew(g::internalForce<D>), requiresNew(g::volume), computes(total::boundaryForce[face]),
-                        computes(total::contactArea[face]));
+                        requiresNew(g::internalForce<D>), requiresNew(g::volume), computes(total::onFaces[face].force),
+                        computes(total::onFaces[face].area));
   }
 }
 

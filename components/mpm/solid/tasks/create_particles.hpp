@@ -151,8 +151,8 @@ std::optional<std::pair<Vec<D>, Seed>> particleIn(const Level& finest, const Bod
   return found;
 }
 
-/// In a cell of a coarser level, one particle of each body that has some in the finest cells there: so these come to
-/// be, or the scene is refused. Points of the coarser cell itself would miss a thin body.
+/// In a cell of a coarser level, one particle of each body that has some in the finest cells there: so the finest cells
+/// come into being, or the scene is refused. Points of the coarser cell itself would miss a thin body.
 template <int D>
 void standIn(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
              const NewParticles<D>& particles) {

@@ -21,7 +21,7 @@ inline void sumThermalEnergy(const Patch&, const Material& material, ParticleVie
   for (int p = 0; p < mass.owned(); ++p) sum.add(mass[p] * material.specificHeat * temperature[p]);
 }
 
-/// Adds to a VectorSum by lanes that do not wait for one another.
+/// Adds to a VectorSum in independent lanes.
 struct WideVectorSum {
   WideSum x, y, z;
 

@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// What the schedule needs to know of shape functions: with these numbers it is the same for all of a dimension.
+/// The properties of shape functions on which the schedule depends: otherwise it is the same for all of a dimension.
 struct ShapeTraits {
   bool haveSizes = false;  ///< they depend on the sizes of particles
   bool deform = false;     ///< they follow F

@@ -53,7 +53,7 @@ def command_of(scene):
 
 
 def measured(scene, report):
-    """What a run gave when the manual was made."""
+    """The result of a run when the manual was made."""
     end = report.get("failure") or report.get("ended")
     rows = [("steps", f"{report.get('steps', 0)} to t = {report.get('time', 0):.6g} s ({end})")]
     if report.get("particles"):

@@ -33,7 +33,7 @@ def breakable(path):
 
 
 def badge(item):
-    """Whose the tag is, where it is not simply Uintah's."""
+    """The origin of a tag, unless it is simply Uintah's."""
     if item.tag.status != "used":
         kind, text = BADGES[item.tag.status]
         return f'<span class="badge {kind}">{text}</span>'
@@ -76,7 +76,7 @@ def item_html(item, here, known):
 
 
 def places(subject, here, reference):
-    """Where the tag of a page stands: each path with the component that reads it."""
+    """The places of the tag of a page: each path with the component that reads it."""
     seen = {}
     for section, path in subject.paths:
         label = section.name + (" (gases)" if section.variant else "")

@@ -17,7 +17,7 @@ CACHE = ROOT / "build/manual-cache"
 
 
 class Album:
-    """What is known of the runs of scenes. `sus` is None where nothing is run: then only what is kept already."""
+    """The runs of scenes. If `sus` is None, nothing is run, and only cached results are used."""
 
     def __init__(self, sus, makes, cache=CACHE):
         self.sus, self.makes, self.cache = sus, makes, pathlib.Path(cache)

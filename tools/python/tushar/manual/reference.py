@@ -21,7 +21,7 @@ class Item:
 
 @dataclasses.dataclass
 class Page:
-    """What a tag holds."""
+    """The content of a tag."""
     slug: str
     tag: Tag
     items: list = dataclasses.field(default_factory=list)
@@ -60,7 +60,7 @@ def is_own(section):
 
 
 def build(sections):
-    """The reference of what tags_of gives."""
+    """The reference of the sections that tags_of returns."""
     pages, roots = {}, []
     for section in sections:
         for root in section.roots:

@@ -1,4 +1,4 @@
-"""The scenes under ups: what their heads say, and which tags they use."""
+"""The scenes under ups: their head comments, and the tags that they use."""
 import dataclasses
 import pathlib
 import re
@@ -121,7 +121,7 @@ def _walk(scene, page, element, path):
 
 
 def _described_by_sentence(item):
-    """Tags that a function reads: their sentence is all that sus says of them."""
+    """Tags that a function reads: sus describes them only by their sentence."""
     return not item.tag.type or item.tag.status != "used"
 
 

@@ -1,4 +1,4 @@
-"""Builds the site: collects what there is, renders every page, writes the index of the search."""
+"""Builds the site: collects the sources, renders every page, writes the search index."""
 import json
 import pathlib
 import re
@@ -152,7 +152,7 @@ class Site:
         self.files["index.html"] = pages_other.home_page(tutorials, counts, self.assets[HOME_PICTURE], self.version)
 
     def write(self, out):
-        """Writes the site into a folder; what an earlier one left there goes away."""
+        """Writes the site into a folder, in place of an earlier one."""
         out = pathlib.Path(out)
         if out.exists() and any(out.iterdir()) and not (out / "search-index.js").exists():
             raise FileExistsError(f"{out} holds something else than a manual; give another folder")

@@ -53,7 +53,7 @@ class Tag:
 
 @dataclasses.dataclass
 class Section:
-    """What one name of --describe prints: a component, an analysis module or what all scenes share."""
+    """The manual that --describe prints for one name: a component, an analysis module or what all scenes share."""
     name: str
     kind: str  # component, module or scene
     sentence: str
@@ -87,7 +87,7 @@ def _listed(text):
 
 
 def parse(text):
-    """[(condition, roots)] of what --describe prints; ValueError for a line that is none of a schema."""
+    """[(condition, roots)] of the text that --describe prints; ValueError for a line that belongs to no schema."""
     parts, open_tags = [("", [])], []
     for line in text.splitlines():
         if re.match(r"(Where|For) .*, instead:$", line):
@@ -131,7 +131,7 @@ def _titled(title):
 
 
 def _presence_of(tag):
-    """Tags that are read by a function say in their sentence what they accept."""
+    """The sentence of a tag that a function reads states what it accepts."""
     if tag.sentence.startswith("only "):
         tag.status = "limited"
     elif tag.sentence.startswith("not there: "):

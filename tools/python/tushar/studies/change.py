@@ -16,7 +16,7 @@ class Change:
 
     @staticmethod
     def of(text):
-        """None where `text` means an error norm of the report."""
+        """None if `text` names an error norm of the report."""
         found = re.fullmatch(r"change\.(\w+)(?:\[(\d)\])?(?:=(\S+))?", text)
         if not found:
             return None
@@ -24,8 +24,8 @@ class Change:
         return Change(name, int(component or 0), None if value is None else float(value))
 
     def measured(self, folder):
-        """Mean over the last quarter of the simulated time less the first value. Of a run that swings about its end as
-        of one that is at rest there it is the end. None where the run has not saved the global."""
+        """Mean over the last quarter of the simulated time less the first value. This is the final value whether the
+        run oscillates about it or has come to rest. None where the run has not saved the global."""
         files = sorted(pathlib.Path(folder).glob(f"*.uda.*/{self.name}.dat"))
         lines = rows_of(files[-1]) if files else []
         if not lines or len(lines[0]) <= 1 + self.component:

@@ -47,7 +47,7 @@ class Settings:
 
 @dataclasses.dataclass
 class Outcome:
-    """What became of a scene: `ran`, `stopped` at the limit, `refused` or `failed`. Times in s; `time` is how far it
+    """The outcome of a scene: `ran`, `stopped` at the limit, `refused` or `failed`. Times in s; `time` is how far it
     came."""
     scene: str
     type: str
@@ -64,7 +64,7 @@ class Outcome:
 
 
 def type_of(path):
-    """The component that a file asks for, in small letters; empty for one that is no scene."""
+    """The component of a scene, in small letters; empty for a file that is not a scene."""
     found = TYPE.search(COMMENT.sub("", path.read_text(encoding="utf-8", errors="replace")))
     return found[1].lower() if found else ""
 
@@ -110,7 +110,7 @@ def problems_of(said):
 
 
 def result_of(code, limited):
-    """What an exit code means; a run that was told to end may have ended by itself."""
+    """The meaning of an exit code; a run that was stopped may have ended by itself."""
     if code == 0:
         return "ran"
     if limited:
@@ -125,8 +125,8 @@ class Runner:
         self.settings, self.jobs, self._stop = settings, jobs, threading.Event()
 
     def run(self, scenes, tell):
-        """Runs all. `tell` gets each outcome as it comes, how many there are, and all so far in the order of the
-        scenes. What ends this early, such as Ctrl-C, ends the runs too."""
+        """Runs all. Calls `tell` with each outcome as it comes, their number, and all so far in the order of the
+        scenes. An early end, such as by Ctrl-C, ends the runs, too."""
         outcomes = {}
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
             waiting = {pool.submit(self.run_scene, scene): scene for scene in scenes}
@@ -159,7 +159,7 @@ class Runner:
         return [*words, "--check"] if self.settings.check else [*words, "--json", os.path.join(folder, "report.json")]
 
     def _wait(self, process, started):
-        """Waits until the run ends or is over its limit, when it is told to end and then made to. Whether it was, and
+        """Waits until the run ends; past its limit, stops it, at last by force. Returns whether it was stopped, and
         what the process has used."""
         told = None
         while True:
@@ -192,7 +192,7 @@ class Runner:
 
 
 def work_of(pid):
-    """Processor time that a process has used, s; 0 where the system does not say."""
+    """Processor time that a process has used, s; 0 if the system does not report it."""
     try:
         words = pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     except OSError:
@@ -207,12 +207,12 @@ def stopped_after(outcome, report):
 
 
 def ended_by(code):
-    """Of a program that ended without a word."""
+    """The reason why a program ended without a message."""
     return f"ended by signal {-code}" if code < 0 else f"ended with exit code {code}, without a sentence"
 
 
 def short(sentence):
-    """The first part of a sentence, without what is allowed and what is advised, and without the numbers of lines."""
+    """The first part of a message, without allowed values, advice and line numbers."""
     text = re.sub(r" on line \d+| of \S+:\d+:\d+(?= is still open)", "", sentence.split(";")[0])
     return text if len(text) <= LONGEST else text[:LONGEST].rsplit(" ", 1)[0].rstrip(",") + " …"
 
@@ -226,7 +226,8 @@ def reason_of(outcome):
 
 
 def blockers(outcomes, result):
-    """What keeps scenes from running, by sentences: (sentence, number, names of scenes, how many of these have no other
+    """The reasons why scenes do not run, by message: (sentence, number, names of scenes, how many of these have no
+    other
     problem), those that block most first. Sentences that block the same scenes stand together."""
     scenes, numbers = {}, {}
     for outcome in outcomes:

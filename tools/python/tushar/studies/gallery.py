@@ -1,4 +1,4 @@
-"""The gallery of hard cases: what is run, by which methods, and what the default method promises."""
+"""The gallery of hard cases: the cases, their methods, and the errors that the default method must keep."""
 import dataclasses
 
 from tushar.studies import scene_variants

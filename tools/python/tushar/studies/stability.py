@@ -1,4 +1,4 @@
-"""Runs the gallery of hard cases over methods and time steps, and judges what comes out."""
+"""Runs the gallery of hard cases over methods and time steps, and judges the results."""
 import hashlib
 import json
 import math
@@ -27,7 +27,7 @@ def scene_of(case, method):
 
 
 def write_scene(case, method, path):
-    """The scene of a case as a method runs it, without what it is measured against."""
+    """The scene of a case as a method runs it, without its reference."""
     root = scene_of(case, method)
     for text in sets_of(case, method):
         scene_variants.override(root, text)
@@ -37,12 +37,13 @@ def write_scene(case, method, path):
 
 
 def sets_of(case, method):
-    """What is overridden in that scene when it is run."""
+    """The overrides of that scene when it is run."""
     return [*method.sets, *case.sets]
 
 
 class Gallery:
-    """Runs of cases by methods; kept in a file, so that work goes on where it stopped. Runs of another program, and
+    """Runs of cases by methods; kept in a file, so that an interrupted gallery continues where it stopped. Runs of
+    another program, and
     of scenes that have changed since, are forgotten."""
 
     def __init__(self, folder, sus):
@@ -53,7 +54,7 @@ class Gallery:
         self.runs = self._known_runs()
 
     def _known_runs(self):
-        """What was run before; nothing where the file is damaged."""
+        """Earlier runs; none if the file is damaged."""
         try:
             known = json.loads(self.file.read_text())
             return known["runs"] if known["program"] == self.program else {}
@@ -70,7 +71,7 @@ class Gallery:
         return path
 
     def run(self, case, method, factor=1.0):
-        """What is known of a case by a method with so many times the time step that the method itself would take."""
+        """The result of a case by a method with a multiple of the time step that the method itself would take."""
         scene = self.scene(case, method)
         sets = [*sets_of(case, method), f"Time/timestep_multiplier={factor!r}", f"Time/max_wall_time={WALL}"]
         key = hashlib.sha1(json.dumps([scene.read_text(), sets]).encode()).hexdigest()[:12]
@@ -146,7 +147,7 @@ def is_stable(run, first):
 
 
 def judge(run, case, isOurs):
-    """`pass`, or what a run breaks. The error counts for the default method alone: others have promised nothing."""
+    """`pass`, or the bound that a run breaks. The error counts for the default method alone: others have no bound."""
     if case.fails:
         return ["pass"] if case.fails in run["failure"] else ["did not fail as it must"]
     if run["failure"]:
@@ -193,7 +194,7 @@ def write_markdown(rows, command, path):
 
 
 def first_sentence(failure):
-    """What a run died of, without the neighbours and the advice."""
+    """Why a run failed, without the neighbours and the advice."""
     text = failure.removeprefix("sus: ")
     place = text[text.rfind("(task"):].split(")")[0] + ")" if "(task" in text else ""
     return f"{text.split('; around it')[0].split(' (task')[0]} {place}".strip()

@@ -17,7 +17,7 @@ from tushar.studies.shorthand import SHORT
 
 
 class StudyError(Exception):
-    """What went wrong, in a sentence."""
+    """An error, in a sentence."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Case:
 
 
 def scene_text(scene, outer=()):
-    """What a scene says, with the files that it includes; '' for one that cannot be read, which sus will say."""
+    """The text of a scene with the files that it includes; '' if it cannot be read, which sus will report."""
     path = scene_path(scene)
     try:
         text = path.read_text(errors="replace")
@@ -62,7 +62,7 @@ def scene_text(scene, outer=()):
 
 
 class Study:
-    """The cases of a study and what is known of them; kept in study.json, so that it can go on where it stopped."""
+    """The cases of a study and their results; kept in study.json, so that a study can continue where it stopped."""
 
     def __init__(self, methods, varied, repeats, folder, sus, error):
         values = [[(name, value) for value in values] for name, values in varied.items()]
@@ -92,7 +92,7 @@ class Study:
                     yield case
 
     def run(self, say):
-        """Runs what is left; `say(text)` is told how far it is."""
+        """Runs the remaining cases; calls `say(text)` with the progress."""
         left = list(self.todo())
         seconds = {}
         for number, case in enumerate(left):
@@ -106,7 +106,7 @@ class Study:
             self._save()
 
     def _report(self, case):
-        """The report of one run of a case; a run that dies gives the sentence that it died with."""
+        """The report of one run of a case; for a run that fails, its message."""
         with tempfile.TemporaryDirectory(prefix="run-", dir=self.folder) as folder:
             sets = ["DataArchiver/outputInterval=0", *case.overrides()]
             try:
@@ -176,7 +176,7 @@ def order(before, row):
 
 
 def value_at(tree, path):
-    """errors, `density.cell.L1` -> number; StudyError naming what there is."""
+    """errors, `density.cell.L1` -> number; StudyError with the available names."""
     for word in path.split("."):
         if word not in tree:
             raise StudyError(f"there is no error '{path}': at '{word}' there is only {', '.join(tree) or 'nothing'}")

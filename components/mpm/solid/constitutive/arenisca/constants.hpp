@@ -159,7 +159,7 @@ void addTangentCapTags(input::Schema<M>& schema) {
   for (const char* unused : {"FSLOPE_p", "hardening_modulus", "kinematic_hardening_constant"})
     schema.ignored(unused, "as in Uintah, nothing depends on it: the flow is associated and the cone stays");
   for (const char* unused : {"internal_variable_model", "useTaylorSeriesForDefGrad", "num_taylor_terms"})
-    schema.ignored(unused, "of an older Uintah, whose other tags here say the same");
+    schema.ignored(unused, "of an older Uintah; other tags here have the same meaning");
 }
 
 /// Lode's angle: Arenisca4 alone has it.

@@ -85,8 +85,8 @@ class Substep {
     return best;
   }
 
-  /// What `consistent` finds, by false position as the Illinois algorithm corrects it where both ends are known, and by
-  /// bisection where the surface at the upper one lies beyond the return.
+  /// The result of `consistent`, by false position as the Illinois algorithm corrects it where both ends are known, and
+  /// by bisection where the surface at the upper one lies beyond the return.
   Return falsePosition(const Return& atRest) const {
     const double whole = std::abs(atRest.plasticStrain.trace());
     Return best = atRest;

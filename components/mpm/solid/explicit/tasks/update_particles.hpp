@@ -144,8 +144,8 @@ void updateViscosity(const Material& material, const Method& method, double dt, 
   }
 }
 
-/// Strain energy of particles from `first` on, from its density (J/m^3 of the volume at F = I): none is left in
-/// what has failed.
+/// Strain energy of particles from `first` on, from its density (J/m^3 of the volume at F = I): failed particles have
+/// none.
 template <int D>
 void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const double* density, int first,
                         int count) {
@@ -178,7 +178,8 @@ void updateStress(const Level& level, const Material& material, const Method& me
   if (u.strainEnergy) updateStrainEnergy(material, u, results.energyDensity.data(), first, count);
 }
 
-/// The error for the first particle of a cell that has no wave speed: it moves at no number or is turned inside out.
+/// The error for the first particle of a cell that has no wave speed: its velocity is not a number, or it is turned
+/// inside out.
 template <int D>
 NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
                                 const data::ParticleRange& range) {
