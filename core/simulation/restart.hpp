@@ -32,7 +32,8 @@ struct Restart {
 /// Notes a damage of the checkpoint.
 void noteDamage(Restart& restart, const std::string& damage);
 /// Makes the next of the others that is whole the one to take, as far as it is read now; notes the damage of those that
-/// are not. False where none is.
+/// are not. False where none is. Where a newer version has written one, throws InputError on the first rank, and
+/// FailedElsewhere on the others.
 bool takeNext(Restart& restart, const mpi::Communicator& ranks);
 /// Throws InputError on the first rank, with all that was noted, and FailedElsewhere on the others.
 [[noreturn]] void refuseDamaged(const Restart& restart, const mpi::Communicator& ranks);
