@@ -192,8 +192,8 @@ class Slice : public Analysis {
     output::makeFolder(own);
     std::ostringstream scene;
     scene << std::ifstream(folder / "input.xml").rdbuf();
-    return std::make_unique<Archive>(own, "slice", output::ArchivePoint{first.step - 1, first.time, "", ""},
-                                     scene.str(), output::ArchiveOptions{.version = TUSHAR_VERSION});
+    return std::make_unique<Archive>(own, "slice", output::ArchivePoint{first.step - 1, first.time, ""}, scene.str(),
+                                     output::ArchiveOptions{.version = TUSHAR_VERSION});
   }
 
   SliceSettings settings_;

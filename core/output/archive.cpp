@@ -8,7 +8,6 @@
 #include "core/output/archive_globals.hpp"
 #include "core/output/archive_index.hpp"
 #include "core/output/archive_snapshot.hpp"
-#include "core/output/archive_vtkhdf.hpp"
 #include "core/output/archive_xdmf.hpp"
 #include "core/output/pace.hpp"
 
@@ -26,16 +25,16 @@ struct Archive::State {
   State(const fs::path& filebase, const ArchiveOptions& how)
       : options(how),
         folder(makeNextFolder(filebase)),
-        xdmf_file(folder / (filebase.stem().string() + ".xdmf")),
         index(how.version),
-        xdmf(how.doubleAsFloat) {}
+        xdmf(folder / (filebase.stem().string() + ".xdmf"), how.doubleAsFloat) {}
   State(fs::path existing, const fs::path& name, const ArchivePoint& from, const ArchiveOptions& how)
       : options(how),
         folder(std::move(existing)),
-        xdmf_file(folder / (name.stem().string() + ".xdmf")),
-        index(how.version, fuller<ArchiveIndex>(indexFile(), from.index, from.step), from.step),
-        xdmf(how.doubleAsFloat, fuller<XdmfIndex>(xdmf_file, from.xdmf, from.step), from.step),
-        last_step(index.lastStep()) {}
+        index(how.version, fullerIndex(indexFile(), from.index, from.step), from.step),
+        xdmf(folder / (name.stem().string() + ".xdmf"), how.doubleAsFloat),
+        last_step(index.lastStep()) {
+    xdmf.resume(index);
+  }
 
   fs::path indexFile() const { return folder / "index.xml"; }
   /// Writes index.xml and the XDMF file; if there are no outputs, only the index.
@@ -43,7 +42,7 @@ struct Archive::State {
   void writeVtkHdfFiles();
 
   ArchiveOptions options;
-  fs::path folder, xdmf_file;
+  fs::path folder;
   ArchiveIndex index;
   XdmfIndex xdmf;
   GlobalFiles globals{folder};
@@ -54,14 +53,14 @@ struct Archive::State {
 
 void Archive::State::writeLists() {
   pace.catchUp([&] {
-    replaceFile(indexFile(), index.text());
-    if (last_step >= 0) replaceFile(xdmf_file, xdmf.text());
+    replaceFile(indexFile(), [this](std::ostream& out) { index.write(out); });
+    if (last_step >= 0) xdmf.write();
   });
 }
 
 void Archive::State::writeVtkHdfFiles() {
   vtkhdf_pace.catchUp([&] {
-    if (last_step >= 0) writeVtkHdf(xdmf_file, xdmf.domain());
+    if (last_step >= 0) xdmf.writeVtkHdf();
   });
 }
 
@@ -79,7 +78,7 @@ Archive::Archive(const fs::path& folder, const std::string& name, const ArchiveP
   state_->globals.resume(state_->index.globals(), from.time);
   state_->writeLists();
   std::error_code ignored;
-  if (state_->last_step < 0) fs::remove(state_->xdmf_file, ignored);
+  if (state_->last_step < 0) fs::remove(state_->xdmf.file(), ignored);
   state_->vtkhdf_pace.note(true);
   removeUnlisted(folder, state_->index);
 }
@@ -128,7 +127,7 @@ ArchivePoint Archive::sync(int step, double time) {
   keepUp();
   state_->globals.sync();
   syncToDisk(state_->folder);
-  return {step, time, state_->index.text(), state_->xdmf.text()};
+  return {step, time, state_->index.text()};
 }
 
 const fs::path& Archive::folder() const { return state_->folder; }

@@ -26,8 +26,8 @@ struct GlobalSample {
 /// The extent of an archive when a checkpoint was written.
 struct ArchivePoint {
   int step = 0;
-  double time = 0;          ///< s
-  std::string index, xdmf;  ///< contents of index.xml and of the XDMF file
+  double time = 0;    ///< s
+  std::string index;  ///< content of index.xml
 };
 
 /// The `.uda` folder of a run: the scene, an index, an HDF5 file per output, an XDMF file that shows them to ParaView,
@@ -52,7 +52,8 @@ class Archive {
   /// FileError if `filebase` exists and is not a link, or if nothing can be written there.
   Archive(const std::filesystem::path& filebase, const std::string& inputXml, const ArchiveOptions& options = {});
   /// Continues in the folder of another run from some point: what came later is removed, outputs and lines of `.dat`
-  /// files alike. `name` is that of the filebase. Where index.xml or the XDMF file is damaged, the point's is taken.
+  /// files alike. `name` is that of the filebase. Where index.xml is damaged, the point's is taken; what the XDMF file
+  /// lacks is read from the outputs.
   Archive(const std::filesystem::path& folder, const std::string& name, const ArchivePoint& from,
           const std::string& inputXml, const ArchiveOptions& options);
   /// Flushes; errors are lost, so call flush() first.

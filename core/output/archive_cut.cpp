@@ -34,11 +34,12 @@ void removeUnlisted(const fs::path& folder, const ArchiveIndex& index) {
   for (const fs::path& output : unlisted) fs::remove(output, ignored);
 }
 
-std::string xmlOr(const fs::path& file, const char* root, const std::string& otherwise) {
-  const std::string text = textOf(file).value_or("");
+std::string fullerIndex(const fs::path& file, const std::string& kept, int step) {
+  std::string found = textOf(file).value_or("");
   pugi::xml_document document;
-  const bool whole = document.load_string(text.c_str()) && std::string(document.document_element().name()) == root;
-  return whole ? text : otherwise;
+  const bool isWhole =
+      document.load_string(found.c_str()) && document.document_element().name() == std::string(ArchiveIndex::rootName);
+  return isWhole && ArchiveIndex::sizeOf(found, step) >= ArchiveIndex::sizeOf(kept, step) ? found : kept;
 }
 
 }  // namespace tushar::output

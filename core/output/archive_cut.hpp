@@ -14,15 +14,8 @@ std::string linesUpTo(const std::string& lines, double time);
 /// unfinished.
 void removeUnlisted(const std::filesystem::path& folder, const ArchiveIndex& index);
 
-/// The text of an XML file whose outermost tag is `root`; `otherwise` where the file is missing or torn.
-std::string xmlOr(const std::filesystem::path& file, const char* root, const std::string& otherwise);
-
-/// The longer list of outputs up to a step, of the one in a file and its copy in a checkpoint: the file may be torn, or
+/// The longer index of outputs up to a step, of the one in a file and its copy in a checkpoint: the file may be torn, or
 /// out of date after a power cut; the checkpoint has no output that was made after it at the same step.
-template <class List>
-std::string fuller(const std::filesystem::path& file, const std::string& kept, int step) {
-  const std::string found = xmlOr(file, List::rootName, kept);
-  return List::sizeOf(found, step) >= List::sizeOf(kept, step) ? found : kept;
-}
+std::string fullerIndex(const std::filesystem::path& file, const std::string& kept, int step);
 
 }  // namespace tushar::output

@@ -57,13 +57,17 @@ void refuseToReplace(const fs::path& filebase) {
                                 filebase.string(), fs::is_directory(status) ? "folder" : "file"));
 }
 
-void writeText(const fs::path& file, const std::string& text) {
+void writeFile(const fs::path& file, const std::function<void(std::ostream&)>& write) {
   errno = 0;
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   if (!out) fail("write", file, lastError());
-  out << text;
+  write(out);
   out.close();
   if (!out) fail("write", file, lastError());
+}
+
+void writeText(const fs::path& file, const std::string& text) {
+  writeFile(file, [&](std::ostream& out) { out << text; });
 }
 
 }  // namespace
@@ -101,6 +105,12 @@ void replaceFile(const fs::path& file, const std::string& text) {
   moveInto(temporary, file);
 }
 
+void replaceFile(const fs::path& file, const std::function<void(std::ostream&)>& write) {
+  const fs::path temporary = temporaryOf(file);
+  writeFile(temporary, write);
+  moveInto(temporary, file);
+}
+
 void replaceFileOnDisk(const fs::path& file, const std::string& text) {
   const fs::path temporary = temporaryOf(file);
   writeText(temporary, text);
@@ -130,6 +140,39 @@ void AppendFile::append(std::string_view text) {
 
 void AppendFile::sync() const {
   if (::fsync(descriptor_) != 0) fail("write", path_, lastError());
+}
+
+Scratch::~Scratch() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+std::uint64_t Scratch::append(std::span<const std::byte> bytes) {
+  if (descriptor_ < 0) {
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    if (descriptor_ < 0) fail("write", path_, lastError());
+    ::unlink(path_.c_str());
+  }
+  const std::uint64_t first = size_;
+  while (!bytes.empty()) {
+    errno = 0;
+    const ssize_t done = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(size_));
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) fail("write", path_, lastError());
+    size_ += static_cast<std::uint64_t>(done);
+    bytes = bytes.subspan(static_cast<std::size_t>(done));
+  }
+  return first;
+}
+
+void Scratch::read(std::uint64_t first, std::span<std::byte> to) const {
+  while (!to.empty()) {
+    errno = 0;
+    const ssize_t done = ::pread(descriptor_, to.data(), to.size(), static_cast<off_t>(first));
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) fail("read", path_, lastError());
+    first += static_cast<std::uint64_t>(done);
+    to = to.subspan(static_cast<std::size_t>(done));
+  }
 }
 
 void moveInto(const fs::path& temporary, const fs::path& file) {

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,7 +27,10 @@ void pointLink(const std::filesystem::path& filebase, const std::filesystem::pat
 /// Puts `text` into the file, atomically: a reader sees the old text or the new. FileError if it cannot.
 void replaceFile(const std::filesystem::path& file, const std::string& text);
 
-/// As above, and the file is on the disk when it returns.
+/// As above, with what `write` puts into the stream.
+void replaceFile(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
+
+/// The first, and the file is on the disk when it returns.
 void replaceFileOnDisk(const std::filesystem::path& file, const std::string& text);
 
 /// A file open for appending, without a buffer. Its functions throw FileError.
@@ -42,6 +49,26 @@ class AppendFile {
  private:
   std::filesystem::path path_;
   int descriptor_;
+};
+
+/// Bytes that wait on the disk and take no memory, in a file that has no name and ends with the process. Its functions
+/// throw FileError.
+class Scratch {
+ public:
+  /// `file` is the path that it has for a moment, when the first bytes come.
+  explicit Scratch(std::filesystem::path file) : path_(std::move(file)) {}
+  ~Scratch();
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  /// Keeps bytes; returns where they are.
+  std::uint64_t append(std::span<const std::byte> bytes);
+  /// Reads bytes that are at a place.
+  void read(std::uint64_t first, std::span<std::byte> to) const;
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
 };
 
 /// Renames a finished temporary file to its name. FileError if it cannot.

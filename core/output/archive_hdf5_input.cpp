@@ -74,6 +74,21 @@ bool Hdf5Input::has(const std::string& name) const {
   return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
 }
 
+bool Hdf5Input::isGroup(const std::string& name) const {
+  const Silence silence;
+  H5G_stat_t found;
+  checked(H5Gget_objinfo(file_, name.c_str(), 1, &found), name + " of");
+  return found.type == H5G_GROUP;
+}
+
+/// By a function that HDF5 has in all versions since 1.6 alike.
+std::uint64_t Hdf5Input::placeOf(const std::string& name) const {
+  const Silence silence;
+  H5G_stat_t found;
+  checked(H5Gget_objinfo(file_, name.c_str(), 1, &found), name + " of");
+  return (std::uint64_t{found.objno[1]} << 32U) + found.objno[0];
+}
+
 std::vector<std::string> Hdf5Input::names(const std::string& group) const {
   std::vector<std::string> all;
   if (!has(group)) return all;

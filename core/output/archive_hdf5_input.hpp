@@ -21,6 +21,10 @@ class Hdf5Input {
   const std::filesystem::path& path() const { return path_; }
   /// Whether there is a group or dataset with that path.
   bool has(const std::string& name) const;
+  /// Whether that path, which there is, is a group.
+  bool isGroup(const std::string& name) const;
+  /// Where a group or dataset begins in the file: what was made later is behind.
+  std::uint64_t placeOf(const std::string& name) const;
   /// Names in a group, sorted; none if there is no such group.
   std::vector<std::string> names(const std::string& group) const;
   /// The numbers of a dataset, whatever its shape, as they were written.

@@ -3,7 +3,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <ostream>
+#include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "core/output/archive_files.hpp"
 #include "core/output/archive_snapshot.hpp"
@@ -69,6 +72,18 @@ std::vector<std::string> ArchiveIndex::globals() const {
   return names;
 }
 
+std::string ArchiveIndex::labelOf(const std::string& nameInFile) const {
+  for (const auto& variable : variables_)
+    if (nameInPath(variable.first) == nameInFile) return variable.first;
+  return nameInFile;
+}
+
+std::vector<int> ArchiveIndex::steps() const {
+  std::vector<int> all;
+  for (const auto& output : outputs_) all.push_back(output.first);
+  return all;
+}
+
 bool ArchiveIndex::addVariable(const Array& array, const std::string& centring, const std::string& material) {
   const auto [place, isNew] = variables_.try_emplace(array.label);
   Variable& variable = place->second;
@@ -97,7 +112,8 @@ void ArchiveIndex::add(const GlobalSample& sample, const std::string& file) {
   globals_[sample.name] = {sample.unit, sample.description, file, sample.values.size()};
 }
 
-std::string ArchiveIndex::text() const {
+/// Outputs, which are many, go straight into the text.
+void ArchiveIndex::write(std::ostream& out) const {
   pugi::xml_document document;
   pugi::xml_node root = document.append_child(rootName);
   set(root, "format", format_, "version", version_);
@@ -114,13 +130,21 @@ std::string ArchiveIndex::text() const {
     set(node, "name", name, "href", global.file, "components", global.components, "unit", global.unit, "description",
         global.description);
   }
-  pugi::xml_node outputs = root.append_child("timesteps");
-  for (const auto& [step, output] : outputs_) {
-    pugi::xml_node node = outputs.append_child("timestep");
-    set(node, "href", outputName(step), "time", output.time, "delT", output.delT);
-    node.text() = step;
-  }
-  return textOf(document);
+  const std::string head = textOf(root, 0), end = fmt::format("</{}>\n", rootName);
+  out << xmlDeclaration << std::string_view(head).substr(0, head.size() - end.size());
+  if (outputs_.empty()) out << " <timesteps />\n" << end;
+  if (outputs_.empty()) return;
+  out << " <timesteps>\n";
+  for (const auto& [step, output] : outputs_)
+    out << fmt::format("  <timestep href=\"{}\" time=\"{}\" delT=\"{}\">{}</timestep>\n", outputName(step), output.time,
+                       output.delT, step);
+  out << " </timesteps>\n" << end;
+}
+
+std::string ArchiveIndex::text() const {
+  std::ostringstream out;
+  write(out);
+  return std::move(out).str();
 }
 
 }  // namespace tushar::output

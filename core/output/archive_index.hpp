@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iosfwd>
 #include <map>
 #include <set>
 #include <string>
@@ -28,11 +29,16 @@ class ArchiveIndex {
   static std::size_t sizeOf(const std::string& text, int step) { return ArchiveIndex("", text, step).outputs_.size(); }
   /// Why an archive cannot be read: an index of a newer format. Empty where it can.
   static std::string refusalOf(const std::string& text);
+  /// The name of a variable by that of its datasets, in which some characters may be others.
+  std::string labelOf(const std::string& nameInFile) const;
+  /// The steps of the outputs, ascending.
+  std::vector<int> steps() const;
   bool lists(int step) const { return outputs_.contains(step); }
   /// The step of the last output; -1 if there is none.
   int lastStep() const { return outputs_.empty() ? -1 : outputs_.rbegin()->first; }
   /// The whole file.
   std::string text() const;
+  void write(std::ostream& out) const;
 
  private:
   struct Variable {

@@ -79,7 +79,6 @@ void writeFirst(Hdf5File& out, const Snapshot& snapshot, const std::string& vers
   for (const ParticleBlock& block : snapshot.particles) writeGroup(out, block);
 }
 
-/// In place of values that have been moved elsewhere.
 class Gone : public Source {
  public:
   explicit Gone(std::size_t entries) : entries_(entries) {}
@@ -145,10 +144,12 @@ std::uint64_t bytesInFlight(const Snapshot& snapshot) {
 
 Snapshot withoutValues(Snapshot snapshot) {
   forEachArray(snapshot, [](Array& array) {
-    if (array.source) array.source = std::make_shared<Gone>(array.entries());
+    if (array.source) array.source = valuesElsewhere(array.entries());
   });
   return snapshot;
 }
+
+std::shared_ptr<const Source> valuesElsewhere(std::size_t entries) { return std::make_shared<Gone>(entries); }
 
 std::string pathInFile(const ParticleBlock& block, const Array& array) {
   return "/particles/" + groupName(block.material, block.materialIndex) + "/" + nameInPath(array.label);

@@ -45,6 +45,9 @@ std::uint64_t bytesInFlight(const Snapshot& snapshot);
 /// A snapshot without its values, but with their numbers.
 Snapshot withoutValues(Snapshot snapshot);
 
+/// Of an array whose values have been moved or left elsewhere: it knows their number alone.
+std::shared_ptr<const Source> valuesElsewhere(std::size_t entries);
+
 /// The path of a particle array in the HDF5 file: `/particles/gas/p.density`.
 std::string pathInFile(const ParticleBlock& block, const Array& array);
 

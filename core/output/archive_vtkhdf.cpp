@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <pugixml.hpp>
+#include <utility>
 #include <vector>
-
-#include "core/output/archive_files.hpp"
-#include "core/output/archive_vtkhdf_boxes.hpp"
-#include "core/output/archive_vtkhdf_items.hpp"
 
 namespace tushar::output {
 
@@ -20,59 +16,53 @@ using Shape = std::vector<std::uint64_t>;
 
 constexpr const char* root = "/VTKHDF";
 
-/// The arrays of a block in one output, by name in the VTKHDF file.
-using Items = std::map<std::string, Item>;
+/// Outputs in the order of time.
+using Times = std::vector<const ShownOutput*>;
 
-/// Outputs by time [s].
-using Times = std::map<double, Items>;
+Times inOrder(Times times) {
+  std::stable_sort(times.begin(), times.end(), [](const auto* a, const auto* b) { return a->time < b->time; });
+  return times;
+}
 
-/// Adds what a temporal collection of XDMF shows; a time without particles has no items.
-void readTimes(const pugi::xml_node& collection, Times& times) {
-  for (const pugi::xml_node& grid : collection.children("Grid")) {
-    Items& items = times[grid.child("Time").attribute("Value").as_double()];
-    const pugi::xml_node points = grid.child("Geometry").child("DataItem");
-    if (std::string(points.attribute("Format").as_string()) == "HDF") items["Points"] = itemOf(points);
-    for (const pugi::xml_node& attribute : grid.children("Attribute"))
-      items[nameOf(attribute)] = itemOf(attribute.child("DataItem"));
-  }
+Times inOrder(const std::vector<ShownOutput>& outputs) {
+  Times times;
+  for (const ShownOutput& output : outputs) times.push_back(&output);
+  return inOrder(std::move(times));
 }
 
 /// One item for each name that occurs at any time.
 Items kindsOf(const Times& times) {
   Items kinds;
-  for (const auto& [time, items] : times) kinds.insert(items.begin(), items.end());
+  const Items* last = nullptr;
+  for (const ShownOutput* output : times) {
+    if (output->items != last) kinds.insert(output->items->begin(), output->items->end());
+    last = output->items;
+  }
   return kinds;
 }
 
 std::vector<double> valuesOf(const Times& times) {
   std::vector<double> values;
-  for (const auto& time : times) values.push_back(time.first);
+  for (const ShownOutput* output : times) values.push_back(output->time);
   return values;
 }
 
 // --- particles
 
-std::uint64_t countOf(const Items& items) {
-  const auto points = items.find("Points");
-  return points == items.end() ? 0 : points->second.shape.front();
-}
-
 /// The values of all times, one after the other.
-void addColumn(Hdf5File& file, const std::string& name, const Item& kind, const Times& times, std::uint64_t total) {
+void addColumn(Hdf5File& file, const std::string& name, const Item& kind, const Times& times) {
   std::vector<VirtualPart> parts;
   std::uint64_t before = 0;
-  for (const auto& [time, items] : times) {
-    if (const auto found = items.find(name); found != items.end()) {
-      const Item& item = found->second;
-      Shape first(item.shape.size(), 0);
+  for (const ShownOutput* output : times) {
+    if (const auto found = output->items->find(name); found != output->items->end()) {
+      const Shape shape = found->second.shapeOf(output->count);
+      Shape first(shape.size(), 0);
       first[0] = before;
-      parts.push_back({item.file, item.path, item.shape, first, item.shape});
+      parts.push_back({outputName(output->step), found->second.path, shape, first, shape});
     }
-    before += countOf(items);
+    before += output->count;
   }
-  Shape shape = kind.shape;
-  shape[0] = total;
-  file.virtualDataset(inRoot(name), kind.type, shape, parts);
+  file.virtualDataset(inRoot(name), kind.type, kind.shapeOf(before), parts);
 }
 
 /// A vertex for each point. All times show the start of the same 0, 1, 2, …, as numbers of points and as offsets.
@@ -95,10 +85,10 @@ void writeParticles(Hdf5File& file, const Times& times) {
   addHead(file, "UnstructuredGrid", {2, 0}, valuesOf(times));
   std::vector<std::uint64_t> counts, starts, part;
   std::uint64_t total = 0;
-  for (const auto& [time, items] : times) {
+  for (const ShownOutput* output : times) {
     part.push_back(counts.size());
     starts.push_back(total);
-    counts.push_back(countOf(items));
+    counts.push_back(output->count);
     total += counts.back();
   }
   for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
@@ -110,18 +100,14 @@ void writeParticles(Hdf5File& file, const Times& times) {
   addNumbers(file, "Steps/ConnectivityIdOffsets", std::vector<std::uint64_t>(counts.size(), 0));
   addVertices(file, counts, total);
   for (const auto& [name, kind] : kindsOf(times)) {
-    addColumn(file, name, kind, times, total);
+    addColumn(file, name, kind, times);
     if (name != "Points") addNumbers(file, "Steps/PointDataOffsets" + name.substr(name.find('/')), starts);
   }
 }
 
 // --- cells and nodes
 
-/// The points of a uniform grid.
-struct Image {
-  Shape points;                             ///< along z, y, x
-  std::vector<double> origin{}, spacing{};  ///< along x, y, z, m
-};
+using Image = VtkHdfIndex::Image;
 
 /// The corners of the cells: an axis that is not in use has one layer of nodes, in the middle, and two of corners.
 Image imageOf(const pugi::xml_node& grid) {
@@ -139,8 +125,32 @@ Image imageOf(const pugi::xml_node& grid) {
   return image;
 }
 
+/// What cells and nodes show at a time.
+struct ShownTime {
+  double time;
+  std::vector<const ShownOutput*> parts{};
+
+  /// The output with an item, and the item; nulls if there is none.
+  std::pair<const ShownOutput*, const Item*> find(const std::string& name) const {
+    for (const ShownOutput* part : parts)
+      if (const auto found = part->items->find(name); found != part->items->end()) return {part, &found->second};
+    return {};
+  }
+};
+
+/// Outputs of several blocks, together where they have the same time.
+std::vector<ShownTime> together(const Times& outputs) {
+  std::vector<ShownTime> times;
+  for (const ShownOutput* output : outputs) {
+    if (times.empty() || times.back().time != output->time) times.push_back({output->time});
+    times.back().parts.push_back(output);
+  }
+  return times;
+}
+
 /// Where there are two layers of corners for one of nodes, both show the same nodes.
-void addAtStep(std::vector<VirtualPart>& parts, const Item& item, const Shape& room, std::uint64_t step) {
+void addAtStep(std::vector<VirtualPart>& parts, const std::string& output, const Item& item, const Shape& room,
+               std::uint64_t step) {
   Shape extent{1};
   extent.insert(extent.end(), item.shape.begin(), item.shape.end());
   for (std::uint64_t z = 0; z < room[0]; z += extent[1])
@@ -148,34 +158,36 @@ void addAtStep(std::vector<VirtualPart>& parts, const Item& item, const Shape& r
       for (std::uint64_t x = 0; x < room[2]; x += extent[3]) {
         Shape first{step, z, y, x};
         first.resize(extent.size(), 0);
-        parts.push_back({item.file, item.path, item.shape, first, extent});
+        parts.push_back({output, item.path, item.shape, first, extent});
       }
 }
 
-void addField(Hdf5File& file, const std::string& name, const Item& kind, const Times& times, Shape room) {
+void addField(Hdf5File& file, const std::string& name, const Item& kind, const std::vector<ShownTime>& times,
+              Shape room) {
   if (name.starts_with("CellData"))
     for (std::uint64_t& extent : room) --extent;
   std::vector<VirtualPart> parts;
-  std::uint64_t step = 0;
-  for (const auto& [time, items] : times) {
-    if (const auto found = items.find(name); found != items.end()) addAtStep(parts, found->second, room, step);
-    ++step;
-  }
+  for (std::uint64_t step = 0; step < times.size(); ++step)
+    if (const auto [output, item] = times[step].find(name); item)
+      addAtStep(parts, outputName(output->step), *item, room, step);
   Shape shape{times.size()};
   shape.insert(shape.end(), room.begin(), room.end());
   shape.insert(shape.end(), kind.shape.begin() + 3, kind.shape.end());
   file.virtualDataset(inRoot(name), kind.type, shape, parts);
 }
 
-void writeFields(Hdf5File& file, const Times& times, const Image& image) {
-  addHead(file, "ImageData", {2, 0}, valuesOf(times));
+void writeFields(Hdf5File& file, const Times& outputs, const Image& image) {
+  const std::vector<ShownTime> times = together(outputs);
+  std::vector<double> values;
+  for (const ShownTime& time : times) values.push_back(time.time);
+  addHead(file, "ImageData", {2, 0}, values);
   std::vector<int> extent(6, 0);
   for (std::size_t axis = 0; axis < 3; ++axis) extent[2 * axis + 1] = static_cast<int>(image.points[2 - axis]) - 1;
   file.attribute(root, "WholeExtent", extent);
   file.attribute(root, "Origin", image.origin);
   file.attribute(root, "Spacing", image.spacing);
   file.attribute(root, "Direction", std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1});
-  for (const auto& [name, kind] : kindsOf(times)) addField(file, name, kind, times, image.points);
+  for (const auto& [name, kind] : kindsOf(outputs)) addField(file, name, kind, times, image.points);
 }
 
 void putInPlace(const fs::path& path, const std::function<void(Hdf5File&)>& write) {
@@ -194,28 +206,52 @@ void putInPlace(const fs::path& path, const std::function<void(Hdf5File&)>& writ
 
 }  // namespace
 
-void writeVtkHdf(const fs::path& xdmfFile, const pugi::xml_node& domain) {
+VtkHdfIndex::Block& VtkHdfIndex::blockOf(const std::string& name, const pugi::xml_node& grid) {
+  const auto found =
+      std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& other) { return other.name == name; });
+  if (found != blocks_.end()) return *found;
+  const bool isMesh = grid.child("Topology").attribute("TopologyType").as_string() == std::string("3DCoRectMesh");
+  return blocks_.emplace_back(Block{name, isMesh || grid.child("Grid"), isMesh ? imageOf(grid) : Image{}, {}});
+}
+
+const Items* VtkHdfIndex::kindOf(Items items) {
+  const auto found = std::find(kinds_.rbegin(), kinds_.rend(), items);
+  return found == kinds_.rend() ? &kinds_.emplace_back(std::move(items)) : &*found;
+}
+
+void VtkHdfIndex::add(const std::string& name, int step, const pugi::xml_node& grid) {
+  Block& block = blockOf(name, grid);
+  ShownOutput output{step, grid.child("Time").attribute("Value").as_double()};
+  const pugi::xml_node box = grid.child("Grid");
+  output.items = kindOf(itemsOf(box ? box : grid, output.count));
+  if (block.isMesh && name == "cells") boxes_.add(grid, output);
+  removeStep(block.outputs, step);
+  block.outputs.push_back(std::move(output));
+}
+
+void VtkHdfIndex::forget() {
+  blocks_.clear();
+  kinds_.clear();
+}
+
+void VtkHdfIndex::write(const fs::path& xdmfFile) const {
   Times fields;
   Image image;
-  for (const pugi::xml_node& block : domain) {
-    const std::string name = block.attribute("Name").as_string();
-    const pugi::xml_node first = block.child("Grid");
-    if (hasBoxes(block)) {
-      putInPlace(fs::path(xdmfFile).replace_extension("vtkhdf"), [&](Hdf5File& file) { writeBoxes(file, block); });
-    } else if (first.child("Topology").attribute("TopologyType").as_string() == std::string("3DCoRectMesh")) {
-      if (image.points.empty() || name == "cells") image = imageOf(first);
-      readTimes(block, fields);
-    } else {
-      Times particles;
-      readTimes(block, particles);
-      if (kindsOf(particles).empty()) continue;
-      putInPlace(fs::path(xdmfFile).replace_extension(name + ".vtkhdf"),
-                 [&](Hdf5File& file) { writeParticles(file, particles); });
+  for (const Block& block : blocks_) {
+    const Times times = inOrder(block.outputs);
+    if (block.isMesh && block.name == "cells" && boxes_.any()) {
+      putInPlace(fs::path(xdmfFile).replace_extension("vtkhdf"), [&](Hdf5File& file) { boxes_.write(file, times); });
+    } else if (block.isMesh) {
+      if (image.points.empty() || block.name == "cells") image = block.image;
+      fields.insert(fields.end(), times.begin(), times.end());
+    } else if (!kindsOf(times).empty()) {
+      putInPlace(fs::path(xdmfFile).replace_extension(block.name + ".vtkhdf"),
+                 [&](Hdf5File& file) { writeParticles(file, times); });
     }
   }
   if (!fields.empty())
     putInPlace(fs::path(xdmfFile).replace_extension("vtkhdf"),
-               [&](Hdf5File& file) { writeFields(file, fields, image); });
+               [&](Hdf5File& file) { writeFields(file, inOrder(std::move(fields)), image); });
 }
 
 }  // namespace tushar::output

@@ -1,15 +1,53 @@
 #pragma once
 
 #include <filesystem>
+#include <list>
 #include <pugixml.hpp>
+#include <string>
+#include <vector>
+
+#include "core/output/archive_files.hpp"
+#include "core/output/archive_vtkhdf_boxes.hpp"
+#include "core/output/archive_vtkhdf_items.hpp"
 
 namespace tushar::output {
 
-/// Writes the VTKHDF files that show an archive, beside its XDMF file `sod.xdmf` and from the `Domain` of that:
+/// The VTKHDF files that show an archive, beside its XDMF file `sod.xdmf` and from what that says of each output:
 /// `sod.vtkhdf` with the cells and nodes, an image, or with the boxes of a refined grid, and `sod.<material>.vtkhdf`
 /// for each material, points. They hold times, counts and virtual datasets of the outputs `t*.h5`; no value is copied.
-/// Each is put in place whole. FileError if it cannot. Layout: VTKHDF 2.0,
+/// An output takes some 100 bytes of memory here. Layout: VTKHDF 2.0,
 /// https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format.
-void writeVtkHdf(const std::filesystem::path& xdmfFile, const pugi::xml_node& domain);
+class VtkHdfIndex {
+ public:
+  /// `scratch` must outlive it.
+  explicit VtkHdfIndex(Scratch& scratch) : boxes_(scratch) {}
+
+  /// Adds the XDMF grid of an output in a block (`cells`, `nodes`, or a material), or replaces that of the same step.
+  void add(const std::string& block, int step, const pugi::xml_node& grid);
+  /// Forgets all outputs.
+  void forget();
+  /// Writes the files, each of which is put in place whole. FileError if it cannot.
+  void write(const std::filesystem::path& xdmfFile) const;
+
+  /// The corners of the cells of a uniform grid.
+  struct Image {
+    std::vector<std::uint64_t> points;        ///< along z, y, x
+    std::vector<double> origin{}, spacing{};  ///< along x, y, z, m
+  };
+
+ private:
+  struct Block {
+    std::string name;
+    bool isMesh;  ///< or particles
+    Image image;
+    std::vector<ShownOutput> outputs;
+  };
+  Block& blockOf(const std::string& name, const pugi::xml_node& grid);
+  const Items* kindOf(Items items);
+
+  std::list<Block> blocks_;
+  std::list<Items> kinds_;  ///< without repeats: few, as outputs differ in counts mostly
+  ShownBoxes boxes_;
+};
 
 }  // namespace tushar::output

@@ -1,14 +1,14 @@
 #include "core/output/archive_vtkhdf_boxes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <map>
+#include <set>
+#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
-
-#include "core/output/archive_vtkhdf_items.hpp"
+#include <utility>
 
 namespace tushar::output {
 
@@ -16,34 +16,23 @@ namespace {
 
 using Shape = std::vector<std::uint64_t>;
 
-/// The rows of a dataset that belong to a box.
-struct Rows {
-  Item item;
-  std::uint64_t first;
-};
+/// First and last cell of a box along x, y and z.
+using BoxCells = std::array<std::int32_t, 6>;
 
 struct ShownBox {
   int level = 0;
   Shape cells;                          ///< along z, y, x
   std::vector<double> corner, spacing;  ///< along x, y, z, m
-  std::map<std::string, Rows> fields;   ///< by name in the VTKHDF file
+  std::uint64_t first = 0;              ///< row of its first cell
 
   std::uint64_t count() const { return cells[0] * cells[1] * cells[2]; }
 };
 
-/// The boxes of a level at all times, one after the other.
-struct ShownLevel {
-  std::vector<double> spacing;
-  std::vector<std::uint64_t> counts, starts;  ///< of boxes, at each time
-  std::vector<std::uint64_t> cellsBefore;     ///< at each time
-  std::vector<const ShownBox*> boxes;
-};
-
 /// A time without boxes has one grid, whose values have the axes z, y and x.
-Rows rowsOf(const pugi::xml_node& item) {
-  const pugi::xml_node slab = item.child("DataItem");
-  if (!slab) return {itemOf(item), 0};
-  return {itemOf(slab.next_sibling("DataItem")), numbersIn<std::uint64_t>(slab.text().as_string()).front()};
+std::uint64_t firstRowOf(const pugi::xml_node& grid) {
+  const pugi::xml_node slab = grid.child("Attribute").child("DataItem").child("DataItem");
+  const auto numbers = numbersIn<std::uint64_t>(slab.text().as_string());
+  return numbers.empty() ? 0 : numbers.front();
 }
 
 ShownBox boxOf(const pugi::xml_node& grid) {
@@ -57,130 +46,164 @@ ShownBox boxOf(const pugi::xml_node& grid) {
   box.spacing = numbersIn<double>(corner.next_sibling("DataItem").text().as_string());
   std::reverse(box.corner.begin(), box.corner.end());
   std::reverse(box.spacing.begin(), box.spacing.end());
-  for (const pugi::xml_node& attribute : grid.children("Attribute"))
-    box.fields[nameOf(attribute)] = rowsOf(attribute.child("DataItem"));
+  box.first = firstRowOf(grid);
   return box;
 }
 
-/// The boxes of each output, by time [s].
-std::map<double, std::vector<ShownBox>> boxesOf(const pugi::xml_node& times) {
-  std::map<double, std::vector<ShownBox>> found;
-  for (const pugi::xml_node& output : times.children("Grid")) {
-    std::vector<ShownBox>& boxes = found[output.child("Time").attribute("Value").as_double()];
-    if (output.child("Topology")) boxes.push_back(boxOf(output));
-    for (const pugi::xml_node& grid : output.children("Grid")) boxes.push_back(boxOf(grid));
-  }
-  return found;
+std::vector<ShownBox> boxesOf(const pugi::xml_node& output) {
+  std::vector<ShownBox> boxes;
+  if (output.child("Topology")) boxes.push_back(boxOf(output));
+  for (const pugi::xml_node& grid : output.children("Grid")) boxes.push_back(boxOf(grid));
+  return boxes;
 }
 
-std::map<int, ShownLevel> levelsOf(const std::map<double, std::vector<ShownBox>>& times) {
-  std::map<int, ShownLevel> levels;
-  for (const auto& [time, boxes] : times)
-    for (const ShownBox& box : boxes) levels[box.level].spacing = box.spacing;
-  for (auto& [number, level] : levels) {
-    std::uint64_t cells = 0;
-    for (const auto& [time, boxes] : times) {
-      level.starts.push_back(level.boxes.size());
-      level.cellsBefore.push_back(cells);
-      for (const ShownBox& box : boxes) {
-        if (box.level != number) continue;
-        level.boxes.push_back(&box);
-        cells += box.count();
-      }
-      level.counts.push_back(level.boxes.size() - level.starts.back());
-    }
-  }
-  return levels;
-}
-
-/// The corner of the grid [m]: along each axis, that of some box.
-std::vector<double> cornerOf(const std::map<int, ShownLevel>& levels) {
+/// Along each axis, that of some box.
+std::vector<double> cornerOf(const std::vector<ShownBox>& boxes) {
   std::vector<double> corner(3, HUGE_VAL);
-  for (const auto& [number, level] : levels)
-    for (const ShownBox* box : level.boxes)
-      for (int axis = 0; axis < 3; ++axis) corner[axis] = std::min(corner[axis], box->corner[axis]);
+  for (const ShownBox& box : boxes)
+    for (int axis = 0; axis < 3; ++axis) corner[axis] = std::min(corner[axis], box.corner[axis]);
   return corner;
 }
 
-/// First and last cell of each box along x, y and z.
-std::vector<std::int32_t> cellsOf(const ShownLevel& level, const std::vector<double>& corner) {
-  std::vector<std::int32_t> numbers;
-  for (const ShownBox* box : level.boxes)
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto first =
-          static_cast<std::int32_t>(std::lround((box->corner[axis] - corner[axis]) / level.spacing[axis]));
-      numbers.push_back(first);
-      numbers.push_back(first + static_cast<std::int32_t>(box->cells[2 - axis]) - 1);
-    }
-  return numbers;
+BoxCells cellsOf(const ShownBox& box, const std::vector<double>& corner) {
+  BoxCells cells;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto first = static_cast<std::int32_t>(std::lround((box.corner[axis] - corner[axis]) / box.spacing[axis]));
+    cells[2 * axis] = first;
+    cells[2 * axis + 1] = first + static_cast<std::int32_t>(box.cells[2 - axis]) - 1;
+  }
+  return cells;
 }
 
-/// Adds rows, merged with those before if they are contiguous in the file.
-void addPart(std::vector<VirtualPart>& parts, const Rows& rows, std::uint64_t at, std::uint64_t count) {
-  const Item& item = rows.item;
-  if (!parts.empty()) {
-    VirtualPart& last = parts.back();
-    if (last.file == item.file && last.first[0] + last.extent[0] == at && last.from[0] + last.extent[0] == rows.first) {
-      last.extent[0] += count;
-      return;
+/// Adds a box to the rows before if it continues them.
+void addBox(std::vector<LevelRows>& all, const ShownBox& box, std::uint64_t place) {
+  if (!all.empty() && all.back().level == box.level && all.back().first + all.back().rows == box.first) {
+    ++all.back().boxes;
+    all.back().rows += box.count();
+  } else {
+    all.push_back({box.level, 1, place, box.first, box.count()});
+  }
+}
+
+// --- the file
+
+/// Rows of an output, and where those before them end.
+struct Run {
+  const ShownOutput* output;
+  LevelRows rows;
+  std::uint64_t boxesBefore, cellsBefore;
+};
+
+/// A level at all times.
+struct ShownLevel {
+  std::vector<std::uint64_t> counts, starts;  ///< of boxes, at each time
+  std::vector<std::uint64_t> cellsBefore;     ///< at each time
+  std::vector<Run> runs;
+  std::uint64_t boxes = 0, cells = 0;
+};
+
+ShownLevel levelOf(int number, const std::vector<const ShownOutput*>& outputs) {
+  ShownLevel level;
+  for (const ShownOutput* output : outputs) {
+    level.starts.push_back(level.boxes);
+    level.cellsBefore.push_back(level.cells);
+    for (const LevelRows& rows : output->levels) {
+      if (rows.level != number) continue;
+      level.runs.push_back({output, rows, level.boxes, level.cells});
+      level.boxes += rows.boxes;
+      level.cells += rows.rows;
+    }
+    level.counts.push_back(level.boxes - level.starts.back());
+  }
+  return level;
+}
+
+/// The cells of all boxes of a level, from the scratch file.
+class CellsOfBoxes : public Source {
+ public:
+  CellsOfBoxes(const ShownLevel& level, const Scratch& scratch) : level_(level), scratch_(scratch) {}
+  std::size_t entries() const override { return level_.boxes; }
+  void read(std::size_t first, std::size_t count, std::byte* to) const override {
+    auto run = std::upper_bound(level_.runs.begin(), level_.runs.end(), first,
+                                [](std::size_t box, const Run& other) { return box < other.boxesBefore; }) -
+               1;
+    for (; count > 0; ++run) {
+      const std::size_t skipped = first - run->boxesBefore, here = std::min(count, run->rows.boxes - skipped);
+      scratch_.read(run->rows.place + skipped * sizeof(BoxCells), {to, here * sizeof(BoxCells)});
+      first += here;
+      count -= here;
+      to += here * sizeof(BoxCells);
     }
   }
-  Shape first{at}, extent{count}, from{rows.first};
+
+ private:
+  const ShownLevel& level_;
+  const Scratch& scratch_;
+};
+
+VirtualPart partOf(const Run& run, const Item& item) {
+  Shape first{run.cellsBefore}, extent{run.rows.rows}, from{run.rows.first};
   if (item.shape.size() % 2 == 0) {  // (entries, components), or (z, y, x, components)
     first.push_back(0);
     from.push_back(0);
     extent.push_back(item.shape.back());
   }
-  parts.push_back({item.file, item.path, item.shape, first, extent, from});
+  return {outputName(run.output->step), item.path, item.shapeOf(run.output->count), first, extent, from};
 }
 
 void addField(Hdf5File& file, const std::string& name, const std::string& place, const ShownLevel& level) {
   std::vector<VirtualPart> parts;
-  std::uint64_t at = 0;
   Array::Values type;
-  for (const ShownBox* box : level.boxes) {
-    if (const auto found = box->fields.find(name); found != box->fields.end()) {
-      addPart(parts, found->second, at, box->count());
-      type = found->second.item.type;
-    }
-    at += box->count();
+  for (const Run& run : level.runs) {
+    const auto found = run.output->items->find(name);
+    if (found == run.output->items->end()) continue;
+    parts.push_back(partOf(run, found->second));
+    type = found->second.type;
   }
   if (parts.empty()) return;
   Shape shape = parts.front().extent;
-  shape[0] = at;
+  shape[0] = level.cells;
   file.virtualDataset(inRoot(place), type, shape, parts);
 }
 
 }  // namespace
 
-bool hasBoxes(const pugi::xml_node& times) {
-  const auto grids = times.children("Grid");
-  return std::any_of(grids.begin(), grids.end(), [](const pugi::xml_node& output) { return output.child("Grid"); });
+void ShownBoxes::add(const pugi::xml_node& grid, ShownOutput& output) {
+  any_ = any_ || grid.child("Grid");
+  const std::vector<ShownBox> boxes = boxesOf(grid);
+  if (corner_.empty()) corner_ = cornerOf(boxes);
+  std::vector<BoxCells> cells;
+  for (const ShownBox& box : boxes) cells.push_back(cellsOf(box, corner_));
+  std::uint64_t place = scratch_->append(std::as_bytes(std::span(cells)));
+  for (const ShownBox& box : boxes) {
+    addBox(output.levels, box, std::exchange(place, place + sizeof(BoxCells)));
+    spacing_[box.level] = box.spacing;
+  }
 }
 
-void writeBoxes(Hdf5File& file, const pugi::xml_node& times) {
-  const auto outputs = boxesOf(times);
-  const std::map<int, ShownLevel> levels = levelsOf(outputs);
-  std::vector<double> values;
-  std::map<std::string, bool> names;
-  for (const auto& [time, boxes] : outputs) {
-    values.push_back(time);
-    for (const ShownBox& box : boxes)
-      for (const auto& field : box.fields) names[field.first] = true;
+void ShownBoxes::write(Hdf5File& file, const std::vector<const ShownOutput*>& outputs) const {
+  std::vector<double> times;
+  std::set<std::string> names;
+  std::set<int> depths;
+  for (const ShownOutput* output : outputs) {
+    times.push_back(output->time);
+    for (const auto& item : *output->items) names.insert(item.first);
+    for (const LevelRows& rows : output->levels) depths.insert(rows.level);
   }
-  addHead(file, "OverlappingAMR", {2, 2}, values);
-  const std::vector<double> corner = cornerOf(levels);
-  file.attribute(inRoot(""), "Origin", corner);
+  addHead(file, "OverlappingAMR", {2, 2}, times);
+  file.attribute(inRoot(""), "Origin", corner_);
   file.fixedText(inRoot(""), "GridDescription", "XYZ");
   int number = 0;
-  for (const auto& [depth, level] : levels) {
+  for (const int depth : depths) {
+    const ShownLevel level = levelOf(depth, outputs);
     const std::string own = "Level" + std::to_string(number++);
     file.group(inRoot(own));
-    file.attribute(inRoot(own), "Spacing", level.spacing);
-    addNumbers(file, own + "/AMRBox", cellsOf(level, corner), 6);
+    file.attribute(inRoot(own), "Spacing", spacing_.at(depth));
+    const Array boxes{own, "", "", 6, std::vector<std::int32_t>{}, std::make_shared<CellsOfBoxes>(level, *scratch_)};
+    file.dataset(inRoot(own + "/AMRBox"), boxes, {boxes.entries()});
     addNumbers(file, "Steps/" + own + "/AMRBoxOffset", level.starts);
     addNumbers(file, "Steps/" + own + "/NumberOfAMRBox", level.counts);
-    for (const auto& [name, shown] : names) {
+    for (const std::string& name : names) {
       addField(file, name, own + "/" + name, level);
       addNumbers(file, "Steps/" + own + "/CellDataOffset/" + name.substr(name.find('/') + 1), level.cellsBefore);
     }

@@ -1,16 +1,33 @@
 #pragma once
 
 #include <pugixml.hpp>
+#include <vector>
 
+#include "core/output/archive_files.hpp"
 #include "core/output/archive_hdf5.hpp"
+#include "core/output/archive_vtkhdf_items.hpp"
 
 namespace tushar::output {
 
-/// Whether a temporal collection of XDMF shows the boxes of a refined grid at any time.
-bool hasBoxes(const pugi::xml_node& times);
+/// The boxes of the outputs of a refined grid: their cells are in a scratch file.
+class ShownBoxes {
+ public:
+  /// `scratch` must outlive it.
+  explicit ShownBoxes(Scratch& scratch) : scratch_(&scratch) {}
 
-/// Writes such a collection as a VTKHDF file of type OverlappingAMR, of virtual datasets. No box lies over another:
-/// where cells are refined, there are no coarser ones. Layout: VTKHDF 2.2.
-void writeBoxes(Hdf5File& file, const pugi::xml_node& times);
+  /// Adds the boxes of an output to what is shown of it: of a spatial collection of XDMF, or of one uniform grid.
+  void add(const pugi::xml_node& grid, ShownOutput& output);
+  /// Whether there has been a collection.
+  bool any() const { return any_; }
+  /// Writes a VTKHDF file of type OverlappingAMR, of virtual datasets. No box lies over another: where cells are
+  /// refined, there are no coarser ones. Layout: VTKHDF 2.2. Outputs ascend in time.
+  void write(Hdf5File& file, const std::vector<const ShownOutput*>& outputs) const;
+
+ private:
+  Scratch* scratch_;
+  bool any_ = false;
+  std::vector<double> corner_;                    ///< of the grid, x, y, z, m
+  std::map<int, std::vector<double>> spacing_{};  ///< of the cells of each level, m
+};
 
 }  // namespace tushar::output

@@ -1,5 +1,7 @@
 #include "core/output/archive_vtkhdf_items.hpp"
 
+#include <utility>
+
 #include "core/output/archive_files.hpp"
 
 namespace tushar::output {
@@ -12,18 +14,41 @@ Array::Values typeOf(const pugi::xml_node& item) {
   return std::vector<std::int32_t>{};
 }
 
-}  // namespace
-
-Item itemOf(const pugi::xml_node& node) {
-  const std::string place = node.text().as_string();
-  const std::size_t colon = place.find(':');
-  return {place.substr(0, colon), place.substr(colon + 1),
-          numbersIn<std::uint64_t>(node.attribute("Dimensions").as_string()), typeOf(node)};
-}
-
+/// The name of an Attribute of XDMF: `CellData/c.temperature`.
 std::string nameOf(const pugi::xml_node& attribute) {
   const bool ofCells = std::string(attribute.attribute("Center").as_string()) == "Cell";
   return (ofCells ? "CellData/" : "PointData/") + nameInPath(attribute.attribute("Name").as_string());
+}
+
+/// The dataset of which a HyperSlab shows rows; that itself which is none.
+pugi::xml_node wholeOf(const pugi::xml_node& item) {
+  const pugi::xml_node slab = item.child("DataItem");
+  return slab ? slab.next_sibling("DataItem") : item;
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> Item::shapeOf(std::uint64_t count) const {
+  std::vector<std::uint64_t> full = shape;
+  if (isList()) full.front() = count;
+  return full;
+}
+
+Item itemOf(const pugi::xml_node& node, std::uint64_t& count) {
+  const std::string place = node.text().as_string();
+  Item item{place.substr(place.find(':') + 1), numbersIn<std::uint64_t>(node.attribute("Dimensions").as_string()),
+            typeOf(node)};
+  if (item.isList() && !item.shape.empty()) count = std::exchange(item.shape.front(), 0);
+  return item;
+}
+
+Items itemsOf(const pugi::xml_node& grid, std::uint64_t& count) {
+  Items items;
+  const pugi::xml_node points = grid.child("Geometry").child("DataItem");
+  if (std::string(points.attribute("Format").as_string()) == "HDF") items["Points"] = itemOf(points, count);
+  for (const pugi::xml_node& attribute : grid.children("Attribute"))
+    items[nameOf(attribute)] = itemOf(wholeOf(attribute.child("DataItem")), count);
+  return items;
 }
 
 std::string inRoot(const std::string& name) { return name.empty() ? "/VTKHDF" : "/VTKHDF/" + name; }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <pugixml.hpp>
 #include <sstream>
 #include <string>
@@ -9,12 +11,46 @@
 
 namespace tushar::output {
 
-/// A dataset of an output, as an XDMF file names it.
+/// A dataset of an output, as an XDMF file shows it.
 struct Item {
-  std::string file, path;
-  std::vector<std::uint64_t> shape;
+  std::string path;
+  std::vector<std::uint64_t> shape;  ///< that of a list of particles, or of the cells of boxes, has 0 entries
   Array::Values type;
+
+  bool isList() const { return shape.size() <= 2; }
+  /// The shape in an output whose lists have so many entries.
+  std::vector<std::uint64_t> shapeOf(std::uint64_t count) const;
+  bool operator==(const Item&) const = default;
 };
+
+/// Those of an output, by name in the VTKHDF file.
+using Items = std::map<std::string, Item>;
+
+/// Boxes of a level whose cells are consecutive rows of an output's datasets.
+struct LevelRows {
+  int level;
+  std::uint32_t boxes;
+  std::uint64_t place;  ///< in the scratch file, of six 32-bit numbers for each box: first and last cell along x, y, z
+  std::uint64_t first, rows;  ///< cells
+};
+
+/// What a block shows of an output.
+struct ShownOutput {
+  int step;
+  double time;              ///< s
+  std::uint64_t count = 0;  ///< entries of lists
+  const Items* items = nullptr;
+  std::vector<LevelRows> levels{};
+};
+
+/// Removes the output of a step, if there is one. Steps ascend, so that looking from the end on takes no longer the
+/// more there are.
+template <class Output>
+void removeStep(std::vector<Output>& outputs, int step) {
+  auto found = outputs.end();
+  while (found != outputs.begin() && (found - 1)->step > step) --found;
+  if (found != outputs.begin() && (found - 1)->step == step) outputs.erase(found - 1);
+}
 
 /// The numbers in a text, up to the first word that is not a number.
 template <class Number>
@@ -25,11 +61,11 @@ std::vector<Number> numbersIn(const char* text) {
   return numbers;
 }
 
-/// The target of an XDMF DataItem.
-Item itemOf(const pugi::xml_node& node);
+/// The target of an XDMF DataItem; `count` gets the entries of a list.
+Item itemOf(const pugi::xml_node& node, std::uint64_t& count);
 
-/// The name, in a VTKHDF file, of an Attribute of XDMF: `CellData/c.temperature`.
-std::string nameOf(const pugi::xml_node& attribute);
+/// The items of the attributes of an XDMF grid, which may be rows of datasets, and of its points.
+Items itemsOf(const pugi::xml_node& grid, std::uint64_t& count);
 
 /// The path of something in a VTKHDF file.
 std::string inRoot(const std::string& name);

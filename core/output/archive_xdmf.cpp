@@ -3,12 +3,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <fstream>
+#include <ostream>
 #include <set>
+#include <span>
 #include <string_view>
+#include <utility>
 
-#include "core/output/archive_files.hpp"
+#include "core/base/error.hpp"
 #include "core/output/archive_snapshot.hpp"
+#include "core/output/archive_snapshot_head.hpp"
+#include "core/output/archive_xdmf_reader.hpp"
 #include "core/output/archive_xml.hpp"
 
 namespace tushar::output {
@@ -28,24 +33,6 @@ struct Context {
   std::string file;  ///< of HDF5, relative to the XDMF file
   bool doubleAsFloat;
 };
-
-/// Between the name of a block and a step, in the name of the block's grid at that step.
-constexpr std::string_view atStep = " at step ";
-
-int stepOfTime(const std::string& gridName) {
-  const std::size_t at = gridName.rfind(atStep);
-  return at == std::string::npos ? 0
-                                 : static_cast<int>(std::strtol(gridName.c_str() + at + atStep.size(), nullptr, 10));
-}
-
-/// Removes the grid of a step. Steps ascend, so that looking from the end on takes no longer the more there are.
-void removeStep(pugi::xml_node times, int step) {
-  for (pugi::xml_node grid = times.last_child(); grid; grid = grid.previous_sibling()) {
-    const int found = stepOfTime(grid.attribute("Name").as_string());
-    if (found == step) times.remove_child(grid);
-    if (found <= step) return;
-  }
-}
 
 pugi::xml_node addGrid(pugi::xml_node parent, const std::string& name, const char* type) {
   pugi::xml_node grid = parent.append_child("Grid");
@@ -169,7 +156,7 @@ void addBoxes(pugi::xml_node collection, const Context& context, const Snapshot&
     const Vec3 spacing = spacingOf(snapshot.grid, box.level);
     const Vec3 corner(box.lower[0], box.lower[1], box.lower[2]);
     pugi::xml_node grid =
-        addGrid(collection, fmt::format("level {} box {}{}{}", box.level, number++, atStep, snapshot.step), "Uniform");
+        addGrid(collection, nameAtStep(fmt::format("level {} box {}", box.level, number++), snapshot.step), "Uniform");
     addMesh(grid, {cells[0] + 1, cells[1] + 1, cells[2] + 1}, snapshot.grid.lower + corner.cwiseProduct(spacing),
             spacing);
     for (const FieldBlock& field : snapshot.fields)
@@ -181,35 +168,69 @@ void addBoxes(pugi::xml_node collection, const Context& context, const Snapshot&
 
 }  // namespace
 
-XdmfIndex::XdmfIndex(bool doubleAsFloat) : double_as_float_(doubleAsFloat) {
-  pugi::xml_node root = document_.append_child(rootName);
-  set(root, "Version", "3.0");
-  domain_ = root.append_child("Domain");
+XdmfIndex::XdmfIndex(std::filesystem::path file, bool doubleAsFloat)
+    : file_(std::move(file)), double_as_float_(doubleAsFloat), scratch_(temporaryOf(file_)), vtkhdf_(scratch_) {}
+
+void XdmfIndex::keep(const std::string& name, int step, const pugi::xml_node& grid) {
+  auto block = std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& other) { return other.name == name; });
+  if (block == blocks_.end()) block = blocks_.insert(block, {name, {}});
+  const std::string text = textOf(grid, depthOfOutputs);
+  const std::uint64_t first = scratch_.append(std::as_bytes(std::span(text)));
+  removeStep(block->outputs, step);
+  block->outputs.push_back({step, first, text.size()});
+  vtkhdf_.add(name, step, grid);
 }
 
-XdmfIndex::XdmfIndex(bool doubleAsFloat, const std::string& text, int step) : XdmfIndex(doubleAsFloat) {
-  pugi::xml_document before;
-  before.load_string(text.c_str());
-  for (const pugi::xml_node& times : before.child(rootName).child("Domain")) {
-    pugi::xml_node kept = domain_.append_copy(times);
-    for (pugi::xml_node grid = kept.child("Grid"), next; grid; grid = next) {
-      next = grid.next_sibling("Grid");
-      if (stepOfTime(grid.attribute("Name").as_string()) > step) kept.remove_child(grid);
+void XdmfIndex::forget() {
+  blocks_.clear();
+  vtkhdf_.forget();
+}
+
+void XdmfIndex::resume(const ArchiveIndex& index) {
+  std::set<int> shown;
+  const bool isWhole = readXdmf(file_, [&](const std::string& block, int step, const pugi::xml_node& grid) {
+    if (!index.lists(step)) return;
+    keep(block, step, grid);
+    shown.insert(step);
+  });
+  if (!isWhole) {
+    forget();
+    shown.clear();
+  }
+  for (const int step : index.steps()) {
+    if (shown.contains(step)) continue;
+    try {
+      add(readHead(file_.parent_path() / outputName(step), index));
+    } catch (const FileError&) {
+      // It cannot be shown then, and has been removed or damaged by others.
     }
-    if (!kept.child("Grid")) domain_.remove_child(kept);
   }
 }
 
-pugi::xml_node XdmfIndex::addTime(const std::string& block, const Snapshot& snapshot, const char* type) {
-  pugi::xml_node times = domain_.find_child_by_attribute("Grid", "Name", block.c_str());
-  if (!times) {
-    times = addGrid(domain_, block, "Collection");
-    set(times, "CollectionType", "Temporal");
-  }
-  removeStep(times, snapshot.step);
-  pugi::xml_node grid = addGrid(times, fmt::format("{}{}{}", block, atStep, snapshot.step), type);
+void XdmfIndex::write() const {
+  replaceFile(file_, [this](std::ostream& out) {
+    out << xmlDeclaration << "<Xdmf Version=\"3.0\">\n <Domain>\n";
+    std::string text;
+    for (const Block& block : blocks_) {
+      out << headOfBlock(block.name) << '\n';
+      for (const Text& output : block.outputs) {
+        text.resize(output.size);
+        scratch_.read(output.first, std::as_writable_bytes(std::span(text)));
+        out << text;
+      }
+      out << "  </Grid>\n";
+    }
+    out << " </Domain>\n</Xdmf>\n";
+  });
+}
+
+void XdmfIndex::addTime(const std::string& block, const Snapshot& snapshot, const char* type,
+                        const std::function<void(pugi::xml_node)>& fill) {
+  pugi::xml_document document;
+  pugi::xml_node grid = addGrid(document, nameAtStep(block, snapshot.step), type);
   set(grid.append_child("Time"), "Value", snapshot.time);
-  return grid;
+  fill(grid);
+  keep(block, snapshot.step, grid);
 }
 
 void XdmfIndex::addFields(const Snapshot& snapshot, Centring centring) {
@@ -217,24 +238,26 @@ void XdmfIndex::addFields(const Snapshot& snapshot, Centring centring) {
   const bool cells = centring == Centring::cell;
   const auto isHere = [&](const FieldBlock& field) { return field.centring == centring; };
   if (std::none_of(snapshot.fields.begin(), snapshot.fields.end(), isHere)) return;
-  if (!snapshot.grid.boxes.empty()) return addBoxes(addTime("cells", snapshot, "Collection"), context, snapshot);
-  pugi::xml_node grid = addTime(cells ? "cells" : "nodes", snapshot, "Uniform");
-  addUniformGrid(grid, snapshot.grid, centring);
-  for (const FieldBlock& field : snapshot.fields) {
-    if (!isHere(field)) continue;
-    addHeavyItem(addAttribute(grid, cells ? "Cell" : "Node", nameOf(field), field.array), context, pathInFile(field),
-                 field.array, fieldShape(snapshot.grid, centring));
-  }
+  if (!snapshot.grid.boxes.empty())
+    return addTime("cells", snapshot, "Collection", [&](pugi::xml_node grid) { addBoxes(grid, context, snapshot); });
+  addTime(cells ? "cells" : "nodes", snapshot, "Uniform", [&](pugi::xml_node grid) {
+    addUniformGrid(grid, snapshot.grid, centring);
+    for (const FieldBlock& field : snapshot.fields) {
+      if (!isHere(field)) continue;
+      addHeavyItem(addAttribute(grid, cells ? "Cell" : "Node", nameOf(field), field.array), context, pathInFile(field),
+                   field.array, fieldShape(snapshot.grid, centring));
+    }
+  });
 }
 
 /// A time without particles is an empty collection: the readers refuse a grid of 0 points.
 void XdmfIndex::addParticles(const Snapshot& snapshot, const ParticleBlock& block) {
   const std::string name = groupName(block.material, block.materialIndex);
-  if (block.count() == 0) {
-    set(addTime(name, snapshot, "Collection"), "CollectionType", "Spatial");
-    return;
-  }
-  addPointCloud(addTime(name, snapshot, "Uniform"), {outputName(snapshot.step), double_as_float_}, block);
+  if (block.count() == 0)
+    return addTime(name, snapshot, "Collection", [](pugi::xml_node grid) { set(grid, "CollectionType", "Spatial"); });
+  addTime(name, snapshot, "Uniform", [&](pugi::xml_node grid) {
+    addPointCloud(grid, {outputName(snapshot.step), double_as_float_}, block);
+  });
 }
 
 void XdmfIndex::add(const Snapshot& snapshot) {
@@ -242,16 +265,5 @@ void XdmfIndex::add(const Snapshot& snapshot) {
   addFields(snapshot, Centring::cell);
   addFields(snapshot, Centring::node);
 }
-
-std::size_t XdmfIndex::sizeOf(const std::string& text, int step) {
-  const XdmfIndex shown(false, text, step);
-  std::set<int> steps;
-  for (const pugi::xml_node& times : shown.domain_)
-    for (const pugi::xml_node& grid : times.children("Grid"))
-      steps.insert(stepOfTime(grid.attribute("Name").as_string()));
-  return steps.size();
-}
-
-std::string XdmfIndex::text() const { return textOf(document_); }
 
 }  // namespace tushar::output

@@ -1,40 +1,61 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <pugixml.hpp>
 #include <string>
+#include <vector>
 
 #include "core/output/archive.hpp"
+#include "core/output/archive_files.hpp"
+#include "core/output/archive_index.hpp"
+#include "core/output/archive_vtkhdf.hpp"
 
 namespace tushar::output {
 
 /// The XDMF file that shows an archive to ParaView: a temporal collection for each material, of point clouds, and one
 /// each for the cells and the nodes, of uniform grids; of a refined grid, of spatial collections with a uniform grid
-/// for each box. The numbers stay in the HDF5 files.
+/// for each box. The numbers stay in the HDF5 files. The text of each output waits in a scratch file until the whole is
+/// written. Beside it, what the VTKHDF files show.
 class XdmfIndex {
  public:
-  static constexpr const char* rootName = "Xdmf";
+  /// `file` is that which it writes.
+  XdmfIndex(std::filesystem::path file, bool doubleAsFloat);
 
-  explicit XdmfIndex(bool doubleAsFloat);
-  /// Continues from the text of another, without its times after `step`.
-  XdmfIndex(bool doubleAsFloat, const std::string& text, int step);
-
+  /// Continues with the outputs of an index, from what the file shows of them. Those that it lacks, as after a power
+  /// cut, are taken from the heads of their own files, where they can be read.
+  void resume(const ArchiveIndex& index);
   /// Adds a time, or replaces that of the same step.
   void add(const Snapshot& snapshot);
-  /// How many outputs the text of an XDMF file shows, up to a step.
-  static std::size_t sizeOf(const std::string& text, int step);
-  /// The whole file.
-  std::string text() const;
-  /// The grids that show the outputs.
-  const pugi::xml_node& domain() const { return domain_; }
+  /// Writes the file whole.
+  void write() const;
+  /// Writes the VTKHDF files.
+  void writeVtkHdf() const { vtkhdf_.write(file_); }
+  const std::filesystem::path& file() const { return file_; }
 
  private:
-  pugi::xml_node addTime(const std::string& block, const Snapshot& snapshot, const char* type);
+  /// The text of an output, in the scratch file.
+  struct Text {
+    int step;
+    std::uint64_t first, size;
+  };
+  struct Block {
+    std::string name;
+    std::vector<Text> outputs;
+  };
+  void addTime(const std::string& block, const Snapshot& snapshot, const char* type,
+               const std::function<void(pugi::xml_node)>& fill);
+  void keep(const std::string& block, int step, const pugi::xml_node& grid);
   void addParticles(const Snapshot& snapshot, const ParticleBlock& block);
   void addFields(const Snapshot& snapshot, Centring centring);
+  void forget();
 
+  std::filesystem::path file_;
   bool double_as_float_;
-  pugi::xml_document document_;
-  pugi::xml_node domain_;
+  Scratch scratch_;
+  std::vector<Block> blocks_;
+  VtkHdfIndex vtkhdf_;
 };
 
 }  // namespace tushar::output

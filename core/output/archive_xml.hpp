@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <pugixml.hpp>
-#include <sstream>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace tushar::output {
 
@@ -15,11 +16,17 @@ void set(pugi::xml_node node, const char* name, const Value& value, const More&.
   if constexpr (sizeof...(more) > 0) set(node, more...);
 }
 
-/// The document as text.
-inline std::string textOf(const pugi::xml_document& document) {
-  std::ostringstream out;
-  document.save(out, " ");
-  return out.str();
+/// A node as text, at a depth of its document.
+inline std::string textOf(const pugi::xml_node& node, unsigned depth) {
+  struct Text : pugi::xml_writer {
+    std::string all;
+    void write(const void* data, std::size_t size) override { all.append(static_cast<const char*>(data), size); }
+  } text;
+  node.print(text, " ", pugi::format_default, pugi::encoding_utf8, depth);
+  return std::move(text.all);
 }
+
+/// How the XML files of an archive begin.
+constexpr std::string_view xmlDeclaration = "<?xml version=\"1.0\"?>\n";
 
 }  // namespace tushar::output

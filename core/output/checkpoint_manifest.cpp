@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -148,29 +149,39 @@ struct Line {
   ByteRange range() const { return {size(), std::strtoull(place.c_str() + place.find('-') + 1, nullptr, 10)}; }
 };
 
+constexpr std::string_view formatWord = "format ";
+
+/// The format of a manifest with these lines; 0 where it has no number.
+int formatOf(const std::string& lines) {
+  return lines.starts_with(formatWord) ? std::atoi(lines.c_str() + formatWord.size()) : 0;
+}
+
 std::vector<Line> linesOf(const std::string& text) {
   std::vector<Line> lines;
-  std::istringstream in(text);
+  std::istringstream in(formatOf(text) > 0 ? text.substr(text.find('\n') + 1) : text);
   for (Line line; in >> line.hash >> line.place >> std::ws && std::getline(in, line.name);) lines.push_back(line);
   return lines;
 }
 
 /// The damage of the manifest, or of the names and sizes of files; `lines` gets its lines, one per file.
-std::string damageOfList(const fs::path& folder, std::string& lines) {
+Inspection inspectList(const fs::path& folder, std::string& lines) {
   const auto text = textOf(folder / manifestName);
-  if (!text) return fmt::format("{} is missing", manifestName);
+  if (!text) return {fmt::format("{} is missing", manifestName)};
   const std::size_t end = text->rfind('\n', text->size() < 2 ? 0 : text->size() - 2);
   lines = text->substr(0, end == std::string::npos ? 0 : end + 1);
   if (lines.empty() || *text != lines + lastLine(lines))
-    return fmt::format("the content of {} has changed", manifestName);
+    return {fmt::format("the content of {} has changed", manifestName)};
+  if (const int found = formatOf(lines); found > manifestFormat)
+    return {fmt::format("{} has format {}, but this sus reads formats up to {}", manifestName, found, manifestFormat),
+            true};
   for (const Line& line : linesOf(lines)) {
     if (line.isOfPart()) continue;
     std::error_code error;
     const std::uintmax_t found = fs::file_size(folder / line.name, error);
-    if (error) return fmt::format("{} is missing", line.name);
-    if (found != line.size()) return fmt::format("{} has {} bytes instead of {}", line.name, found, line.size());
+    if (error) return {fmt::format("{} is missing", line.name)};
+    if (found != line.size()) return {fmt::format("{} has {} bytes instead of {}", line.name, found, line.size())};
   }
-  return "";
+  return {};
 }
 
 /// The hash of a file as a manifest of an older version has it; empty if it cannot be read. The oldest manifests hash a
@@ -228,7 +239,7 @@ std::string damageOutside(const fs::path& file, const Line& line, const std::vec
 }  // namespace
 
 void writeManifest(const fs::path& folder, const Writers& writers, const std::vector<FilePart>& parts) {
-  std::string lines;
+  std::string lines = fmt::format("{}{}\n", formatWord, manifestFormat);
   for (const auto& [name, size] : listedIn(folder, writers.ranks())) {
     std::vector<ByteRange> ranges;
     for (const FilePart& part : parts)
@@ -242,8 +253,9 @@ void writeManifest(const fs::path& folder, const Writers& writers, const std::ve
 Inspection inspect(const fs::path& folder, const mpi::Communicator& ranks) {
   Inspection found;
   std::string text;
-  if (ranks.isFirst()) found.damage = damageOfList(folder, text);
+  if (ranks.isFirst()) found = inspectList(folder, text);
   found.damage = ranks.broadcast(found.damage);
+  found.isNewer = ranks.any(found.isNewer);
   if (!found.damage.empty()) return found;
   const std::vector<Line> lines = linesOf(ranks.broadcast(text));
   for (const Line& line : lines) {

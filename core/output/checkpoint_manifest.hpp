@@ -18,22 +18,28 @@ struct FilePart {
   std::uint64_t sum = 0;  ///< as ByteSum has it, of such that are in a manifest
 };
 
-/// Writes the file `manifest` into a folder: for each file there a line with the sum of its bytes, its size and its
-/// name; for each of the parts of 64 kB and more a line of its own, `sum first-last name`, and those bytes are left out
-/// of the line of the file; and in its last line the XXH64 of the lines before. The writers share the bytes among
-/// themselves. Everything is then on the disk. Collective; all have the same parts. FileError on a rank that cannot,
-/// FailedElsewhere on the others.
+/// Of manifests; it rises where older readers would go wrong. 1 had hashes of files and of their blocks, 2 sums of
+/// files and their parts; both are without the number.
+inline constexpr int manifestFormat = 3;
+
+/// Writes the file `manifest` into a folder: the line `format 3`; for each file there a line with the sum of its bytes,
+/// its size and its name; for each of the parts of 64 kB and more a line of its own, `sum first-last name`, and those
+/// bytes are left out of the line of the file; and in its last line the XXH64 of the lines before. The writers share
+/// the bytes among themselves. Everything is then on the disk. Collective; all have the same parts. FileError on a rank
+/// that cannot, FailedElsewhere on the others.
 void writeManifest(const std::filesystem::path& folder, const Writers& writers = {},
                    const std::vector<FilePart>& parts = {});
 
 /// The damage of a folder that has a manifest.
 struct Inspection {
-  std::string damage;           ///< which file is missing, shorter, longer or has other bytes; empty if none
-  std::vector<FilePart> parts;  ///< which have not been read
+  std::string damage;             ///< which file is missing, shorter, longer or has other bytes; empty if none
+  bool isNewer = false;           ///< a newer version has written it, as `damage` says
+  std::vector<FilePart> parts{};  ///< which have not been read
 };
 
 /// Reads all but the parts. Ranks share the bytes among themselves. Collective; all get the same. Understands manifests
-/// of older versions, which have no parts, and the XXH64 of files or that of the XXH64 of their blocks of 2^24 bytes.
+/// of older versions, which may have no parts, and the XXH64 of files or that of the XXH64 of their blocks of 2^24
+/// bytes.
 Inspection inspect(const std::filesystem::path& folder, const mpi::Communicator& ranks = mpi::Communicator::alone());
 
 /// The damage in a folder, parts included. Collective; all get the same.

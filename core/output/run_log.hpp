@@ -23,8 +23,8 @@ struct RunRecord {
 class RunLog {
  public:
   /// The format of the archive: it rises when an older sus would take what a newer one writes for damaged. 2: the
-  /// manifests of checkpoints have sums of parts of files.
-  static constexpr int format = 2;
+  /// manifests of checkpoints have sums of parts of files. 3: they have a format of their own.
+  static constexpr int format = 3;
 
   /// Why a file with this text must not be extended: a newer version has written it. Empty: it may be.
   static std::string refusalOf(const std::string& text);

@@ -87,7 +87,7 @@ void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTa
   writeTree(file, *run.problem.grid);
   file.text("/scene", run.problem.inputXml);
   file.text("/archive/index", target.point.index);
-  file.text("/archive/xdmf", target.point.xdmf);
+  file.text("/archive/xdmf", "");  // which older versions look for
   for (std::size_t k = 0; k < run.totalsAtStart.size(); ++k) {
     const ConservedTotal& of = run.phases.totals()[k];
     const std::vector<double>& total = run.totalsAtStart[k];
@@ -120,7 +120,7 @@ void readCheckpoint(RunState& run) {
 
 output::ArchivePoint archivePointOf(const RunState& run) {
   const output::Hdf5Input file(run.problem.restart->state());
-  return {run.time.step(), run.time.time(), file.text("/archive/index"), file.text("/archive/xdmf")};
+  return {run.time.step(), run.time.time(), file.text("/archive/index")};
 }
 
 }  // namespace tushar::simulation

@@ -14,7 +14,7 @@ namespace tushar::simulation {
 //     /                  attributes format, step, time, delT, dropped, version, component
 //     /grid              attributes lower, spacing, cells, dimension
 //     /scene             the scene with its overrides
-//     /archive/index, xdmf    what index.xml and the XDMF file of the archive said
+//     /archive/index     what index.xml of the archive said
 //     /totals/<name>     mass, momentum and energy at the very start, for the drift of the report
 //     and the state: see core/collect/stored_state.hpp
 

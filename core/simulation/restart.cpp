@@ -24,6 +24,12 @@ InputError refusalOf(const Restart& restart) {
   return InputError(std::move(problems));
 }
 
+/// An earlier one would be taken in its place, and it would be lost.
+[[noreturn]] void refuseNewer(const Restart& restart, const std::string& sentence, const mpi::Communicator& ranks) {
+  if (ranks.isFirst()) throw InputError({{{restart.state().parent_path().string(), 0, 0}, "", sentence}});
+  throw mpi::FailedElsewhere();
+}
+
 }  // namespace
 
 void noteDamage(Restart& restart, const std::string& damage) {
@@ -38,6 +44,7 @@ bool takeNext(Restart& restart, const mpi::Communicator& ranks) {
     output::Inspection found = output::inspect(restart.state().parent_path(), ranks);
     restart.parts = std::move(found.parts);
     if (found.damage.empty()) return true;
+    if (found.isNewer) refuseNewer(restart, found.damage, ranks);
     noteDamage(restart, found.damage);
   }
   return false;

@@ -1,6 +1,9 @@
 #include "core/output/checkpoint_store.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include <fstream>
 
@@ -110,6 +113,29 @@ TEST(CheckpointManifest, NamesEveryKindOfDamage) {
   EXPECT_EQ(damage(5, [](const fs::path& at) { fs::remove(at / "manifest"); }), "manifest is missing");
   EXPECT_EQ(damage(6, [](const fs::path& at) { fs::resize_file(at / "manifest", 0); }),
             "the content of manifest has changed");
+}
+
+/// Changes the first line of a manifest and makes it whole again.
+void changeFormat(const fs::path& manifest, const std::string& format) {
+  std::string lines = read(manifest);
+  lines = format + lines.substr(lines.find('\n') + 1);
+  lines.resize(lines.rfind('\n', lines.size() - 2) + 1);
+  write(manifest, lines + fmt::format("{:016x} manifest\n", XXH64(lines.data(), lines.size(), 0)));
+}
+
+TEST(CheckpointManifest, IsReadWithoutTheNumberOfItsFormatAndSaysANewerOne) {
+  const TemporaryFolder here;
+  const CheckpointStore store(here, 1);
+  store.write(1, fill);
+  const fs::path manifest = store.folder(1) / "manifest";
+  EXPECT_TRUE(read(manifest).starts_with("format 3\n"));
+
+  changeFormat(manifest, "");
+  EXPECT_EQ(damageOf(store.folder(1)), "");
+  changeFormat(manifest, "format 4\ns0 of some other kind\n");
+  const Inspection found = inspect(store.folder(1));
+  EXPECT_TRUE(found.isNewer);
+  EXPECT_EQ(found.damage, "manifest has format 4, but this sus reads formats up to 3");
 }
 
 TEST(CheckpointManifest, SeesAnyByteOfItsOwnThatIsChangedOrCutOff) {

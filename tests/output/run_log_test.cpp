@@ -32,7 +32,7 @@ TEST(RunLog, TellsProgramAndCommandLineFromTheStart) {
   const TemporaryFolder here;
   const RunLog log(here, record());
   const Json all = runsIn(here), run = all["runs"].at(0);
-  EXPECT_EQ(all["format"], 2);
+  EXPECT_EQ(all["format"], 3);
   EXPECT_EQ(run["commit"], "0123456789ab");
   EXPECT_EQ(run["libraries"]["HDF5"], "1.10.8");
   EXPECT_EQ(run["command"], Json({"sus", "a \"scene\".ups"}));
@@ -81,15 +81,15 @@ TEST(RunLog, GivesItsFormatToAnArchiveOfAnOlderVersion) {
   const TemporaryFolder here;
   std::ofstream(here / "run.json") << R"({"format": 1, "runs": [{"end": null}]})";
   const RunLog log(here, record());
-  EXPECT_EQ(runsIn(here)["format"], 2);
+  EXPECT_EQ(runsIn(here)["format"], 3);
   EXPECT_EQ(runsIn(here)["runs"].size(), 2u);
 }
 
 TEST(RunLog, RefusesAFileOfANewerVersion) {
   EXPECT_EQ(RunLog::refusalOf(R"({"format": 99, "runs": []})"),
-            "the archive has format 99 of run.json, but this sus reads formats up to 2");
+            "the archive has format 99 of run.json, but this sus reads formats up to 3");
   EXPECT_EQ(RunLog::refusalOf(R"({"format": 1, "runs": []})"), "");
-  EXPECT_EQ(RunLog::refusalOf(R"({"format": 2, "runs": []})"), "");
+  EXPECT_EQ(RunLog::refusalOf(R"({"format": 3, "runs": []})"), "");
   EXPECT_EQ(RunLog::refusalOf("{"), "");
 }
 

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <pugixml.hpp>
+#include <string>
+
+namespace tushar::output {
+
+/// The elements that an output is in: Xdmf, Domain, and the Grid of its block.
+constexpr unsigned depthOfOutputs = 3;
+
+/// The name, in an XDMF file, of a block's grid at a step.
+std::string nameAtStep(const std::string& block, int step);
+
+/// The tag that begins the temporal collection of a block in the file.
+std::string headOfBlock(const std::string& name);
+
+/// Takes an output of a block of an XDMF file: the name of the block, the step, and the grid that shows it.
+using TakeOutput = std::function<void(const std::string& block, int step, const pugi::xml_node& grid)>;
+
+/// Reads an XDMF file of an archive, of which one output is in memory at a time. False where the file is missing or
+/// torn; some outputs may have been taken then.
+bool readXdmf(const std::filesystem::path& file, const TakeOutput& take);
+
+}  // namespace tushar::output
