@@ -16,12 +16,12 @@ class GasMpm : public GasMethod<GasDynamics> {
  public:
   using GasMethod::GasMethod;
 
-  std::string advice() const override {
-    return "a smaller <cfl>, more particles per cell (<res>), or <redistribute> in <gas_dynamics>";
-  }
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
+  std::string advice() const override {
+    return "a smaller <cfl>, more particles per cell (<res>), or <redistribute> in <gas_dynamics>";
+  }
   void scheduleDiagnostics(TaskList& tasks) const override;
   void scheduleMeasureError(TaskList&, const reference::GasReference&, const reference::Clock&) const override;
 
