@@ -18,6 +18,14 @@ void refuseUnless(bool done) {
 
 }  // namespace
 
+PackingUse& PackingUse::operator+=(const PackingUse& other) {
+  bytes += other.bytes;
+  packed += other.packed;
+  packing += other.packing;
+  writing += other.writing;
+  return *this;
+}
+
 Extents fullShape(const std::vector<std::uint64_t>& shape, const Array& array) {
   Extents full(shape.begin(), shape.end());
   if (array.components > 1) full.push_back(static_cast<unsigned long long>(array.components));

@@ -39,6 +39,14 @@ class Chunks {
   std::size_t count_ = 1;
 };
 
+/// What compression took and what it left, on one rank.
+struct PackingUse {
+  double bytes = 0, packed = 0;     ///< of the values as they are in a file without compression, and with it
+  double packing = 0, writing = 0;  ///< s spent on compressing them, and on writing what came of it
+
+  PackingUse& operator+=(const PackingUse& other);
+};
+
 /// A chunk as it is stored in a file.
 struct PackedChunk {
   std::uint32_t skipped = 0;  ///< HDF5's mask of the filters that were skipped because they did not pay off

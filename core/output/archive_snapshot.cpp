@@ -125,6 +125,8 @@ void SnapshotInFlight::finish(const mpi::Communicator& ranks) {
   }
 }
 
+PackingUse SnapshotInFlight::packing() const { return file_->packing(); }
+
 void SnapshotInFlight::abandon() {
   std::error_code ignored;
   std::filesystem::remove(temporaryOf(path_), ignored);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/output/archive.hpp"
+#include "core/output/archive_hdf5_chunks.hpp"
 #include "core/output/behind.hpp"
 #include "core/output/writers.hpp"
 
@@ -28,6 +29,8 @@ class SnapshotInFlight {
   /// Waits until the file is complete, and gives it its name. Collective on `ranks`: those of the writers, or the first
   /// alone where it is the only writer.
   void finish(const mpi::Communicator& ranks);
+  /// What compression took and left on this rank, once it is finished.
+  PackingUse packing() const;
   /// Removes the incomplete file.
   void abandon();
 

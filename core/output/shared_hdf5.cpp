@@ -1,5 +1,6 @@
 #include "core/output/shared_hdf5.hpp"
 
+#include <chrono>
 #include <cstring>
 #include <deque>
 #include <exception>
@@ -17,6 +18,20 @@ namespace {
 bool isNarrowed(const Storage& how, const Array& array) {
   return how.doubleAsFloat && std::holds_alternative<std::vector<double>>(array.values);
 }
+
+/// Adds the time for which it lives, s.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - started_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point started_ = Clock::now();
+};
 
 /// A file on rank 0 whose values are written later.
 struct Begun {
@@ -60,6 +75,7 @@ class FileInFlight::Chunks {
         how_(how),
         file_(std::move(file)),
         outbox_(writers.ranks()),
+        use_(std::make_shared<PackingUse>()),
         packer_(std::make_shared<std::optional<ChunkPacker>>()) {
     if (writers.mine() >= 0) behind_.put({}, [packer = packer_, level = how.compression] { packer->emplace(level); });
   }
@@ -77,6 +93,11 @@ class FileInFlight::Chunks {
       if (rounds_.size() * largestChunk > behind_.most()) placeNext();
       addRound(dataset, chunks, first, pieces);
     }
+  }
+
+  PackingUse use() const {
+    PackingUse all = *use_;
+    return all += placing_;
   }
 
   void finish(const mpi::Communicator& ranks) {
@@ -99,6 +120,20 @@ class FileInFlight::Chunks {
     long job;  ///< after which it is packed
   };
 
+  /// Packs the entries of a chunk, of whose bytes a share is in a file without compression.
+  static PackedChunk packed(ChunkPacker& packer, std::span<const std::byte> entries, double share, PackingUse& use) {
+    const Stopwatch watch(use.packing);
+    PackedChunk chunk = packer.pack(entries);
+    use.bytes += share * static_cast<double>(entries.size());
+    use.packed += static_cast<double>(chunk.bytes.size());
+    return chunk;
+  }
+
+  static void place(Hdf5File& file, const Round& round, std::size_t writer, const PackedChunk& chunk, PackingUse& use) {
+    const Stopwatch watch(use.writing);
+    file.chunk(round.dataset, round.corners[writer], chunk.skipped, chunk.bytes);
+  }
+
   void addRound(const Dataset& dataset, const output::Chunks& chunks, std::size_t first, Pieces& pieces) {
     Round round{dataset.name, {}, std::make_shared<PackedChunk>(), 0};
     std::vector<Piece> of(static_cast<std::size_t>(writers_.count()));
@@ -111,11 +146,13 @@ class FileInFlight::Chunks {
     if (mine > 0) buffer = behind_.buffer(mine);
     const std::span<const std::byte> entries = pieces.bring(dataset.array, of, buffer);
     const bool isOnly = writers_.count() == 1;
+    const double share = isNarrowed(how_, dataset.array) ? .5 : 1;
     if (mine > 0)
-      round.job = behind_.put(std::move(buffer), [packer = packer_, file = isOnly ? file_ : nullptr, entries, round] {
-        *round.mine = (*packer)->pack(entries);
-        if (file) file->chunk(round.dataset, round.corners.front(), round.mine->skipped, round.mine->bytes);
-      });
+      round.job = behind_.put(std::move(buffer),
+                              [packer = packer_, use = use_, file = isOnly ? file_ : nullptr, entries, round, share] {
+                                *round.mine = packed(**packer, entries, share, *use);
+                                if (file) place(*file, round, 0, *round.mine, *use);
+                              });
     if (!isOnly) rounds_.push_back(std::move(round));
   }
 
@@ -127,7 +164,7 @@ class FileInFlight::Chunks {
     const std::vector<PackedChunk> chunks = gathered(std::move(*round.mine));
     try {
       for (std::size_t k = 0; k < chunks.size() && !failure_; ++k)
-        if (!chunks[k].bytes.empty()) file_->chunk(round.dataset, round.corners[k], chunks[k].skipped, chunks[k].bytes);
+        if (!chunks[k].bytes.empty()) place(*file_, round, k, chunks[k], placing_);
     } catch (...) {
       failure_ = std::current_exception();  // the others wait for this rank
     }
@@ -158,6 +195,8 @@ class FileInFlight::Chunks {
   Storage how_;
   std::shared_ptr<Hdf5File> file_;
   mpi::Outbox outbox_;
+  std::shared_ptr<PackingUse> use_;  ///< by jobs
+  PackingUse placing_;               ///< by this thread
   std::shared_ptr<std::optional<ChunkPacker>> packer_;
   std::deque<Round> rounds_;  ///< whose chunks are not yet in the file
   std::exception_ptr failure_;
@@ -180,6 +219,8 @@ FileInFlight::FileInFlight(const Writers& writers, Behind& behind, const std::fi
 }
 
 FileInFlight::~FileInFlight() = default;
+
+PackingUse FileInFlight::packing() const { return chunks_ ? chunks_->use() : PackingUse{}; }
 
 void FileInFlight::finish(const mpi::Communicator& ranks) { slabs_ ? slabs_->finish(ranks) : chunks_->finish(ranks); }
 

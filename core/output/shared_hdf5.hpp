@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/output/archive_hdf5.hpp"
+#include "core/output/archive_hdf5_chunks.hpp"
 #include "core/output/slabs.hpp"
 #include "core/output/snapshot.hpp"
 #include "core/output/writers.hpp"
@@ -47,6 +48,8 @@ class FileInFlight {
   void finish(const mpi::Communicator& ranks);
   /// Where the values of the datasets that have a source are; none where they are compressed.
   const std::vector<ByteRange>& places() const { return places_; }
+  /// What compression took and left on this rank, once the file is complete.
+  PackingUse packing() const;
 
  private:
   class Chunks;

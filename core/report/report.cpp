@@ -56,6 +56,15 @@ Json memoryOf(const MemoryUse& use) {
           {"files", use.files}};
 }
 
+Json compressionOf(const Compression& use) {
+  return {{"bytes", use.bytes},
+          {"packed", use.packed},
+          {"packing", use.packing},
+          {"writing", use.writing},
+          {"saved_bytes", use.bytes - use.packed},
+          {"saved_seconds", use.savedSeconds()}};
+}
+
 Json limitsOf(const Report& report) {
   Json limits = Json::object();
   for (const auto& [limit, steps] : report.limits) limits[limit] = steps;
@@ -187,6 +196,13 @@ std::string rebalancingLine(const Report& report) {
       change.times, change.times == 1 ? "" : "s", change.step, change.before, change.after);
 }
 
+std::string compressionLine(const Compression& use) {
+  if (use.bytes <= 0) return "";
+  return fmt::format(
+      "  compression: {:.4g} MB became {:.4g}; packing took {:.2f} ms, and writing about {:.2f} ms less\n",
+      1e-6 * use.bytes, 1e-6 * use.packed, 1e3 * use.packing, 1e3 * (use.savedSeconds() + use.packing));
+}
+
 std::string timeTable(const Report& report) {
   std::string text = fmt::format("\n  {:<36} {:>10}\n", "wall time", "ms");
   const auto row = [&](const std::string& name, double seconds) {
@@ -199,7 +215,7 @@ std::string timeTable(const Report& report) {
   if (isRefined(report)) row("  regridding", report.wallRegrid);
   row("output", report.wallOutput);
   if (report.wallOutputWait > 0) row("  waiting for the one before", report.wallOutputWait);
-  return text + useLine(report) + memoryLine(report) + rebalancingLine(report);
+  return text + compressionLine(report.compression) + useLine(report) + memoryLine(report) + rebalancingLine(report);
 }
 
 }  // namespace
@@ -247,6 +263,7 @@ std::string toJson(const Report& report) {
                     {"sum", memoryOf(report.memoryOfRanks.sum)},
                     {"most", memoryOf(report.memoryOfRanks.most)}};
   json["wall"] = wallOf(report);
+  if (report.compression.bytes > 0) json["compression"] = compressionOf(report.compression);
   json["errors"] = errorsOf(report);
   json["unmeasured"] = report.unmeasured;
   json["drift"] = driftOf(report);

@@ -46,6 +46,16 @@ struct Rebalancing {
   double before = 1, after = 1;  ///< the largest cost of a rank over the mean, before and after the last change
 };
 
+/// What compressing the values of outputs took and left, summed over ranks.
+struct Compression {
+  double bytes = 0, packed = 0;     ///< without compression, and with it
+  double packing = 0, writing = 0;  ///< s spent on compressing, and on writing what came of it
+
+  /// The time that writing all bytes as fast would have taken longer, less that of compressing, s; negative where
+  /// compression did not pay off.
+  double savedSeconds() const { return packed > 0 ? writing * (bytes / packed - 1) - packing : 0; }
+};
+
 /// Wall time of a task over the whole run.
 struct TaskTime {
   std::string name;
@@ -69,6 +79,7 @@ struct Report {
   MemoryOfRanks memoryOfRanks;
   double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
   double wallOutputWait = 0;  ///< s of the output spent waiting for one that was still being written
+  Compression compression;
   TimeUse use;
   Rebalancing rebalancing;
   std::vector<long> levels;   ///< cells of each level at the end, the coarsest first; 0 for a single level

@@ -179,6 +179,7 @@ std::size_t Outputs::mostBehind(std::uint64_t bytes) const {
 void Outputs::finish(const mpi::Communicator& ranks) {
   OnItsWay output = std::move(*std::exchange(on_its_way_, std::nullopt));
   output.file.finish(ranks);
+  packing_ += output.file.packing();
   onArchive([&](output::Archive& archive) { archive.list(output.listed); });
   run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} saved in {}", output.listed.step,
                                  output.listed.time, output.listed.delT, folder_));

@@ -61,6 +61,8 @@ class Outputs {
   double seconds() const { return seconds_; }
   /// How much of it was spent waiting for an output on its way, s.
   double waited() const { return behind_.waited(); }
+  /// What compression took and left on this rank.
+  const output::PackingUse& packing() const { return packing_; }
   /// The increase of this rank's peak memory by collecting and writing, bytes.
   double memory() const { return memory_; }
 
@@ -98,6 +100,7 @@ class Outputs {
   int last_ = -1;               ///< step of the last output
   bool saves_ = false;          ///< whether the scene has outputs, globals or samples
   double seconds_ = 0, memory_ = 0;
+  output::PackingUse packing_;
 };
 
 }  // namespace tushar::simulation

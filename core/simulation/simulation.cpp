@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 
 #include "core/collect/gather.hpp"
 #include "core/report/error_norms.hpp"
@@ -256,6 +257,10 @@ report::Report Simulation::makeReport() {
   report.wallRegrid = regridder_.seconds();
   report.wallOutput = outputSeconds();
   report.wallOutputWait = run_.ranks.max(outputs_.waited());
+  const output::PackingUse& packing = outputs_.packing();
+  std::array<double, 4> sums{packing.bytes, packing.packed, packing.packing, packing.writing};
+  run_.ranks.sum(sums);
+  report.compression = {sums[0], sums[1], sums[2], sums[3]};
   report.archive = outputs_.folder();
   report.unusedOptions = solvers::unusedOptions();
   return report;

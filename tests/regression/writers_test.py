@@ -49,6 +49,26 @@ class Writers(FolderTest):
         names = [*uda.glob("t*.h5"), *uda.glob("checkpoints/*/*")]
         return {str(name.relative_to(uda)): name.read_bytes() for name in names}
 
+    @staticmethod
+    def packed(report):
+        """Bytes of the values of outputs without and with compression; none where it is not asked for."""
+        return [report["compression"][key] for key in ("bytes", "packed")] if "compression" in report else []
+
+    def test_the_report_says_what_compression_took_and_saved(self):
+        here = self.folder(1)
+        report = self.run_by(here, *CASES["packed fields"][:2], 1, "3x4x1")
+        use = report["compression"]
+        size = sum(file.stat().st_size for file in here.uda.resolve().glob("t*.h5"))
+        self.assertEqual(use["bytes"], 3 * 900 * 700 * 8)
+        self.assertTrue(.5 * size < use["packed"] < size, use)
+        self.assertEqual(use["saved_bytes"], use["bytes"] - use["packed"])
+        self.assertTrue(use["packing"] > 0 and use["writing"] > 0, use)
+        self.assertAlmostEqual(use["saved_seconds"],
+                               use["writing"] * use["saved_bytes"] / use["packed"] - use["packing"], 6)
+        short = self.run_by(self.folder(1), SINE, (*CASES["packed fields"][1], "DataArchiver/outputDoubleAsFloat=true"),
+                            1, "3x4x1")
+        self.assertEqual(short["compression"]["bytes"], use["bytes"] / 2)
+
     def test_the_same_bytes_by_any_ranks_and_writers(self):
         for name, (scene, sets, layout) in CASES.items():
             alone = self.folder(1)
@@ -56,11 +76,13 @@ class Writers(FolderTest):
             self.assertEqual(expected["wall"]["output_wait"], 0)
             files = self.files(alone)
             self.assertEqual(len(files), 3 + 2 * 2)
+            self.assertEqual(len(self.packed(expected)), 2 if name.startswith("packed") else 0)
             for ranks, writers in ((1, 1), *RANKS_AND_WRITERS):
                 with self.subTest(name, ranks=ranks, writers=writers):
                     here = self.folder(ranks)
                     report = self.run_by(here, scene, sets, writers, layout, behind=(ranks + writers) % 3)
                     self.assertEqual(report["fingerprint"], expected["fingerprint"])
+                    self.assertEqual(self.packed(report), self.packed(expected))
                     found = self.files(here)
                     self.assertEqual(found.keys(), files.keys())
                     for file, content in files.items():
