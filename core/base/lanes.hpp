@@ -2,6 +2,10 @@
 
 #include <Eigen/Core>
 
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -43,6 +47,7 @@ class Lanes {
   void copyTo(double* to) const { std::memcpy(to, &values_, sizeof(values_)); }
 
   double operator[](int lane) const { return values_[lane]; }
+  const Register& all() const { return values_; }
 
   Lanes operator-() const { return -values_; }
   Lanes& operator+=(Lanes b) { return *this = *this + b; }
@@ -62,6 +67,26 @@ class Lanes {
   }
   friend Mask operator>=(Lanes a, Lanes b) { return a.values_ >= b.values_; }
   friend Lanes select(Mask which, Lanes yes, Lanes no) { return which ? yes.values_ : no.values_; }
+  /// Component `Which` of as many vectors of `numbers` numbers in a row as there are lanes.
+  template <int numbers, int Which>
+  [[gnu::always_inline]] static Lanes unpacked(const double* from) {
+    Register sum = at(from).values_;
+    takeRegisters<numbers, Which, 1>(sum, from, std::make_integer_sequence<int, count>());
+    return sum;
+  }
+  /// The reverse: the numbers of register `Which` of these vectors, of which each element of `of` has a component.
+  template <int Which, std::size_t numbers>
+  [[gnu::always_inline]] static Lanes packed(const std::array<Lanes, numbers>& of) {
+    Register sum = of[0].values_;
+    takeComponents<Which, 1>(sum, of, std::make_integer_sequence<int, count>());
+    return sum;
+  }
+  friend Mask isNaN(Lanes a) { return a.values_ != a.values_; }
+  /// Swaps, between two rows of a matrix that lie `step` apart, what its transposition swaps at that distance.
+  template <int step>
+  [[gnu::always_inline]] friend void swapBlocks(Lanes& upper, Lanes& lower) {
+    upper.template swapWith<step>(lower, std::make_integer_sequence<int, count>());
+  }
 
  private:
   template <class Value, int... Lane>
@@ -74,12 +99,130 @@ class Lanes {
     return __builtin_shufflevector(low, high, (Start + Lane)...);
   }
 
+  /// Puts into `sum`, which holds what was in the registers before, what component Which has in register Next or later.
+  template <int numbers, int Which, int Next, int... Lane>
+  [[gnu::always_inline]] static void takeRegisters(Register& sum, const double* from,
+                                                   std::integer_sequence<int, Lane...> lanes) {
+    if constexpr (Next < numbers) {
+      constexpr auto place = [](int lane) {
+        const int element = numbers * lane + Which, in = element / count;
+        return in == Next ? count + element % count : Next == 1 && in == 0 ? element % count : lane;
+      };
+      sum = __builtin_shufflevector(sum, at(from + Next * count).values_, place(Lane)...);
+      takeRegisters<numbers, Which, Next + 1>(sum, from, lanes);
+    }
+  }
+  /// Puts into `sum` what register Which has of component Next or later.
+  template <int Which, int Next, std::size_t numbers, int... Lane>
+  [[gnu::always_inline]] static void takeComponents(Register& sum, const std::array<Lanes, numbers>& of,
+                                                    std::integer_sequence<int, Lane...> lanes) {
+    if constexpr (Next < int(numbers)) {
+      constexpr auto place = [](int lane) {
+        const int element = count * Which + lane, component = element % int(numbers);
+        return component == Next             ? count + element / int(numbers)
+               : Next == 1 && component == 0 ? element / int(numbers)
+                                             : lane;
+      };
+      sum = __builtin_shufflevector(sum, of[Next].values_, place(Lane)...);
+      takeComponents<Which, Next + 1>(sum, of, lanes);
+    }
+  }
+  template <int step, int... Lane>
+  [[gnu::always_inline]] void swapWith(Lanes& lower, std::integer_sequence<int, Lane...>) {
+    const Register a = values_, b = lower.values_;
+    values_ = __builtin_shufflevector(a, b, (Lane & step ? count + Lane - step : Lane)...);
+    lower.values_ = __builtin_shufflevector(a, b, (Lane & step ? count + Lane : Lane + step)...);
+  }
+
   Register values_;
 };
+
+/// As many rows as each has lanes.
+using LanesSquare = std::array<Lanes, Lanes::count>;
+
+/// Lane k of row r moves to lane r of row k.
+template <int step = Lanes::count / 2>
+[[gnu::always_inline]] inline void transpose(LanesSquare& rows) {
+#pragma GCC unroll 8
+  for (std::size_t r = 0; r < Lanes::count; ++r)
+    if ((r & step) == 0) swapBlocks<step>(rows[r], rows[r + step]);
+  if constexpr (step > 1) transpose<step / 2>(rows);
+}
+
+/// Number c of the result has at(k)[c] in lane k: `at(k)` points to `numbers` numbers.
+template <int numbers, class At>
+[[gnu::always_inline]] inline std::array<Lanes, numbers> columnsOf(At&& at) {
+  constexpr int inSquares = numbers / Lanes::count * Lanes::count;
+  std::array<Lanes, numbers> columns;
+#pragma GCC unroll 8
+  for (int c = 0; c < inSquares; c += Lanes::count) {
+    LanesSquare rows;
+#pragma GCC unroll 8
+    for (int k = 0; k < Lanes::count; ++k) rows[k] = Lanes::at(at(k) + c);
+    transpose(rows);
+#pragma GCC unroll 8
+    for (int k = 0; k < Lanes::count; ++k) columns[c + k] = rows[k];
+  }
+#pragma GCC unroll 8
+  for (int c = inSquares; c < numbers; ++c) columns[c] = Lanes::of([&](int k) { return at(k)[c]; });
+  return columns;
+}
+
+/// columnsOf of records that follow each other, for few numbers.
+template <int numbers, int... Which>
+[[gnu::always_inline]] inline std::array<Lanes, numbers> unpack(const double* from,
+                                                                std::integer_sequence<int, Which...>) {
+  return {Lanes::unpacked<numbers, Which>(from)...};
+}
+template <int numbers>
+[[gnu::always_inline]] inline std::array<Lanes, numbers> unpack(const double* from) {
+  return unpack<numbers>(from, std::make_integer_sequence<int, numbers>());
+}
+/// The reverse of unpack.
+template <std::size_t numbers, int... Which>
+[[gnu::always_inline]] inline void pack(const std::array<Lanes, numbers>& columns, double* to,
+                                        std::integer_sequence<int, Which...>) {
+  (Lanes::packed<Which>(columns).copyTo(to + Which * Lanes::count), ...);
+}
+template <std::size_t numbers>
+[[gnu::always_inline]] inline void pack(const std::array<Lanes, numbers>& columns, double* to) {
+  pack(columns, to, std::make_integer_sequence<int, int(numbers)>());
+}
+
+/// The reverse of columnsOf for the first `count` lanes: at(k)[c] = columns[c] of lane k.
+template <std::size_t numbers, class At>
+[[gnu::always_inline]] inline void storeColumns(const std::array<Lanes, numbers>& columns, int count, At&& at) {
+  constexpr int inSquares = int(numbers) / Lanes::count * Lanes::count;
+#pragma GCC unroll 8
+  for (int c = 0; c < inSquares; c += Lanes::count) {
+    LanesSquare rows;
+#pragma GCC unroll 8
+    for (int k = 0; k < Lanes::count; ++k) rows[k] = columns[c + k];
+    transpose(rows);
+#pragma GCC unroll 8
+    for (int k = 0; k < Lanes::count; ++k)
+      if (k < count) rows[k].copyTo(at(k) + c);
+  }
+#pragma GCC unroll 8
+  for (int c = inSquares; c < int(numbers); ++c)
+#pragma GCC unroll 8
+    for (int k = 0; k < Lanes::count; ++k)
+      if (k < count) at(k)[c] = columns[c][k];
+}
 
 /// An integer in each lane.
 using LaneIntegers [[gnu::vector_size(Lanes::count * sizeof(int))]] = int;
 
+/// a b + c, rounded once where the processor can.
+[[gnu::always_inline]] inline Lanes multiplyAdd(Lanes a, Lanes b, Lanes c) {
+#if defined(__FMA__) && defined(__AVX512F__)
+  return Lanes((Lanes::Register)_mm512_fmadd_pd((__m512d)a.all(), (__m512d)b.all(), (__m512d)c.all()));
+#elif defined(__FMA__)
+  return Lanes((Lanes::Register)_mm256_fmadd_pd((__m256d)a.all(), (__m256d)b.all(), (__m256d)c.all()));
+#else
+  return a * b + c;
+#endif
+}
 inline Lanes min(Lanes a, Lanes b) { return select(b < a, b, a); }
 inline Lanes max(Lanes a, Lanes b) { return select(a < b, b, a); }
 inline Lanes clamp(Lanes x, Lanes low, Lanes high) { return min(max(x, low), high); }
@@ -108,6 +251,16 @@ inline bool all(Lanes::Mask mask, int count) {
   bool holds = true;
   for (int lane = 0; lane < count; ++lane) holds = holds && mask[lane] != 0;
   return holds;
+}
+/// Whether something holds in every lane.
+inline bool all(Lanes::Mask mask) {
+#if defined(__AVX512F__)
+  return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) == 0xFF;
+#elif defined(__AVX__)
+  return _mm256_movemask_pd((__m256d)mask) == 0xF;
+#else
+  return all(mask, Lanes::count);
+#endif
 }
 /// The greatest of all lanes.
 inline double greatest(Lanes x) {

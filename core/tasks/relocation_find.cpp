@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/lanes.hpp"
 #include "core/tasks/broken_value.hpp"
 #include "core/tasks/outcome.hpp"
 
@@ -29,6 +30,20 @@ template <int D>
 bool isInside(const Vec<D>& x, const Vec<D>& lower, const Vec<D>& upper) {
   bool inside = true;
   for (int d = 0; d < D; ++d) inside &= (x[d] >= lower[d]) & (x[d] < upper[d]);
+  return inside;
+}
+
+/// Whether all of `count` positions in a row lie in the cell with these bounds.
+template <int D>
+bool areInside(const Vec<D>* x, int count, const Vec<D>& lower, const Vec<D>& upper) {
+  for (; count >= Lanes::count; x += Lanes::count, count -= Lanes::count) {
+    const std::array<Lanes, D> at = tushar::unpack<D>(x->data());
+    Lanes::Mask inside = at[0] >= at[0];
+    for (int d = 0; d < D; ++d) inside &= (at[d] >= lower[d]) & (at[d] < upper[d]);
+    if (!tushar::all(inside)) return false;
+  }
+  bool inside = true;
+  for (int k = 0; k < count; ++k) inside &= isInside<D>(x[k], lower, upper);
   return inside;
 }
 
@@ -145,6 +160,7 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
       lower[d] = level.nodePosition(d, cell[d]);
       upper[d] = level.nodePosition(d, cell[d] + 1);
     }
+    if (areInside<D>(x + range.first, range.size(), lower, upper)) return;
     for (const int p : range)
       if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) moves.departed.push_back(p);
   });

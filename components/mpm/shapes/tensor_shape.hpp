@@ -2,6 +2,7 @@
 
 #include "components/mpm/shapes/linear.hpp"
 #include "components/mpm/shapes/radial_axis.hpp"
+#include "core/base/lanes.hpp"
 #include "core/base/quad.hpp"
 
 namespace tushar::mpm {
@@ -13,6 +14,10 @@ struct Extent {
   /// Where `Shape::deforms`: column j is half the edge that lay along axis j at the start, as F has it now, in cells.
   Eigen::Matrix<double, D, D> halfEdges;
 };
+
+/// The factors of a row of nodes along the first axis: of S, then of its slopes along the second and third.
+template <int D>
+using RowFactors = std::array<double, D>;
 
 /// Shape functions of D dimensions that are products of those along each axis. Where `Axisymmetric`, the first axis is
 /// the radius and the second, if any, the axis of symmetry; all integrals are per radian.
@@ -56,6 +61,19 @@ struct TensorShape {
       if constexpr (Axisymmetric) fillRadially(frame, cell, x, extent);
     }
 
+    // What the nodes of a row have, and rows j, k along the second and third axis.
+    double valueAlongRow(std::size_t i) const { return s[i][0]; }
+    double slopeAlongRow(std::size_t i) const { return ds[i][0]; }
+    double hoopAlongRow(std::size_t i) const { return hoop[i]; }
+    RowFactors<D> rowFactors(std::size_t j, std::size_t k) const {
+      if constexpr (D == 1)
+        return {1.0};
+      else if constexpr (D == 2)
+        return {s[j][1], ds[j][1]};
+      else
+        return {s[j][1] * s[k][2], ds[j][1] * s[k][2], s[j][1] * ds[k][2]};
+    }
+
     /// Calls `visit(node, S, gradient)` in the same order of nodes for every particle.
     template <class Visit>
     [[gnu::always_inline]] void forEachNode(Visit&& visit) const {
@@ -97,6 +115,97 @@ struct TensorShape {
         hoop[k] *= inverse;
       }
     }
+  };
+
+  /// The stencils of several particles of a cell, to the bits of Stencil: computed with a lane for each particle, so
+  /// that a particle that then goes through its nodes only loads what it needs.
+  class Stencils {
+   public:
+    static constexpr int dimension = D;
+    static constexpr int nodes = Axis::nodes;
+
+    /// One of them, for the loops over rows of nodes.
+    struct Member {
+      static constexpr int dimension = D;
+      static constexpr int nodes = Axis::nodes;
+      static constexpr bool axisymmetric = Axisymmetric;
+
+      const Stencils& all;
+      int lane;
+      Index<D> first;
+
+      double valueAlongRow(std::size_t i) const { return all.s_[0][i][lane]; }
+      double slopeAlongRow(std::size_t i) const { return all.ds_[0][i][lane]; }
+      double hoopAlongRow(std::size_t i) const { return all.hoop_[i][lane]; }
+      RowFactors<D> rowFactors(std::size_t j, std::size_t k) const {
+        if constexpr (D == 1) return {1.0};
+        const auto& factors = all.factors_[k * Axis::nodes + j];
+        RowFactors<D> own;
+        for (std::size_t d = 0; d < D; ++d) own[d] = factors[d][lane];
+        return own;
+      }
+    };
+
+    /// Of particles at x (m) in a cell, of a size at the start (cells); lanes without a particle repeat one.
+    Stencils(const CellFrame<D>& frame, const Index<D>& cell, const std::array<Lanes, D>& x,
+             const std::array<Lanes, D>& size)
+        : cell_(cell) {
+      for (std::size_t d = 0; d < D; ++d) {
+        const double origin = frame.origin[static_cast<int>(d)], inverse = frame.inverseSpacing[static_cast<int>(d)];
+        if (!(Axisymmetric && d == 0))
+          first_[d] = Axis::fill(((x[d] - origin) * inverse).all(), size[d].all(), s_[d], ds_[d]);
+        else if constexpr (Axisymmetric)
+          fillRadially(origin, inverse, x[0], size[0]);
+        for (Real& slope : ds_[d]) slope *= inverse;
+      }
+      multiplyRows();
+    }
+
+    // Of all of them.
+    Lanes valueAlongRow(std::size_t i) const { return s_[0][i]; }
+    Lanes slopeAlongRow(std::size_t i) const { return ds_[0][i]; }
+    std::array<Lanes, D> rowFactors(std::size_t j, std::size_t k) const {
+      if constexpr (D == 1) return {Lanes(1.0)};
+      std::array<Lanes, D> factors;
+      for (std::size_t d = 0; d < D; ++d) factors[d] = factors_[k * n + j][d];
+      return factors;
+    }
+
+    Member operator[](int lane) const {
+      Member member{*this, lane, cell_};
+      for (std::size_t d = 0; d < D; ++d) member.first[static_cast<int>(d)] += static_cast<int>(first_[d][lane]);
+      return member;
+    }
+
+   private:
+    using Real = Lanes::Register;
+    static constexpr std::size_t n = Axis::nodes, rows = D == 1 ? 1 : D == 2 ? n : n * n;
+
+    void multiplyRows() {
+      if constexpr (D == 2)
+        for (std::size_t j = 0; j < n; ++j) factors_[j] = {s_[1][j], ds_[1][j]};
+      if constexpr (D == 3)
+        for (std::size_t k = 0; k < n; ++k)
+          for (std::size_t j = 0; j < n; ++j)
+            factors_[k * n + j] = {s_[1][j] * s_[2][k], ds_[1][j] * s_[2][k], s_[1][j] * ds_[2][k]};
+    }
+    void fillRadially(double origin, double inverse, const Lanes& x, const Lanes& size) {
+      for (int lane = 0; lane < Lanes::count; ++lane) {
+        std::array<double, n> value, slope, hoop;
+        first_[0][lane] = RadialAxis<Axis>::fill(x[lane] * inverse, origin * inverse, size[lane], value, slope, hoop);
+        for (std::size_t k = 0; k < n; ++k) {
+          s_[0][k][lane] = value[k];
+          ds_[0][k][lane] = slope[k];
+          hoop_[k][lane] = hoop[k] * inverse;
+        }
+      }
+    }
+
+    Index<D> cell_;
+    std::array<Real, D> first_;  ///< node of each axis that a particle touches first, counted from that of the cell
+    std::array<std::array<Real, n>, D> s_, ds_;  ///< by axis and node along it
+    std::array<Real, Axisymmetric ? n : 0> hoop_;
+    std::array<std::array<Real, D>, D == 1 ? 0 : rows> factors_;
   };
 };
 

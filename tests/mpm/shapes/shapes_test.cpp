@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 
 #include "components/mpm/shapes/cpdi_shape.hpp"
 #include "components/mpm/solid/transfer/cpdi_transfer.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
+#include "components/mpm/solid/transfer/gathered_lanes.hpp"
 #include "tests/support/levels.hpp"
 
 namespace tushar::mpm::solid {
@@ -173,6 +175,95 @@ TYPED_TEST(EveryShape, GathersWhatItsNodesSay) {
   }
 }
 
+/// Particles of one cell, as many as lanes or fewer.
+template <class Shape>
+struct InOneCell {
+  static constexpr int D = Shape::dimension;
+  Index<D> cell;
+  std::vector<Vec<D>> x;
+  Extent<D> extent;
+  int count;
+
+  InOneCell(const Level& level, std::mt19937& random) {
+    count = std::uniform_int_distribution<int>(1, Lanes::count)(random);
+    const Somewhere<D> first(level, random);
+    cell = first.cell;
+    extent = first.extent;
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int k = 0; k < count; ++k) {
+      x.push_back(first.x);
+      for (int d = 0; d < D; ++d) x[k][d] = level.nodePosition(d, cell[d]) + uniform(random) * level.spacing(d);
+    }
+  }
+  typename Shape::Stencils stencils(const Level& level) const {
+    std::array<Lanes, D> size;
+    for (int d = 0; d < D; ++d) size[d] = extent.size[d];
+    return {CellFrame<D>(level, cell), cell, vectorsOf<D>(x.data(), count), size};
+  }
+};
+
+template <class Shape>
+void expectSameBitsInLanes() {
+  constexpr int D = Shape::dimension;
+  const Level level = grid<D>();
+  std::mt19937 random(6);
+  const NodeRecord value{Quad{1, 2, 3, 4}, Quad{5, 6, 7, 8}};
+  std::array<Quad, D> slope;
+  for (std::size_t d = 0; d < D; ++d) slope[d] = Quad{1.0 + static_cast<double>(d), -2, .5, 0};
+  const Quad hoop{.25, 0, 0, 0};
+  for (int trial = 0; trial < 200; ++trial) {
+    const InOneCell<Shape> particles(level, random);
+    const auto stencils = particles.stencils(level);
+    for (int k = 0; k < particles.count; ++k) {
+      const typename Shape::Stencil alone(level, particles.cell, particles.x[k], particles.extent);
+      ASSERT_EQ(stencils[k].first, alone.first);
+      Nodes<Shape> one, other;
+      scatter(alone, one.window, value, slope, hoop);
+      scatter(stencils[k], other.window, value, slope, hoop);
+      EXPECT_EQ(std::memcmp(one.records.data(), other.records.data(), sizeof(NodeRecord) * one.records.size()), 0);
+    }
+  }
+}
+
+TYPED_TEST(EveryShape, HasTheSameBitsInLanes) {
+  if constexpr (!TypeParam::deforms) expectSameBitsInLanes<TypeParam>();
+}
+
+TYPED_TEST(EveryShape, GathersTheSameBitsForSeveralParticles) {
+  constexpr int D = TypeParam::dimension;
+  if constexpr (!TypeParam::deforms) {
+    const Level level = grid<D>();
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Box stored{{}, Index3::filled(1)};
+    for (int d = 0; d < D; ++d) {
+      stored.lower[d] = -2;
+      stored.upper[d] = level.cells().upper[d] + 3;
+    }
+    std::vector<NodeRecord> records(static_cast<std::size_t>(stored.size()));
+    for (NodeRecord& record : records)
+      for (int lane = 0; lane < 8; ++lane) record[lane] = uniform(random);
+    const NodeView<const NodeRecord> view(records.data(), stored, stored);
+    for (int trial = 0; trial < 200; ++trial) {
+      const InOneCell<TypeParam> particles(level, random);
+      const Vec3 size = level.template expandPoint<D>(particles.extent.size);
+      const Extents<TypeParam> extents(level, size, {}, {});
+      const GatheredLanes<D> sums = gatherLanes(CellFrame<D>(level, particles.cell), particles.cell, particles.x.data(),
+                                                extents, 0, particles.count, view);
+      for (int k = 0; k < particles.count; ++k) {
+        const typename TypeParam::Stencil alone(level, particles.cell, particles.x[k], particles.extent);
+        const Gathered<D> expected = gather(alone, windowOf<const NodeRecord>(view, alone));
+        for (std::size_t i = 0; i < D; ++i) {
+          EXPECT_EQ(sums.after[i][k], expected.value[lane::velocity + static_cast<int>(i)]);
+          EXPECT_EQ(sums.before[i][k], expected.value[lane::before + static_cast<int>(i)]);
+          for (std::size_t d = 0; d < D; ++d)
+            EXPECT_EQ(sums.gradient[d][i][k], expected.gradient[d][static_cast<int>(i)]);
+        }
+      }
+    }
+  }
+}
+
 template <class Shape>
 class AxisymmetricShape : public testing::Test {};
 using AxisymmetricShapes =
@@ -201,6 +292,10 @@ TYPED_TEST(AxisymmetricShape, HasNoStrainInRestAndOneInRadialStretching) {
     EXPECT_NEAR(hoop, 1, 10 * roundOff) << "v_r = r: the hoop strain rate is 1";
     EXPECT_NEAR(sums.positionGradient(0, 0), 1, 10 * roundOff);
   }
+}
+
+TYPED_TEST(AxisymmetricShape, HasTheSameBitsInLanes) {
+  if constexpr (!TypeParam::deforms) expectSameBitsInLanes<TypeParam>();
 }
 
 TEST(CpdiDomain, IsShrunkWhereItReachesFartherThanACell) {

@@ -25,19 +25,20 @@ template <class Real>
 
 /// The next Lanes::count of `count` tensors in a row; missing ones repeat the last.
 [[gnu::always_inline]] inline TensorOf<Lanes> lanesOf(const Matrix3* tensors, int count) {
+  const std::array<Lanes, 9> numbers =
+      columnsOf<9>([&](int lane) { return tensors[count < Lanes::count ? std::min(lane, count - 1) : lane].data(); });
   TensorOf<Lanes> t;
   for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k)
-      t(i, k) =
-          Lanes::of([&](int lane) { return tensors[count < Lanes::count ? std::min(lane, count - 1) : lane](i, k); });
+    for (int k = 0; k < 3; ++k) t(i, k) = numbers[3 * i + k];
   return t;
 }
 
 /// Stores the first `count` tensors of the lanes, at most Lanes::count, in a row.
 [[gnu::always_inline]] inline void storeLanes(const TensorOf<Lanes>& t, Matrix3* tensors, int count) {
-  for (int lane = 0; lane < std::min(count, Lanes::count); ++lane)
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) tensors[lane](i, k) = t(i, k)[lane];
+  std::array<Lanes, 9> numbers;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) numbers[3 * i + k] = t(i, k);
+  storeColumns(numbers, count, [&](int lane) { return tensors[lane].data(); });
 }
 
 /// The rows of a tensor; lane 3 is undefined.

@@ -82,13 +82,13 @@ requires(Stencil::corners >
   }
 }
 
-template <class Stencil, int D = Stencil::dimension>
+template <class Stencil, class Sums, int D = Stencil::dimension>
 requires(Stencil::corners > 0)
-    [[gnu::always_inline]] inline Gathered<D> gather(const Stencil& stencil,
-                                                     const NodeWindow<const NodeRecord, D>& nodes) {
+    [[gnu::always_inline]] inline void gatherInto(Sums& sums, const Stencil& stencil,
+                                                  const NodeWindow<const NodeRecord, D>& nodes) {
   const auto offsets = offsetsOfCells(stencil, nodes.stride);
   Octet value;
-  Gathered<D> sums;
+  std::array<Quad, D> gradient{};
   for (int c = 0; c < Stencil::corners; ++c) {
     const NodeRecord* const cell = nodes.origin + offsets[c];
     Octet at;
@@ -96,11 +96,11 @@ requires(Stencil::corners > 0)
       at = multiplyAdd(stencil.weights[k][c], Octet(cell[offset]), at);
     });
     value = multiplyAdd(Stencil::share, at, value);
-    for (std::size_t d = 0; d < D; ++d) sums.gradient[d] = multiplyAdd(stencil.slope[d][c], at.low(), sums.gradient[d]);
+    for (std::size_t d = 0; d < D; ++d) gradient[d] = multiplyAdd(stencil.slope[d][c], at.low(), gradient[d]);
   }
   value.copyTo(sums.value);
+  sums.gradient = gradient;
   if constexpr (Stencil::axisymmetric) sums.hoop = stencil.inverseRadius * sums.value.low;
-  return sums;
 }
 
 }  // namespace tushar::mpm::solid

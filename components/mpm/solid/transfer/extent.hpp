@@ -53,6 +53,34 @@ struct Sizes {
   }
 };
 
+/// Whether the particles of a cell all touch its nodes, and no others.
+template <class Shape>
+inline constexpr bool sharesNodes = Shape::ghostNodes == 0;
+
+/// Asks for the values of `count` particles from `first` on before they are read or, if they are not const, written.
+template <class T>
+[[gnu::always_inline]] inline void prefetch(T* values, int first, int count) {
+  constexpr std::size_t line = 64;
+  const char* const from = reinterpret_cast<const char*>(values + first);
+  for (std::size_t at = 0; at < sizeof(T) * static_cast<std::size_t>(count); at += line)
+    __builtin_prefetch(from + at, std::is_const_v<T> ? 0 : 1);
+}
+
+/// The components of up to Lanes::count vectors in a row, one vector in each lane; missing ones repeat the last.
+template <int D>
+[[gnu::always_inline]] inline std::array<Lanes, D> vectorsOf(const Vec<D>* vectors, int count) {
+  if (count >= Lanes::count) return unpack<D>(vectors->data());
+  return columnsOf<D>([&](int lane) { return vectors[std::min(lane, count - 1)].data(); });
+}
+/// Stores the first `count` vectors of the lanes, at most Lanes::count, in a row.
+template <int D>
+[[gnu::always_inline]] inline void storeVectors(const std::array<Lanes, D>& lanes, int count, Vec<D>* vectors) {
+  if (count >= Lanes::count)
+    pack(lanes, vectors->data());
+  else
+    storeColumns(lanes, count, [&](int lane) { return vectors[lane].data(); });
+}
+
 /// Extents of the particles of a material for shape functions: one size for all or each its own, deformed by F.
 template <class Shape>
 class Extents {
@@ -78,6 +106,13 @@ class Extents {
                                    extent.size[j] * level_.spacing(j) * level_.inverseSpacing(i);
     return extent;
   }
+  /// The sizes at the start of up to Lanes::count particles from `first` on, in cells, one in each lane.
+  std::array<Lanes, D> sizes(int first, int count) const {
+    if (Shape::hasSize && each_) return vectorsOf<D>(each_ + first, count);
+    std::array<Lanes, D> same;
+    for (int d = 0; d < D; ++d) same[d] = Shape::hasSize ? common_[d] : 1.0;
+    return same;
+  }
 
  private:
   /// Half the edges F S of a particle that started with the edges S, in cells.
@@ -101,6 +136,23 @@ class Extents {
   const Matrix3* domain_;
   const Matrix3* deformation_;
 };
+
+/// Calls `visit(k, stencil)` for each of `count` particles of a cell from `first` on, with the k-th stencil for loops
+/// over rows of nodes. Those of tensor products are computed for several particles at once.
+template <class Shape, class Visit, int D = Shape::dimension>
+[[gnu::always_inline]] inline void forEachStencilOf(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>* x,
+                                                    const Extents<Shape>& extents, int first, int count,
+                                                    Visit&& visit) {
+  if constexpr (Shape::deforms) {
+    for (int k = 0; k < count; ++k) visit(k, typename Shape::Stencil(frame, cell, x[first + k], extents[first + k]));
+  } else {
+    for (int start = 0; start < count; start += Lanes::count) {
+      const int left = std::min(count - start, Lanes::count), from = first + start;
+      const typename Shape::Stencils stencils(frame, cell, vectorsOf<D>(x + from, left), extents.sizes(from, left));
+      for (int lane = 0; lane < left; ++lane) visit(start + lane, stencils[lane]);
+    }
+  }
+}
 
 /// Calls `visit(p, stencil)` for each particle of `cells`, cell by cell and by id.
 template <class Shape, class Visit, int D = Shape::dimension>

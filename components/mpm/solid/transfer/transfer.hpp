@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "components/mpm/shapes/tensor_shape.hpp"
 #include "components/mpm/solid/transfer/node_record.hpp"
 
 namespace tushar::mpm::solid {
@@ -15,42 +16,19 @@ struct NodeWindow {
   std::array<std::ptrdiff_t, D> stride{};  ///< records from one node to the next along each axis
 };
 
-/// The factors of a row of nodes along the first axis, in the lanes: of S, and of its slopes along the second and
-/// third.
-using RowFactors = Quad;
-
-/// Factors of rows j from the second axis, and of rows k from the third.
-template <class Stencil>
-[[gnu::always_inline]] inline RowFactors secondFactors(const Stencil& stencil, std::size_t j) {
-  return __builtin_shufflevector(stencil.s[j], stencil.ds[j], 1, 5, 1, 1);
-}
-template <class Stencil>
-[[gnu::always_inline]] inline RowFactors thirdFactors(const Stencil& stencil, std::size_t k) {
-  return __builtin_shufflevector(stencil.s[k], stencil.ds[k], 2, 2, 6, 2);
-}
-
 /// Calls `visit(offset, factors)` for each row of nodes that a particle touches.
 template <class Stencil, int D, class Visit>
 [[gnu::always_inline]] inline void forEachRow(const Stencil& stencil,
                                               const std::array<std::ptrdiff_t, Stencil::dimension>& stride,
                                               Visit&& visit) {
-  constexpr int n = Stencil::nodes;
-  if constexpr (D == 1) {
-    visit(std::ptrdiff_t{0}, quadOf(1.0));
-  } else {
-    std::array<Quad, n> second;
-    for (std::size_t j = 0; j < n; ++j) second[j] = secondFactors(stencil, j);
-    if constexpr (D == 2) {
-      for (std::size_t j = 0; j < n; ++j) visit(static_cast<std::ptrdiff_t>(j) * stride[1], second[j]);
-    } else {
-      for (std::size_t k = 0; k < n; ++k) {
-        const Quad third = thirdFactors(stencil, k);
-        for (std::size_t j = 0; j < n; ++j)
-          visit(static_cast<std::ptrdiff_t>(j) * stride[1] + static_cast<std::ptrdiff_t>(k) * stride[2],
-                second[j] * third);
-      }
+  constexpr std::size_t n = Stencil::nodes;
+  for (std::size_t k = 0; k < (D < 3 ? 1 : n); ++k)
+    for (std::size_t j = 0; j < (D < 2 ? 1 : n); ++j) {
+      std::ptrdiff_t offset = 0;
+      if constexpr (D > 1) offset += static_cast<std::ptrdiff_t>(j) * stride[1];
+      if constexpr (D > 2) offset += static_cast<std::ptrdiff_t>(k) * stride[2];
+      visit(offset, stencil.rowFactors(j, k));
     }
-  }
 }
 
 /// The contribution of a particle to a row of nodes along the first axis, without the factors of that axis.
@@ -58,25 +36,33 @@ struct RowShare {
   Octet value, change, round;
 
   template <std::size_t D>
-  [[gnu::always_inline]] RowShare(const RowFactors& f, const NodeRecord& of, const std::array<Quad, D>& slope,
-                                  const Quad& hoop) {
-    const Quad share = broadcast<0>(f);
-    Quad high = share * of.high;
-    if constexpr (D > 1) high = multiplyAdd(broadcast<1>(f), slope[1], high);
-    if constexpr (D > 2) high = multiplyAdd(broadcast<2>(f), slope[2], high);
-    value = Octet(share * of.low, high);
-    change = Octet(Quad{}, share * slope[0]);
-    round = Octet(Quad{}, share * hoop);
+  [[gnu::always_inline]] RowShare(const RowFactors<D>& f, const Octet& of, const std::array<Octet, D>& slope,
+                                  const Octet& hoop)
+      : value(f[0] * of), change(f[0] * slope[0]), round(f[0] * hoop) {
+    for (std::size_t d = 1; d < D; ++d) value = multiplyAddHigh(f[d], slope[d], value);
   }
 
-  /// To node i of the row.
+  /// The record of node i of the row, with the particle's contribution.
+  template <class Stencil>
+  [[gnu::always_inline]] Octet addedTo(const Octet& record, const Stencil& stencil, std::size_t i) const {
+    const Octet sum =
+        multiplyAdd(stencil.valueAlongRow(i), value, multiplyAddHigh(stencil.slopeAlongRow(i), change, record));
+    if constexpr (Stencil::axisymmetric) return multiplyAddHigh(stencil.hoopAlongRow(i), round, sum);
+    return sum;
+  }
   template <class Stencil>
   [[gnu::always_inline]] void addTo(NodeRecord& record, const Stencil& stencil, std::size_t i) const {
-    Octet sum = multiplyAdd(stencil.s[i][0], value, multiplyAddHigh(stencil.ds[i][0], change, Octet(record)));
-    if constexpr (Stencil::axisymmetric) sum = multiplyAddHigh(stencil.hoop[i], round, sum);
-    sum.copyTo(record);
+    addedTo(Octet(record), stencil, i).copyTo(record);
   }
 };
+
+/// A particle's share of the high halves of records for each axis.
+template <std::size_t D>
+[[gnu::always_inline]] inline std::array<Octet, D> highOctets(const std::array<Quad, D>& of) {
+  std::array<Octet, D> high;
+  for (std::size_t d = 0; d < D; ++d) high[d] = Octet(Quad{}, of[d]);
+  return high;
+}
 
 /// record_i += S_i value, and to its high half sum_d dS_i/dx_d slope_d (+ S_i / r hoop where axisymmetric), for the
 /// nodes i of a stencil.
@@ -84,12 +70,52 @@ template <class Stencil, int D = Stencil::dimension>
 [[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<NodeRecord, D>& nodes,
                                            const NodeRecord& value, const std::array<Quad, Stencil::dimension>& slope,
                                            const Quad& hoop = Quad{}) {
-  forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors& f) {
-    const RowShare share(f, value, slope, hoop);
+  const Octet of(value.low, value.high), round(Quad{}, hoop);
+  const auto slopes = highOctets(slope);
+  forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors<D>& f) {
+    const RowShare share(f, of, slopes, round);
     for (std::size_t i = 0; i < Stencil::nodes; ++i)
       share.addTo(nodes.origin[offset + static_cast<std::ptrdiff_t>(i)], stencil, i);
   });
 }
+
+/// The records of the nodes of a cell in registers, while particles that touch no others are added.
+template <int D>
+class CellRecords {
+ public:
+  [[gnu::always_inline]] explicit CellRecords(const NodeWindow<NodeRecord, D>& nodes) : nodes_(nodes) {
+    forEachNode([](Octet& sum, NodeRecord& record) { sum = Octet(record); });
+  }
+  /// As scatter does.
+  template <class Stencil>
+  [[gnu::always_inline]] void add(const Stencil& stencil, const NodeRecord& value, const std::array<Quad, D>& slope,
+                                  const Quad& hoop) {
+    const Octet of(value.low, value.high), round(Quad{}, hoop);
+    const auto slopes = highOctets(slope);
+    for (std::size_t row = 0; row < rows; ++row) {
+      const RowShare share(stencil.rowFactors(row % 2, row / 2), of, slopes, round);
+      for (std::size_t i = 0; i < 2; ++i) sums_[2 * row + i] = share.addedTo(sums_[2 * row + i], stencil, i);
+    }
+  }
+  [[gnu::always_inline]] void store() {
+    forEachNode([](const Octet& sum, NodeRecord& record) { sum.copyTo(record); });
+  }
+
+ private:
+  static constexpr std::size_t rows = std::size_t{1} << (D - 1);
+
+  template <class Visit>
+  [[gnu::always_inline]] void forEachNode(Visit&& visit) {
+    for (std::size_t k = 0; k < 2 * rows; ++k) {
+      std::ptrdiff_t offset = 0;
+      for (std::size_t d = 0; d < D; ++d) offset += ((k >> d) & 1U) ? nodes_.stride[d] : 0;
+      visit(sums_[k], nodes_.origin[offset]);
+    }
+  }
+
+  NodeWindow<NodeRecord, D> nodes_;
+  std::array<Octet, 2 * rows> sums_;
+};
 
 /// Calls `visit` for the numbers from `first` up to `end` that are below n: written out, so that each is a constant.
 template <int n, class Visit>
@@ -111,19 +137,21 @@ inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWind
     end[d] = std::min(Stencil::nodes, box.upper[d] - stencil.first[d]);
     if (first[d] >= end[d]) return;
   }
-  const auto addRow = [&](std::ptrdiff_t offset, const RowFactors& f) {
-    const RowShare share(f, value, slope, hoop);
+  const Octet of(value.low, value.high), round(Quad{}, hoop);
+  const auto slopes = highOctets(slope);
+  const auto addRow = [&](std::ptrdiff_t offset, const RowFactors<D>& f) {
+    const RowShare share(f, of, slopes, round);
     forEachOf<Stencil::nodes>(
         first[0], end[0], [&](int i) { share.addTo(nodes.origin[offset + i], stencil, static_cast<std::size_t>(i)); });
   };
   if constexpr (D == 1) {
-    addRow(0, quadOf(1.0));
+    addRow(0, stencil.rowFactors(0, 0));
   } else if constexpr (D == 2) {
-    for (int j = first[1]; j < end[1]; ++j) addRow(j * nodes.stride[1], secondFactors(stencil, j));
+    for (int j = first[1]; j < end[1]; ++j) addRow(j * nodes.stride[1], stencil.rowFactors(j, 0));
   } else {
     for (int k = first[2]; k < end[2]; ++k)
       for (int j = first[1]; j < end[1]; ++j)
-        addRow(j * nodes.stride[1] + k * nodes.stride[2], secondFactors(stencil, j) * thirdFactors(stencil, k));
+        addRow(j * nodes.stride[1] + k * nodes.stride[2], stencil.rowFactors(j, k));
   }
 }
 
@@ -136,29 +164,40 @@ struct Gathered {
   Quad hoop{};
 };
 
-template <class Stencil, int D = Stencil::dimension>
-[[gnu::always_inline]] inline Gathered<D> gather(const Stencil& stencil, const NodeWindow<const NodeRecord, D>& nodes) {
+/// Sets the value and the gradient of `sums`, and where axisymmetric its hoop. Whoever goes on with the sums in lanes
+/// has them written once, to where they are loaded from.
+template <class Stencil, class Sums, int D = Stencil::dimension>
+[[gnu::always_inline]] inline void gatherInto(Sums& sums, const Stencil& stencil,
+                                              const NodeWindow<const NodeRecord, D>& nodes) {
   Octet value;
-  Gathered<D> sums;
-  forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors& f) {
+  std::array<Quad, D> gradient{};
+  Quad hoop{};
+  forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors<D>& f) {
     const NodeRecord* row = nodes.origin + offset;
     const Octet first(row[0]);
-    Octet both = stencil.s[0][0] * first;
-    Quad change = stencil.ds[0][0] * first.low(), round{};
-    if constexpr (Stencil::axisymmetric) round = stencil.hoop[0] * first.low();
+    Octet both = stencil.valueAlongRow(0) * first;
+    Quad change = stencil.slopeAlongRow(0) * first.low(), round{};
+    if constexpr (Stencil::axisymmetric) round = stencil.hoopAlongRow(0) * first.low();
     for (std::size_t i = 1; i < Stencil::nodes; ++i) {
       const Octet record(row[i]);
-      both = multiplyAdd(stencil.s[i][0], record, both);
-      change = multiplyAdd(stencil.ds[i][0], record.low(), change);
-      if constexpr (Stencil::axisymmetric) round = multiplyAdd(stencil.hoop[i], record.low(), round);
+      both = multiplyAdd(stencil.valueAlongRow(i), record, both);
+      change = multiplyAdd(stencil.slopeAlongRow(i), record.low(), change);
+      if constexpr (Stencil::axisymmetric) round = multiplyAdd(stencil.hoopAlongRow(i), record.low(), round);
     }
     value = multiplyAdd(f[0], both, value);
-    sums.gradient[0] = multiplyAdd(f[0], change, sums.gradient[0]);
-    if constexpr (D > 1) sums.gradient[1] = multiplyAdd(f[1], both.low(), sums.gradient[1]);
-    if constexpr (D > 2) sums.gradient[2] = multiplyAdd(f[2], both.low(), sums.gradient[2]);
-    if constexpr (Stencil::axisymmetric) sums.hoop = multiplyAdd(f[0], round, sums.hoop);
+    gradient[0] = multiplyAdd(f[0], change, gradient[0]);
+    for (std::size_t d = 1; d < D; ++d) gradient[d] = multiplyAdd(f[d], both.low(), gradient[d]);
+    if constexpr (Stencil::axisymmetric) hoop = multiplyAdd(f[0], round, hoop);
   });
   value.copyTo(sums.value);
+  sums.gradient = gradient;
+  if constexpr (Stencil::axisymmetric) sums.hoop = hoop;
+}
+
+template <class Stencil, int D = Stencil::dimension>
+[[gnu::always_inline]] inline Gathered<D> gather(const Stencil& stencil, const NodeWindow<const NodeRecord, D>& nodes) {
+  Gathered<D> sums;
+  gatherInto(sums, stencil, nodes);
   return sums;
 }
 

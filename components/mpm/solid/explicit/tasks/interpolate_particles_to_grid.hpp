@@ -7,6 +7,7 @@
 
 #include "components/mpm/solid/explicit/keeps.hpp"
 #include "components/mpm/solid/transfer/boundary.hpp"
+#include "components/mpm/solid/transfer/cell_run.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
 #include "components/mpm/solid/transfer/stress_source.hpp"
@@ -74,17 +75,20 @@ class Scatter {
     has_stress_ = !material.isRigid;
   }
 
-  /// The particles of a cell of the patch.
-  void addCell(const Index<D>& cell, const data::ParticleRange& range) const {
-    for (int at = range.first; at < range.last; at += stressGroup)
-      addGroup<false>(cell, at, std::min(stressGroup, range.last - at));
+  /// The particles of cells of the patch. `moments` is room for numbers of each.
+  void addCells(const CellRun<D>& cells, std::vector<Matrix3>& moments) const {
+    moments.resize(std::max(moments.size(), static_cast<std::size_t>(cells.count())));
+    cells.forEachGroup([&](int k, int count) { forceMoments(cells.first() + k, count, moments.data() + k); });
+    cells.forEachCell([&](const Index<D>& cell, const data::ParticleRange& range) {
+      addParticles<false>(cell, range.first, range.size(), moments.data() + (range.first - cells.first()));
+    });
   }
   /// The particles of a ghost cell: those that touch the patch's own nodes. The stresses of those between the first and
   /// the last of a group come along, as several cost as much as one.
   void addGhostCell(const Index<D>& cell, const data::ParticleRange& range) const {
     if (hasOwnNode(cell)) {
       for (int at = range.first; at < range.last; at += stressGroup)
-        addGroup<true>(cell, at, std::min(stressGroup, range.last - at), ~Touching{0});
+        addTouching(cell, at, std::min(stressGroup, range.last - at), ~Touching{0});
       return;
     }
     const CellFrame<D> frame(level_, cell);
@@ -93,7 +97,7 @@ class Scatter {
       for (int k = 0; k < std::min(stressGroup, range.last - first); ++k)
         touching |= Touching{touchesOwn(frame, cell, first + k)} << k;
       const int left = std::countr_zero(touching);
-      if (touching != 0) addGroup<true>(cell, first + left, std::bit_width(touching) - left, touching >> left);
+      if (touching != 0) addTouching(cell, first + left, std::bit_width(touching) - left, touching >> left);
     }
   }
 
@@ -136,29 +140,54 @@ class Scatter {
       moments[k].diagonal().array() -= volume * viscosity_[p];
     }
   }
+  /// Those of up to stressGroup particles of a ghost cell that have their bit in `touching`.
+  void addTouching(const Index<D>& cell, int first, int count, Touching touching) const {
+    std::array<Matrix3, stressGroup> moments;
+    forceMoments(first, count, moments.data());
+    addParticles<true>(cell, first, count, moments.data(), touching);
+  }
   /// Adds particles of a cell to the nodes around: m v and m with S_i, -V sigma with its gradient. Where `isWithin`,
   /// only those that have their bit in `touching`, to nodes of the view's box.
   template <bool isWithin>
-  void addGroup(const Index<D>& cell, int first, int count, Touching touching = 0) const {
-    std::array<Matrix3, stressGroup> moments;
-    forceMoments(first, count, moments.data());
+  void addParticles(const Index<D>& cell, int first, int count, const Matrix3* moments, Touching touching = 0) const {
+    prefetch(x_, first + count, count);
+    prefetch(velocity_, first + count, count);
+    prefetch(mass_, first + count, count);
+    if (stresses_.deformation) prefetch(stresses_.deformation, first + stressGroup, count);
     const CellFrame<D> frame(level_, cell);
-    for (int k = 0; k < count; ++k) {
-      const int p = first + k;
+    if constexpr (!isWithin && sharesNodes<Shape>) return addTogether(frame, cell, first, count, moments);
+    forEachStencilOf(frame, cell, x_, extents_, first, count, [&](int k, const auto& stencil) {
       if constexpr (isWithin)
-        if ((touching >> k & 1) == 0) continue;
-      const typename Shape::Stencil stencil(frame, cell, x_[p], extents_[p]);
-      const Vec<D> force = external_force_ ? external_force_[p] : Vec<D>(Vec<D>::Zero());
-      const NodeRecord value{quadOf<D>(mass_[p] * velocity_[p], mass_[p]),
-                             quadOf<D>(force, stresses_.volume ? stresses_.volume[p] : 0.0)};
-      const Matrix3& moment = moments[k];
-      const std::array<Quad, D> slope = slopes(moment);
-      const Quad hoop{-moment(2, 2), 0, 0, 0};
+        if ((touching >> k & 1) == 0) return;
+      const Share share = shareOf(first + k, moments[k]);
       if constexpr (isWithin)
-        scatterWithin(stencil, record_.box(), windowFrom(record_, stencil.first), value, slope, hoop);
+        scatterWithin(stencil, record_.box(), windowFrom(record_, stencil.first), share.value, share.slope, share.hoop);
       else
-        scatter(stencil, windowOf<NodeRecord>(record_, stencil), value, slope, hoop);
-    }
+        scatter(stencil, windowOf<NodeRecord>(record_, stencil), share.value, share.slope, share.hoop);
+    });
+  }
+  /// All that touch the nodes of their cell alone, whose records stay in registers meanwhile.
+  void addTogether(const CellFrame<D>& frame, const Index<D>& cell, int first, int count, const Matrix3* moments) const
+      requires(sharesNodes<Shape>) {
+    CellRecords<D> records(windowFrom(record_, cell));
+    forEachStencilOf(frame, cell, x_, extents_, first, count, [&](int k, const auto& stencil) {
+      const Share share = shareOf(first + k, moments[k]);
+      records.add(stencil, share.value, share.slope, share.hoop);
+    });
+    records.store();
+  }
+  /// What a particle brings: m v, m and its force with S_i, -V sigma with its gradient and S_i / r.
+  struct Share {
+    NodeRecord value;
+    std::array<Quad, D> slope;
+    Quad hoop;
+  };
+  [[gnu::always_inline]] Share shareOf(int p, const Matrix3& moment) const {
+    const Vec<D> force = external_force_ ? external_force_[p] : Vec<D>(Vec<D>::Zero());
+    return {.value = NodeRecord{quadOf<D>(mass_[p] * velocity_[p], mass_[p]),
+                                quadOf<D>(force, stresses_.volume ? stresses_.volume[p] : 0.0)},
+            .slope = slopes(moment),
+            .hoop = Quad{-moment(2, 2), 0, 0, 0}};
   }
   /// -V sigma by its columns along the axes of the kernel.
   [[gnu::always_inline]] std::array<Quad, D> slopes(const Matrix3& moment) const {
@@ -206,12 +235,21 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
       std::fill_n(record.values() + record.stored().offset(first), end - first[0], NodeRecord{});
     });
   const Box near = cellsThatTouch<D>(record.box(), Shape::ghostNodes).intersect(x.cells());
+  CellRun<D> own;
+  std::vector<Matrix3> moments;
+  const auto addOwn = [&] {
+    if (own.count() > 0) scatter.addCells(own, moments);
+    own.clear();
+  };
   x.template forEachOccupied<D>(near, [&](const Index<D>& cell, const data::ParticleRange& range) {
-    if (patch.cells().contains(cell))
-      scatter.addCell(cell, range);
+    const bool isOwn = patch.cells().contains(cell);
+    if (!isOwn || !own.takes(range)) addOwn();
+    if (isOwn)
+      own.add(cell, range);
     else
       scatter.addGhostCell(cell, range);
   });
+  addOwn();
   rows.forEachRow(record.box(), [&](const Index3& first, int end) {
     NodeRecord* node = record.values() + record.stored().offset(first);
     for (int k = first[0]; k < end; ++k, ++node)

@@ -22,9 +22,13 @@ struct ParticleUpdate {
 template <class Shape, int D = Shape::dimension>
 void interpolateToParticlesAndUpdate(const Patch& patch, const Material& material, const Method& method, double time,
                                      double dt, const ParticleUpdate<D>& u) {
-  updateParticles<Shape, Volumes::own>(patch, material, method, time, dt, u.state, [&](int p, const Gathered<D>& sums) {
-    moveParticle<D>(dt, sums, u.state.x[p], u.state.velocity[p], u.newX[p], u.newVelocity[p]);
-  });
+  updateParticles<Shape, Volumes::own>(
+      patch, material, method, time, dt, u.state, [&](int p, int count, const auto& sums) {
+        prefetch(u.newX.values(), p + count, count);
+        prefetch(u.newVelocity.values(), p + count, count);
+        moveParticles<D>(dt, sums, count, u.state.x.values() + p, u.state.velocity.values() + p, u.newX.values() + p,
+                         u.newVelocity.values() + p);
+      });
 }
 
 }  // namespace tushar::mpm::solid

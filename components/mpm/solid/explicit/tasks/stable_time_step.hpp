@@ -4,6 +4,7 @@
 
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -18,18 +19,36 @@ class CrossingRate {
   }
 
   /// Waves of speed c, m/s, in a material that moves with v.
-  void add(double c, const Vec<D>& v) {
-    rate_ = greater(rate_, c * inverse_width_);
-    for (int d = 0; d < D; ++d) rate_ = greater(rate_, (c + std::abs(v[d])) * inverse_spacing_[d]);
+  void add(double c, const Vec<D>& v) { add(&c, &v, 1); }
+  /// Of `count` speeds, each in a material of its own velocity.
+  void add(const double* c, const Vec<D>* v, int count) {
+    for (int k = 0; k < count; k += Lanes::count) {
+      const int left = count - k;
+      const std::array<Lanes, D> velocity = vectorsOf<D>(v + k, left);
+      const Lanes speed = left >= Lanes::count ? Lanes::at(c + k)
+                                               : Lanes::of([&](int lane) { return c[k + std::min(lane, left - 1)]; });
+      rates_ = greater(rates_, speed * inverse_width_);
+      for (std::size_t d = 0; d < D; ++d)
+        rates_ = greater(rates_, (speed + max(velocity[d], -velocity[d])) * inverse_spacing_[static_cast<int>(d)]);
+    }
   }
   /// Time in which the fastest crosses a cell, s; infinite without waves.
-  double time() const { return 1 / rate_; }
-  bool isKnown() const { return rate_ == rate_; }
+  double time() const { return 1 / rate(); }
+  bool isKnown() const { return rate() == rate(); }
 
  private:
-  static double greater(double so_far, double other) { return so_far > other || so_far != so_far ? so_far : other; }
+  static Lanes greater(const Lanes& so_far, const Lanes& other) {
+    return select(so_far > other, so_far, select(isNaN(so_far), so_far, other));
+  }
+  double rate() const {
+    Lanes rates = rates_;
+    if constexpr (Lanes::count > 4) rates = greater(rates, window<4>(rates, rates));
+    if constexpr (Lanes::count > 2) rates = greater(rates, window<2>(rates, rates));
+    return greater(rates, window<1>(rates, rates))[0];
+  }
 
-  double inverse_width_ = 0, rate_ = 0;
+  double inverse_width_ = 0;
+  Lanes rates_ = 0.0;
   Vec<D> inverse_spacing_;
 };
 

@@ -39,7 +39,7 @@ void moveParticles(const Patch& patch, const Material&, const Vec3& commonSize, 
 template <class Shape, Volumes volumes = Volumes::own, int D = Shape::dimension>
 void computeStressTensor(const Patch& patch, const Material& material, const Method& method, double time, double dt,
                          const StateUpdate<D>& u) {
-  updateParticles<Shape, volumes>(patch, material, method, time, dt, u, [](int, const Gathered<D>&) {});
+  updateParticles<Shape, volumes>(patch, material, method, time, dt, u, [](int, int, const auto&) {});
 }
 
 }  // namespace tushar::mpm::solid

@@ -11,6 +11,8 @@
 #include "components/mpm/solid/explicit/tasks/state_update.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/method.hpp"
+#include "components/mpm/solid/transfer/cell_run.hpp"
+#include "components/mpm/solid/transfer/gathered_lanes.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
 
 namespace tushar::mpm::solid {
@@ -33,6 +35,19 @@ inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt,
   rows.copyTo(result);
 }
 
+/// (I + L dt) F of `count` particles in a row, to the same bits.
+[[gnu::always_inline]] inline void deform(const Matrix3* f, const TensorOf<Lanes>& velocityGradient, double dt,
+                                          int count, Matrix3* result) {
+  const TensorOf<Lanes> before = lanesOf(f, count);
+  TensorOf<Lanes> now = before;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const Lanes change = dt * velocityGradient(i, j);
+      for (int k = 0; k < 3; ++k) now(i, k) = multiplyAdd(change, before(j, k), now(i, k));
+    }
+  storeLanes(now, result, count);
+}
+
 /// F at the end of a step: (sum_k (L dt)^k / k!) F, up to the power `order`.
 inline void deformBySeries(const Matrix3& f, const Matrix3& velocityGradient, double dt, int order, Matrix3& result) {
   Matrix3 sum = Matrix3::Identity();
@@ -50,6 +65,46 @@ template <int D>
   newVelocity = velocity + (after - before);
 }
 
+template <int D>
+[[gnu::always_inline]] inline void moveParticles(double dt, const Gathered<D>& sums, int, const Vec<D>* x,
+                                                 const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
+  moveParticle<D>(dt, sums, *x, *velocity, *newX, *newVelocity);
+}
+/// The same for `count` particles in a row.
+template <int D>
+[[gnu::always_inline]] inline void moveParticles(double dt, const GatheredLanes<D>& sums, int count, const Vec<D>* x,
+                                                 const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
+  std::array<Lanes, D> at = vectorsOf<D>(x, count), v = vectorsOf<D>(velocity, count);
+  for (std::size_t d = 0; d < D; ++d) {
+    at[d] += dt * sums.after[d];
+    v[d] += sums.after[d] - sums.before[d];
+  }
+  storeVectors<D>(at, count, newX);
+  storeVectors<D>(v, count, newVelocity);
+}
+
+/// F of a particle at the end of the step by its velocity gradient, the sum of whose squares is `square`, 1/s^2.
+template <int D>
+void deformBy(const Method& method, double dt, double square, const StateUpdate<D>& u, int p,
+              const Matrix3& velocityGradient) {
+  const Matrix3& before = u.oldDeformation[p];
+  Matrix3& now = u.deformation[p];
+  if (method.minimumSubcyclesForF < 1)
+    deformBySeries(before, velocityGradient, dt, -method.minimumSubcyclesForF, now);
+  else
+    deform(before, velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF), now);
+}
+/// What follows from F of a particle: nothing holds what has failed; its volume.
+template <int D>
+[[gnu::always_inline]] inline void finishDeformation(const Erosion& erosion, const StateUpdate<D>& u, int p,
+                                                     Matrix3& velocityGradient) {
+  const Matrix3& before = u.oldDeformation[p];
+  Matrix3& now = u.deformation[p];
+  if (u.localized && (*u.localized)[p]) erosion.restrain(before, now, velocityGradient);
+  if (u.volume) (*u.volume)[p] = (*u.oldVolume)[p] * (now.determinant() / before.determinant());
+  if (u.velocityGradient) (*u.velocityGradient)[p] = velocityGradient;
+}
+
 /// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p, in
 /// parts or with the terms of its series that the scene requests.
 template <class Shape, int D = Shape::dimension>
@@ -65,21 +120,37 @@ template <class Shape, int D = Shape::dimension>
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j)
       velocityGradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) = sums.gradient[j][lane::velocity + i];
-  const Matrix3& before = u.oldDeformation[p];
-  Matrix3& now = u.deformation[p];
-  if (method.minimumSubcyclesForF < 1)
-    deformBySeries(before, velocityGradient, dt, -method.minimumSubcyclesForF, now);
-  else
-    deform(before, velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF), now);
-  if (u.localized && (*u.localized)[p]) erosion.restrain(before, now, velocityGradient);
-  if (u.volume) (*u.volume)[p] = (*u.oldVolume)[p] * (now.determinant() / before.determinant());
-  if (u.velocityGradient) (*u.velocityGradient)[p] = velocityGradient;
+  deformBy(method, dt, square, u, p, velocityGradient);
+  finishDeformation(erosion, u, p, velocityGradient);
 }
 
-/// The results of a constitutive model for up to stressGroup particles, besides their stresses.
+/// The same in three dimensions for `count` particles from `first` on, in the lanes; `velocityGradient` is of the
+/// first.
+[[gnu::always_inline]] inline void deformParticles(const Method& method, double dt, const GatheredLanes<3>& sums,
+                                                   const Erosion& erosion, const StateUpdate<3>& u, int first,
+                                                   int count, Matrix3* velocityGradient) {
+  TensorOf<Lanes> gradient;
+  std::array<Lanes, 3> squares;
+  for (int i = 0; i < 3; ++i) {
+    squares[i] = sums.gradient[0][i] * sums.gradient[0][i];
+    for (int j = 0; j < 3; ++j) {
+      gradient(i, j) = sums.gradient[j][i];
+      if (j > 0) squares[i] = multiplyAdd(gradient(i, j), gradient(i, j), squares[i]);
+    }
+  }
+  const Lanes square = squares[0] + squares[1] + squares[2];
+  storeLanes(gradient, velocityGradient, count);
+  if (method.minimumSubcyclesForF == 1 && all(square * dt * dt < 1.0))
+    deform(u.oldDeformation.values() + first, gradient, dt, count, u.deformation.values() + first);
+  else
+    for (int k = 0; k < count; ++k) deformBy(method, dt, square[k], u, first + k, velocityGradient[k]);
+  for (int k = 0; k < count; ++k) finishDeformation(erosion, u, first + k, velocityGradient[k]);
+}
+
+/// The results of a constitutive model for up to stressGroup particles, besides their stresses and wave speeds.
 struct StressResults {
-  std::array<double, stressGroup> waveSpeed, bulkSpeed;  ///< m/s
-  std::array<double, stressGroup> energyDensity;         ///< J/m^3 of the volume at the start
+  std::array<double, stressGroup> bulkSpeed;      ///< m/s
+  std::array<double, stressGroup> energyDensity;  ///< J/m^3 of the volume at the start
 };
 
 /// The positions, masses and the time of particles from `first` on, for a model that reads them.
@@ -95,7 +166,7 @@ void placePoints(const Level& level, const StateUpdate<D>& u, double time, int f
 /// Particles from `first` on, in the form for a constitutive model. `velocityGradient` is that of the first.
 template <int D>
 StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* velocityGradient, int first, int count,
-                          StressResults& results) {
+                          double* waveSpeed, StressResults& results) {
   const auto of = [&](const auto& view) { return view ? valuesOf(view) + first : nullptr; };
   return {.count = count,
           .timeStep = dt,
@@ -107,7 +178,7 @@ StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* vel
           .stress = of(u.stress),
           .state = u.state ? valuesOf(u.state) + first * u.stateSize : nullptr,
           .stateStride = u.stateSize,
-          .waveSpeed = results.waveSpeed.data(),
+          .waveSpeed = waveSpeed,
           .bulkSpeed = u.viscosity ? results.bulkSpeed.data() : nullptr,
           .temperatureChange = of(u.temperatureChange),
           .strainEnergyDensity = u.strainEnergy ? results.energyDensity.data() : nullptr};
@@ -159,21 +230,19 @@ void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const
   }
 }
 
-/// Stress, artificial viscosity and strain energy of particles of a cell, where a scene keeps them; adds their waves to
-/// `rate`.
+/// Stress, artificial viscosity and strain energy of up to stressGroup particles, where a scene keeps them, and the
+/// speeds of their waves, m/s.
 template <int D>
 void updateStress(const Level& level, const Material& material, const Method& method, double time, double dt,
-                  const StateUpdate<D>& u, const Matrix3* velocityGradient, int first, int count,
-                  CrossingRate<D>& rate) {
+                  const StateUpdate<D>& u, const Matrix3* velocityGradient, int first, int count, double* waveSpeed) {
   if (u.state)
     std::copy_n(valuesOf(u.oldState) + first * u.stateSize, count * u.stateSize,
                 valuesOf(u.state) + first * u.stateSize);
   StressResults results;
-  StressPoints points = stressPoints(u, dt, velocityGradient, first, count, results);
+  StressPoints points = stressPoints(u, dt, velocityGradient, first, count, waveSpeed, results);
   std::array<Vec3, stressGroup> positions;
   if (material.model->usesPlaceAndTime()) placePoints<D>(level, u, time, first, positions, points);
   material.model->updateStress(material.density, points);
-  for (int k = 0; k < count; ++k) rate.add(results.waveSpeed[k], u.velocity[first + k]);
   if (u.viscosity) updateViscosity(material, method, dt, u, velocityGradient, results.bulkSpeed.data(), first, count);
   if (u.strainEnergy) updateStrainEnergy(material, u, results.energyDensity.data(), first, count);
 }
@@ -194,9 +263,79 @@ NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, con
       "", "p.deformationMeasure", level.cellNumber<D>(cell)};
 }
 
+/// Whether particles are updated several at once: their cells hold enough of them in three dimensions only.
+template <class Shape>
+inline constexpr bool updatesTogether = Shape::dimension == 3;
+
+/// Brings `count` particles of a cell, from `first` on, to the end of the step, without their stress.
+template <class Shape, class Move, int D = Shape::dimension>
+[[gnu::always_inline]] inline void moveAndDeform(const Level& level, const Index<D>& cell,
+                                                 const Extents<Shape>& extents, const Material& material,
+                                                 const Method& method, double dt, const StateUpdate<D>& u,
+                                                 const data::ParticleRange& range, Matrix3* velocityGradient,
+                                                 Move&& move) {
+  const CellFrame<D> frame(level, cell);
+  const int first = range.first, count = range.last - range.first;
+  prefetch(u.x.values(), first + count, count);
+  prefetch(u.velocity.values(), first + count, count);
+  prefetch(u.oldDeformation.values(), first + count, count);
+  prefetch(u.deformation.values(), first + count, count);
+  if constexpr (updatesTogether<Shape>) {
+    for (int k = 0; k < count; k += Lanes::count) {
+      const int group = std::min(count - k, Lanes::count);
+      const GatheredLanes<D> sums = gatherLanes(frame, cell, u.x.values(), extents, first + k, group, u.record);
+      move(first + k, group, sums);
+      deformParticles(method, dt, sums, material.erosion, u, first + k, group, velocityGradient + k);
+    }
+  } else {
+    forEachStencilOf(frame, cell, u.x.values(), extents, first, count, [&](int k, const auto& stencil) {
+      const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(u.record, stencil));
+      move(first + k, 1, sums);
+      deformParticle<Shape>(level, method, dt, sums, material.erosion, u, first + k, velocityGradient[k]);
+    });
+  }
+}
+
+/// Particles that have reached the end of the step, but for their stress.
+template <int D>
+struct MovedParticles {
+  CellRun<D> cells;
+  std::vector<Matrix3> velocityGradient;  ///< at least of those of the cells
+  std::vector<double> waveSpeed;          ///< of as many
+
+  /// L of the particles of a cell that joins, 1/s.
+  Matrix3* add(const Index<D>& cell, const data::ParticleRange& range) {
+    cells.add(cell, range);
+    if (velocityGradient.size() < static_cast<std::size_t>(cells.count())) {
+      velocityGradient.resize(std::max(cells.count(), stressGroup));
+      waveSpeed.resize(velocityGradient.size());
+    }
+    return velocityGradient.data() + (range.first - cells.first());
+  }
+};
+
+/// The stress of particles that have moved, and the stable time step of their cells. Throws NumericalError where a wave
+/// has no speed. No particle is left in `moved`.
+template <int D>
+void updateStresses(const Level& level, const Material& material, const Method& method, double time, double dt,
+                    const StateUpdate<D>& u, const CrossingRate<D>& none, MovedParticles<D>& moved) {
+  moved.cells.forEachGroup([&](int k, int count) {
+    updateStress<D>(level, material, method, time, dt, u, moved.velocityGradient.data() + k, moved.cells.first() + k,
+                    count, moved.waveSpeed.data() + k);
+  });
+  moved.cells.forEachCell([&](const Index<D>& cell, const data::ParticleRange& range) {
+    CrossingRate<D> rate = none;
+    rate.add(moved.waveSpeed.data() + (range.first - moved.cells.first()), u.velocity.values() + range.first,
+             range.size());
+    if (!rate.isKnown()) throw withoutWaveSpeed<D>(level, u, cell, range);
+    u.stableTimeStep[cell] = rate.time();
+  });
+  moved.cells.clear();
+}
+
 /// F, the stress and related quantities at the end of the step, of the patch's own particles, and the stable time step
-/// of each cell. Calls `move(p, sums)` for what each particle gathers from the grid. Throws NumericalError where a wave
-/// has no speed. The step starts at `time`, s.
+/// of each cell. Calls `move(p, count, sums)` for what particles from p on gather from the grid: one, or several in
+/// lanes. Throws NumericalError where a wave has no speed. The step starts at `time`, s.
 template <class Shape, Volumes volumes, class Move, int D = Shape::dimension>
 void updateParticles(const Patch& patch, const Material& material, const Method& method, double time, double dt,
                      const StateUpdate<D>& u, Move&& move) {
@@ -205,30 +344,14 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
   const CrossingRate<D> none(level);
   u.stableTimeStep.fill(none.time());
   if (u.x.owned() == 0) return;
-  std::vector<Matrix3> gradients(stressGroup);
+  MovedParticles<D> moved;
   u.x.template forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
-    CrossingRate<D> rate = none;
-    const CellFrame<D> frame(level, cell);
-    const int together = volumes == Volumes::shared ? range.size() : stressGroup;
-    if constexpr (volumes == Volumes::shared) gradients.resize(together);
-    Matrix3* const velocityGradient = gradients.data();
-    for (int first = range.first; first < range.last; first += together) {
-      const int count = std::min(together, range.last - first);
-      for (int k = 0; k < count; ++k) {
-        const int p = first + k;
-        const typename Shape::Stencil stencil(frame, cell, u.x[p], extents[p]);
-        const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(u.record, stencil));
-        move(p, sums);
-        deformParticle<Shape>(level, method, dt, sums, material.erosion, u, p, velocityGradient[k]);
-      }
-      if constexpr (volumes == Volumes::shared) shareVolume<D>(dt, range, u, velocityGradient);
-      for (int k = 0; k < count; k += stressGroup)
-        updateStress<D>(level, material, method, time, dt, u, velocityGradient + k, first + k,
-                        std::min(stressGroup, count - k), rate);
-    }
-    if (!rate.isKnown()) throw withoutWaveSpeed<D>(level, u, cell, range);
-    u.stableTimeStep[cell] = rate.time();
+    if (!moved.cells.takes(range)) updateStresses<D>(level, material, method, time, dt, u, none, moved);
+    Matrix3* const velocityGradient = moved.add(cell, range);
+    moveAndDeform(level, cell, extents, material, method, dt, u, range, velocityGradient, move);
+    if constexpr (volumes == Volumes::shared) shareVolume<D>(dt, range, u, velocityGradient);
   });
+  updateStresses<D>(level, material, method, time, dt, u, none, moved);
 }
 
 }  // namespace tushar::mpm::solid
