@@ -246,7 +246,7 @@ class Schema : public SchemaBase {
   /// the compiler makes them once for each type of value.
   template <class M>
   static Reach<M> reach(M S::*member) {
-    return [member](void* object) { return &(static_cast<S*>(object)->*member); };
+    return Reach<M>(member);
   }
 
   template <class T, class M, class... C>

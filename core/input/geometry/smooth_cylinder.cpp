@@ -12,6 +12,25 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
+/// The rotation that turns the z axis into `direction` the shorter way. Eigen's, with one of the axes in place of a
+/// singular value decomposition, which takes the compiler seconds, where the two are opposite.
+Eigen::Matrix3d turnOfZ(const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d z(0, 0, 1), end = direction.normalized(), normal = z.cross(end);
+  const double cosine = end.dot(z);
+  Eigen::Quaterniond turn;
+  if (cosine < -1 + 1e-12) {
+    const Eigen::Vector3d axis = normal.isZero(0) ? Eigen::Vector3d(-1, 0, 0) : Eigen::Vector3d(normal.normalized());
+    const double half = (1 + std::max(cosine, -1.0)) * 0.5;
+    turn.w() = std::sqrt(half);
+    turn.vec() = axis * std::sqrt(1 - half);
+  } else {
+    const double twice = std::sqrt((1 + cosine) * 2);
+    turn.w() = twice * 0.5;
+    turn.vec() = normal * (1 / twice);
+  }
+  return turn.toRotationMatrix();
+}
+
 }  // namespace
 
 bool SmoothCylinder::contains(const Vec3& point) const {
@@ -47,9 +66,7 @@ int SmoothCylinder::particlesOfRing(int ring, double cellVolume) const {
 }
 
 void SmoothCylinder::addRing(const Vec3& center, int ring, int count, std::vector<Particle>& particles) const {
-  const Eigen::Quaterniond turn =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(0, 0, 1), Eigen::Vector3d((top - bottom).normalized()));
-  const Eigen::Matrix3d rotation = turn.toRotationMatrix();
+  const Eigen::Matrix3d rotation = turnOfZ((top - bottom).normalized());
   const double radius = innerRadius + (ring + 0.5) * width(), step = angle() / count;
   for (int k = 0; k < count; ++k) {
     const double phi = degree * startAngle + (k + 0.5) * step, x = std::cos(phi), y = std::sin(phi);

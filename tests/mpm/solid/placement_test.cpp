@@ -149,6 +149,20 @@ TEST(Placement, OfASmoothCylinderHasNoTinyPieSlices) {
   EXPECT_LT(few.size(), many.size());
 }
 
+TEST(SmoothCylinder, TurnsItsParticlesWithItsAxis) {
+  for (const Vec3& axis : {Vec3(0, 0, -2), Vec3(1, 0, 0), Vec3(-1, 2, 0.5), Vec3(1e-9, 1e-10, -1)}) {
+    const auto shape = ring(input::SmoothCylinder::Scheme::pieSlices);
+    shape->bottom = Vec3(1, 2, 3);
+    shape->top = shape->bottom + axis;
+    const Vec3 along = axis.normalized();
+    for (const auto& particle : shape->particles(1)) {
+      EXPECT_TRUE(shape->contains(particle.at));
+      EXPECT_NEAR((particle.edges * particle.edges.transpose() * along).dot(along), axis.squaredNorm(), 1e-12);
+      EXPECT_NEAR(std::abs(particle.edges.determinant()) / particle.volume, 1, 1e-2);
+    }
+  }
+}
+
 TEST(SmoothCylinder, HoldsWhatIsBetweenItsRadii) {
   const auto shape = ring(input::SmoothCylinder::Scheme::pieSlices);
   EXPECT_TRUE(shape->contains({0.5, 0, 0.05}));

@@ -1,8 +1,8 @@
 #include "components/mpm/solid/contact/plane_friction.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "components/mpm/solid/contact/friction.hpp"
 
@@ -15,24 +15,64 @@ constexpr double tolerance = 1e-7;
 /// A body's mass at a node below this is ignored, kg; as in Uintah.
 constexpr double leastMass = 1e-16;
 
+template <int N>
+using Square = Eigen::Matrix<double, N, N>;
+template <int N>
+using Column = Eigen::Matrix<double, N, 1>;
+
+/// The sum of a(row, i) b[i] over i from `first` to `last` - 1, the last of them first.
+template <int N>
+double sumInRow(const Square<N>& a, const Column<N>& b, int row, int first, int last) {
+  if (first == last) return 0;
+  double sum = a(row, last - 1) * b[last - 1];
+  for (int i = last - 2; i >= first; --i) sum = a(row, i) * b[i] + sum;
+  return sum;
+}
+
+/// Eliminates column k below its greatest entry, which it moves to row k.
+template <int N>
+void eliminate(Square<N>& a, Column<N>& b, int k) {
+  int pivot = k;
+  for (int i = k + 1; i < N; ++i)
+    if (std::abs(a(i, k)) > std::abs(a(pivot, k))) pivot = i;
+  a.row(k).swap(a.row(pivot));
+  std::swap(b[k], b[pivot]);
+  if (a(k, k) == 0) return;
+  for (int i = k + 1; i < N; ++i) {
+    a(i, k) /= a(k, k);
+    for (int j = k + 1; j < N; ++j) a(i, j) -= a(i, k) * a(k, j);
+  }
+}
+
+/// The solution x of a x = b by Gauss with partial pivoting. (Eigen's takes the compiler ten times as long.)
+template <int N>
+Column<N> solved(Square<N> a, Column<N> b) {
+  for (int k = 0; k < N; ++k) eliminate<N>(a, b, k);
+  for (int i = 1; i < N; ++i) b[i] -= sumInRow<N>(a, b, i, 0, i);
+  for (int i = N - 1; i >= 0; --i) {
+    if (i < N - 1) b[i] -= sumInRow<N>(a, b, i, i + 1, N);
+    b[i] /= a(i, i);
+  }
+  return b;
+}
+
 /// A step of the regression: (J^T J + lambda) change = J^T (c - f) - lambda phi.
 template <int D>
-Eigen::Matrix<double, D + 1, 1> step(const std::vector<SidedParticle<D>>& particles, double lambda,
-                                     const Eigen::Matrix<double, D + 1, 1>& phi) {
-  Eigen::Matrix<double, D + 1, D + 1> matrix = Eigen::Matrix<double, D + 1, D + 1>::Zero();
-  Eigen::Matrix<double, D + 1, 1> right = Eigen::Matrix<double, D + 1, 1>::Zero();
+Column<D + 1> step(const std::vector<SidedParticle<D>>& particles, double lambda, const Column<D + 1>& phi) {
+  Square<D + 1> matrix = Square<D + 1>::Zero();
+  Column<D + 1> right = Column<D + 1>::Zero();
   for (int d = 0; d < D; ++d) {
     matrix(d, d) = lambda;
     right[d] = -lambda * phi[d];
   }
   for (const SidedParticle<D>& particle : particles) {
-    Eigen::Matrix<double, D + 1, 1> x;
+    Column<D + 1> x;
     x << particle.x, 1.0;
     const double f = std::tanh(0.5 * phi.dot(x)), slope = 0.5 * (1 - f * f);
     matrix += slope * slope * x * x.transpose();
     right += slope * ((particle.isOther ? 1.0 : -1.0) - f) * x;
   }
-  return matrix.partialPivLu().solve(right);
+  return solved<D + 1>(matrix, right);
 }
 
 /// The material whose body the plane at a node belongs to, or -1.

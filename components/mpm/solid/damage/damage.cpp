@@ -1,5 +1,6 @@
 #include "components/mpm/solid/damage/damage.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,6 +12,10 @@ namespace tushar::mpm::solid {
 
 DamageState damagedAtStart(double mean, double deviation, ParticleId id) {
   return {deviation > 0 ? std::abs(mean + deviation * drawnNormal(Drawing::damage, 0, id)) : mean, 0, false};
+}
+
+Vec3 principalValues(const Matrix3& tensor) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
 double greatestStrain(const Matrix3& deformation) {

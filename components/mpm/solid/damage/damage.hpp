@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
-
 #include <string_view>
 #include <variant>
 
@@ -136,9 +134,7 @@ using Damage = std::variant<NoDamage, JohnsonCookDamage, HancockMackenzieDamage,
                             ThresholdVarDamage>;
 
 /// Principal values, the least first.
-inline Vec3 principalValues(const Matrix3& tensor) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
-}
+Vec3 principalValues(const Matrix3& tensor);
 /// The greatest principal value of Almansi's strain, (I - (F Fᵀ)^-1)/2.
 double greatestStrain(const Matrix3& deformation);
 
