@@ -11,11 +11,16 @@ namespace tushar::data {
 namespace {
 
 struct OwnedLabel {
-  explicit OwnedLabel(const Label& of) : name("rim." + std::string(of.name)), label(of) {
+  explicit OwnedLabel(const Label& of) : name(nameOf(of)), label(of) {
     label.name = name;
     label.description = "flux through the rims of patches";
     label.centring = Centring::rim;
     label.bound = Bound::none;
+  }
+  static std::string nameOf(const Label& of) {
+    constexpr std::string_view rim = "rim.";
+    if (of.centring == Centring::rim) return "rim.sum." + std::string(of.name.substr(rim.size()));
+    return std::string(rim) + std::string(of.name);
   }
   std::string name;
   Label label;

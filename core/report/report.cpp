@@ -177,6 +177,13 @@ std::string uniformLine(const Report& report) {
          fmt::format("  it would probably be faster: on levels an update takes about {:g} times as long\n", cost);
 }
 
+/// The updates of each level, if finer ones take smaller steps.
+std::string updatesLine(const Report& report) {
+  std::string updates;
+  for (const double one : report.levelUpdates) updates += fmt::format("{}{:.4g}", updates.empty() ? "" : " + ", one);
+  return updates.empty() ? "" : fmt::format("  of levels that each take their own steps: {}\n", updates);
+}
+
 /// The cells of each level, and the cost of updating and regridding them.
 std::string levelsLine(const Report& report) {
   if (!isRefined(report)) return "";
@@ -184,7 +191,7 @@ std::string levelsLine(const Report& report) {
   for (const long count : report.levels) cells += fmt::format("{}{}", cells.empty() ? "" : " + ", count);
   return fmt::format("cells of {} levels: {}; {:.4g} cell updates, {}\n", report.levels.size(), cells, report.updates,
                      counted(report.regrids, "regrid")) +
-         uniformLine(report);
+         updatesLine(report) + uniformLine(report);
 }
 
 std::string rebalancingLine(const Report& report) {
@@ -246,6 +253,7 @@ std::string toJson(const Report& report) {
   if (isRefined(report)) {
     json["levels"] = report.levels;
     json["updates"] = report.updates;
+    if (!report.levelUpdates.empty()) json["level_updates"] = report.levelUpdates;
     json["uniform_updates"] = report.uniformUpdates;
     json["regrids"] = report.regrids;
   }

@@ -82,11 +82,12 @@ struct Report {
   Compression compression;
   TimeUse use;
   Rebalancing rebalancing;
-  std::vector<long> levels;   ///< cells of each level at the end, the coarsest first; 0 for a single level
-  double updates = 0;         ///< cell updates: the sum over steps of the cells of all levels
-  double uniformUpdates = 0;  ///< the same, had all cells been as fine as the finest
-  int regrids = 0;            ///< number of regrids
-  double wallRegrid = 0;      ///< s of the loop spent on regridding
+  std::vector<long> levels;          ///< cells of each level at the end, the coarsest first; 0 for a single level
+  double updates = 0;                ///< cell updates: the sum over steps of the cells of all levels
+  std::vector<double> levelUpdates;  ///< those of each level; none if all take the same steps
+  double uniformUpdates = 0;         ///< as `updates`, had all cells been as fine as the finest
+  int regrids = 0;                   ///< number of regrids
+  double wallRegrid = 0;             ///< s of the loop spent on regridding
   std::vector<TaskTime> tasks;
   double exchange = 0;  ///< s of the loop spent filling ghosts
   std::vector<ErrorNorms> errors;

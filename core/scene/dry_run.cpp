@@ -91,7 +91,7 @@ DryRun dryRun(const std::string& scene, const std::vector<std::string>& override
   const grid::Grid& grid = *problem.grid;
   data::VariableTable table;
   simulation::Phases phases(*problem.component, problem.analyses);
-  phases.compile(problem.analyses, problem.archive.saves, grid, table, problem.regrid);
+  phases.compile(problem.analyses, problem.archive.saves, grid, table, problem.regrid, problem.smallerSteps);
   DryRun result;
   result.agreements = 1;  // agreement on whether to stop
   Messages messages(grid, table);

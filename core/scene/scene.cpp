@@ -304,6 +304,13 @@ grid::Domain readGridFor(const ComponentKind* kind, const Element& section, cons
   return domain;
 }
 
+/// The tag that has finer levels take smaller steps; none on a single level.
+std::optional<Location> smallerStepsOn(const grid::Grid& grid, const AmrSettings& amr, Diagnostics& diagnostics) {
+  if (grid.levels() > 1 || !amr.smallerSteps) return amr.smallerSteps;
+  diagnostics.note(*amr.smallerSteps, "AMR/useLockStep", "does nothing: the grid has one level");
+  return std::nullopt;
+}
+
 }  // namespace
 
 const std::vector<std::pair<std::string, std::string>>& idleSections() {
@@ -358,6 +365,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.component = makeComponent(problem.grid->finest());
   if (domain.refinement.levels > 1)
     amr.regrid.where = checkTakesLevels(*kind, *problem.component, *root.child("Grid"), amr, diagnostics);
+  problem.smallerSteps = smallerStepsOn(*problem.grid, amr, diagnostics);
   problem.regrid = settled(std::move(amr), *problem.component, diagnostics);
   diagnostics.throwIfAny();
   if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;

@@ -36,6 +36,7 @@ struct AmrSettings {
   std::optional<Index3> block;                ///< cells along x, y, z
   std::optional<std::vector<Index3>> ratios;  ///< of cell widths from level to level
   std::optional<input::Element> tag;          ///< `AMR`, where it is given; for messages
+  std::optional<Location> smallerSteps;       ///< the tag that has finer levels take smaller steps
 };
 /// `kind`: the component of the scene, null if it is not known.
 AmrSettings readAmr(const input::Element& section, const simulation::ComponentKind* kind,

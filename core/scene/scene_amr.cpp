@@ -217,7 +217,9 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
       for (const Element& given : element.children(name)) read.components.push_back(readThresholds(given, diagnostics));
   };
   section.ignoredAttribute("type", "a grid is adaptive where <Regridder> says so")
-      .value("useLockStep", &AmrSection::usesLockStep, true, "1", "all levels take the same time step; always true")
+      .value("useLockStep", &AmrSection::usesLockStep, true, "1",
+             "all levels take the same time step; false: finer ones take several smaller steps for each of the next "
+             "coarser level, if no task of a step needs new values of other cells or sums over the grid")
       .section("Regridder", &AmrSection::regridder, regridderSchema());
   if (!names.empty()) {
     input::TagForm form = input::sectionForm(names, [] {
@@ -326,9 +328,7 @@ AmrSettings readAmr(const Element& section, const simulation::ComponentKind* kin
   if (diagnostics.size() > before) return amr;
   checkBlocks(section, regridder.blocks, diagnostics);
   if (regridder.blocks) amr.block = regridder.blocks->front();
-  if (!read.usesLockStep)
-    diagnostics.note(*section.child("useLockStep"),
-                     "all levels take the same time step: smaller steps on finer levels are not available yet");
+  if (!read.usesLockStep) amr.smallerSteps = section.child("useLockStep")->where();
   if (!amr.regrid.adaptive)
     for (const Criterion& criterion : amr.regrid.criteria)
       diagnostics.note(criterion.where, criterion.path, "does nothing: the grid is not <adaptive>");

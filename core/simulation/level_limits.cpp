@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/tasks/ghost_plan.hpp"
+#include "core/tasks/reflux.hpp"
 
 namespace tushar::simulation {
 
@@ -34,7 +35,46 @@ std::string accessProblem(const tasks::Task& task, const tasks::Access& access, 
   return "";
 }
 
+/// What a task does that keeps it from smaller steps on finer levels; empty if nothing.
+std::string accessAgainstSmallerSteps(const tasks::Access& access) {
+  const std::string_view name = access.label->name;
+  switch (access.label->centring) {
+    case Centring::particle:
+      return fmt::format("uses particles ({})", name);
+    case Centring::node:
+      return fmt::format("uses nodes ({})", name);
+    case Centring::reduction:
+      if (name == data::delT.name || name == tasks::partOfStep.name) return "";
+      if (access.writes()) return fmt::format("computes {} over the whole grid", name);
+      return fmt::format("reads {}, which is computed over the whole grid", name);
+    case Centring::cell:
+      if (access.isNew() && access.reads() && access.ghost > 0)
+        return fmt::format("reads the new {} beyond a patch, where another level does not have it yet", name);
+      return "";
+    default:
+      return "";
+  }
+}
+
+std::string taskAgainstSmallerSteps(const tasks::Task& task) {
+  if (task.kind != tasks::TaskKind::work) return "moves particles";
+  if (task.perRank) return "sees all patches at once";
+  for (const tasks::Access& access : task.accesses)
+    if (std::string problem = accessAgainstSmallerSteps(access); !problem.empty()) return problem;
+  return "";
+}
+
 }  // namespace
+
+std::vector<InputProblem> problemsOfSmallerSteps(const std::vector<tasks::Task>& tasks, const Location& where) {
+  std::vector<InputProblem> problems;
+  for (const tasks::Task& task : tasks)
+    if (const std::string problem = taskAgainstSmallerSteps(task); !problem.empty())
+      problems.push_back(
+          {where, "AMR/useLockStep",
+           fmt::format("task {} {}: all levels must take the same time step, as by default", task.name, problem)});
+  return problems;
+}
 
 std::vector<InputProblem> problemsOnLevels(const std::vector<tasks::Task>& tasks, const grid::Grid& grid,
                                            const Location& where) {

@@ -19,4 +19,10 @@ namespace tushar::simulation {
 std::vector<InputProblem> problemsOnLevels(const std::vector<tasks::Task>& tasks, const grid::Grid& grid,
                                            const Location& where);
 
+/// The problems of the tasks of a step where finer levels take smaller steps, each with the task and its label. Such
+/// tasks compute cells, from the old state and, in the same cell, from what earlier tasks computed. Others see new
+/// values that another level does not have yet, or add up over the grid what is there at different times.
+/// `where` is the tag that has levels take smaller steps.
+std::vector<InputProblem> problemsOfSmallerSteps(const std::vector<tasks::Task>& tasks, const Location& where);
+
 }  // namespace tushar::simulation

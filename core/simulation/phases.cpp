@@ -1,10 +1,8 @@
 #include "core/simulation/phases.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <algorithm>
-#include <ostream>
 #include <sstream>
 
 #include "core/input/values.hpp"
@@ -56,11 +54,15 @@ Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
   return names;
 }
 
+/// Whether a variable is of fluxes, which live for a step.
+bool isOfRims(const std::string& name) { return name.starts_with("rim."); }
+
 /// The variables of a step that the next one needs, without what is computed anew before each, and with the ids of
 /// particles if there are any.
 std::vector<std::string> namesOfState(Names needed, const Names& decided, const Names& computed) {
-  std::erase_if(
-      needed, [&](const std::string& name) { return decided.contains(name) || name == data::recomputeTimeStep.name; });
+  std::erase_if(needed, [&](const std::string& name) {
+    return decided.contains(name) || name == data::recomputeTimeStep.name || isOfRims(name);
+  });
   if (computed.contains(data::particleId.name)) needed.emplace(data::particleId.name);
   return {needed.begin(), needed.end()};
 }
@@ -92,7 +94,7 @@ tasks::TaskList estimating(const tasks::TaskList& diagnostics, std::vector<Bound
 
 /// The time step, which every step has, and what tasks compute along with it.
 Names decidedBefore(const std::vector<tasks::Task>& stableTimeStep) {
-  return united(producedBy(stableTimeStep), {std::string(data::delT.name)});
+  return united(producedBy(stableTimeStep), {std::string(data::delT.name), std::string(tasks::partOfStep.name)});
 }
 
 }  // namespace
@@ -222,7 +224,7 @@ Names Phases::saveable() const {
   Names names;
   for (const auto* list : {&lists_.initialize, &lists_.timeAdvance, &lists_.diagnostics})
     names.merge(producedBy(list->tasks()));
-  std::erase_if(names, [](const std::string& name) { return name.starts_with("rim."); });  // fluxes live for a task
+  std::erase_if(names, isOfRims);
   return names;
 }
 
@@ -283,34 +285,29 @@ void widenForRegridding(const std::vector<std::string>& lasting, int materials, 
         table.widen(number, 1);
 }
 
+/// Adds problems that are not among those found before.
+void addOthers(const std::vector<InputProblem>& found, std::vector<InputProblem>& problems) {
+  for (const InputProblem& problem : found)
+    if (std::none_of(problems.begin(), problems.end(),
+                     [&](const InputProblem& other) { return other.sentence == problem.sentence; }))
+      problems.push_back(problem);
+}
+
 /// Throws InputError for tasks that cannot run on a grid of several levels.
 void checkOnLevels(std::initializer_list<const Pruned*> lists, const grid::Grid& grid, const Location& where) {
   std::vector<InputProblem> problems;
-  for (const Pruned* list : lists)
-    for (InputProblem& problem : problemsOnLevels(list->kept, grid, where))
-      if (std::none_of(problems.begin(), problems.end(),
-                       [&](const InputProblem& other) { return other.sentence == problem.sentence; }))
-        problems.push_back(std::move(problem));
+  for (const Pruned* list : lists) addOthers(problemsOnLevels(list->kept, grid, where), problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+/// Throws InputError for tasks that cannot run on one level after the other.
+void refuseSmallerSteps(std::initializer_list<const Pruned*> lists, const Location& where) {
+  std::vector<InputProblem> problems;
+  for (const Pruned* list : lists) addOthers(problemsOfSmallerSteps(list->kept, where), problems);
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
 }  // namespace
-
-void Phases::refuseSavedNodes(const std::vector<std::unique_ptr<Analysis>>& analyses) const {
-  std::vector<InputProblem> problems;
-  const auto refuse = [&](const std::vector<SaveRequest>& saves, const char* path) {
-    for (const SaveRequest& save : saves)
-      if (save.label.starts_with(data::NodeLabel<double>::prefix()))
-        problems.push_back(
-            {save.where, path,
-             fmt::format("'{}' is a node variable; on several levels only cell and particle variables are saved",
-                         save.label)});
-  };
-  refuse(saved_fields_, "DataArchiver/save");
-  for (const auto& analysis : analyses)
-    if (!analysis->layers().empty() || !analysis->windows().empty()) refuse(analysis->samples(), "DataAnalysis/Module");
-  if (!problems.empty()) throw InputError(std::move(problems));
-}
 
 Phases::Wants Phases::wantsOf(const std::vector<SaveRequest>& samples, const Names& stepped) const {
   Wants wants{{saved_globals_.begin(), saved_globals_.end()}, {}, {}};
@@ -325,14 +322,15 @@ Phases::Wants Phases::wantsOf(const std::vector<SaveRequest>& samples, const Nam
 }
 
 void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
-                     const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid) {
+                     const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid,
+                     const std::optional<Location>& smallerSteps) {
   if (std::vector<InputProblem> problems = problemsOf(saves); !problems.empty()) throw InputError(std::move(problems));
   if (std::vector<InputProblem> problems = problemsOf(analyses); !problems.empty())
     throw InputError(std::move(problems));
   const std::vector<SaveRequest> samples = samplesOf(analyses);
   sortSaves(named(saves));
   if (grid.levels() > 1) refuseSavedNodes(analyses);
-  if (grid.levels() > 1 && regrid.refluxes) lists_.timeAdvance = tasks::withRefluxing(lists_.timeAdvance);
+  if (grid.levels() > 1 && regrid.refluxes) addRefluxing(smallerSteps.has_value());
   const Lists& lists = lists_;
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
   totals_ = totalsAmong(producedBy(lists.diagnostics.tasks()));
@@ -357,7 +355,10 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Names always = requiredByAll({&stable, &begin, &refine, &mend});
   always.emplace(data::recomputeTimeStep.name);
   const Pruned bare = prune(lists.timeAdvance.tasks(), always, true);
-  Pruned advance = prune(lists.timeAdvance.tasks(), united(read, wants.ofState), true);
+  const Names fluxes = tasks::registersOf(lists.reflux.tasks().empty() ? tasks::TaskList() : lists.timeAdvance);
+  Pruned advance = prune(lists.timeAdvance.tasks(), united(united(read, wants.ofState), fluxes), true);
+  if (smallerSteps) refuseSmallerSteps({&stable, &advance}, *smallerSteps);
+  Pruned reflux = prune(lists.reflux.tasks(), advance.needed, false);
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
   checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine, &mend}, grid, regrid.where);
 
@@ -372,29 +373,10 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   report = tasks::TaskGraph("diagnostics of the report", std::move(end), grid, table);
   refinement = tasks::TaskGraph("refinement", std::move(refine), grid, table);
   refined = tasks::TaskGraph("new finer cells", std::move(mend), grid, table);
+  refluxing = tasks::TaskGraph("after the steps of the next finer level", std::move(reflux), grid, table);
   table.number(data::delT, -1);
+  if (smallerSteps) table.number(tasks::partOfStep, -1);
   if (regrid.adaptive) widenForRegridding(lasting_, static_cast<int>(materials_.size()), table);
 }
-
-void Phases::printSchedule(std::ostream& out) const {
-  for (const tasks::TaskGraph* graph : {&initialize, &stableTimeStep, &timeAdvance}) {
-    graph->print(out);
-    graph->printLeftOut(out);
-  }
-  for (const tasks::TaskGraph* graph : {&everyStep, &everyOutput, &report, &refinement, &refined})
-    if (!graph->tasks().empty()) graph->print(out);
-  out << "diagnostics that are never run\n";
-  for (const tasks::LeftOut& task : everyStep.leftOut()) {
-    const auto leavesOut = [&](const tasks::TaskGraph& graph) {
-      return std::any_of(graph.leftOut().begin(), graph.leftOut().end(),
-                         [&](const tasks::LeftOut& other) { return other.task == task.task; });
-    };
-    const bool isForRefinement = !refinement.tasks().empty() && !leavesOut(refinement);
-    if (leavesOut(everyOutput) && leavesOut(report) && !isForRefinement)
-      fmt::print(out, "  --  {} left out: {}\n", task.task, task.reason);
-  }
-}
-
-void Phases::printDot(std::ostream& out) const { timeAdvance.printDot(out); }
 
 }  // namespace tushar::simulation

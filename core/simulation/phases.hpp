@@ -2,6 +2,7 @@
 
 #include <iosfwd>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,13 +33,16 @@ class Phases {
   /// Notes on saved material numbers that are not those of a material.
   std::vector<std::string> remarksOn(const SaveRequest& save) const;
   /// Compiles the lists. Throws InputError for a saved or sampled label that no task computes, and for a task that
-  /// cannot run on the levels of the grid; TaskError for lists that do not fit together.
+  /// cannot run on the levels of the grid; TaskError for lists that do not fit together. `smallerSteps`: the tag that
+  /// has finer levels take smaller steps, if they do.
   void compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
-               const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid = {});
+               const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid = {},
+               const std::optional<Location>& smallerSteps = {});
 
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
   tasks::TaskGraph refinement;  ///< where criteria require finer cells
   tasks::TaskGraph refined;     ///< what a component computes in cells that have become finer
+  tasks::TaskGraph refluxing;   ///< on a level after the smaller steps of the next finer one, where it takes some
 
   /// Names of the variables that a step and the totals need of the step before, sorted: the state of a run, whatever
   /// is saved and measured besides.
@@ -63,8 +67,10 @@ class Phases {
 
  private:
   struct Lists {
-    tasks::TaskList initialize, stableTimeStep, timeAdvance, diagnostics, errorEstimate, refine;
+    tasks::TaskList initialize, stableTimeStep, timeAdvance, diagnostics, errorEstimate, refine, reflux;
   };
+  /// Adds the tasks that keep totals constant between levels.
+  void addRefluxing(bool bySmallerSteps);
   void validateAll() const;
   void noteMaterials();
   bool isMaterial(const std::string& name) const;

@@ -22,6 +22,7 @@ struct Problem {
   TimeSettings time;
   ArchiveSettings archive;
   RegridSettings regrid;
+  std::optional<Location> smallerSteps;  ///< the tag that has finer levels take smaller steps, if they do
   std::unique_ptr<grid::Grid> grid;
   int threads = 1;         ///< at most
   int cellsPerThread = 0;  ///< cells of a rank for each of its threads; 0: however few

@@ -160,9 +160,18 @@ void Regridder::addParticles(MarkedBlocks& marked) {
     }
 }
 
+/// Where finer levels take smaller steps, the interval is rounded up to whole steps of the coarsest.
+int Regridder::stepsBetween() const {
+  const int finer = run_.problem.smallerSteps ? run_.problem.grid->levels() - 1 : 0;
+  return ((run_.problem.regrid.interval - 1) >> finer) + 1;
+}
+
+int Regridder::finestStepsBetween() const {
+  return run_.problem.smallerSteps ? stepsBetween() << (run_.problem.grid->levels() - 1) : run_.problem.regrid.interval;
+}
+
 grid::BlockTree Regridder::wantedTree() {
-  const RegridSettings& settings = run_.problem.regrid;
-  MarkedBlocks marked(*run_.problem.grid, settings.interval, settings.dilation);
+  MarkedBlocks marked(*run_.problem.grid, finestStepsBetween(), run_.problem.regrid.dilation);
   addMarks(marked);
   addParticles(marked);
   marked.unite(run_.ranks);
@@ -185,7 +194,7 @@ bool Regridder::refinedStart() {
 
 void Regridder::regridIfDue() {
   const RegridSettings& settings = run_.problem.regrid;
-  if (!settings.adaptive || settings.once || run_.time.step() % settings.interval != 0) return;
+  if (!settings.adaptive || settings.once || run_.time.step() % stepsBetween() != 0) return;
   const auto started = Clock::now();
   const trace::Span span(trace::Kind::message, "regrid");
   grid::BlockTree tree = wantedTree();

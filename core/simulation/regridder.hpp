@@ -69,6 +69,9 @@ class Regridder {
   double seconds() const { return seconds_; }
 
  private:
+  /// Steps from one regridding to the next, and how many of the finest level these are.
+  int stepsBetween() const;
+  int finestStepsBetween() const;
   grid::BlockTree wantedTree();
   void addMarks(MarkedBlocks& marked);
   void addParticles(MarkedBlocks& marked);

@@ -18,9 +18,37 @@ void RunReport::beginLoop(double outputSeconds) {
   use_before_ = run_.scheduler.threads().use();
 }
 
-void RunReport::noteStep() {
-  updates_ += static_cast<double>(run_.problem.grid->cellCount());
-  uniform_updates_ += static_cast<double>(run_.problem.grid->finest().cells().size());
+std::vector<long> RunReport::cellsOfLevels() const {
+  const grid::Grid& grid = *run_.problem.grid;
+  std::vector<long> cells(static_cast<std::size_t>(grid.levels()));
+  for (int id = 0; cells.size() > 1 && id < grid.patchCount(); ++id) {
+    const grid::Patch patch = grid.patch(id);
+    cells[static_cast<std::size_t>(patch.level().number())] += static_cast<long>(patch.cells().size());
+  }
+  return cells;
+}
+
+/// A finest level that has no cells would have taken twice the steps of the next coarser one.
+void RunReport::noteLevels(const std::vector<int>& steps) {
+  const std::vector<long> cells = cellsOfLevels();
+  double finestSteps = 0;
+  for (const int ofLevel : steps) finestSteps = ofLevel > 0 ? ofLevel : 2 * finestSteps;
+  uniform_updates_ += finestSteps * static_cast<double>(run_.problem.grid->finest().cells().size());
+  level_updates_.resize(cells.size());
+  for (std::size_t level = 0; level < cells.size(); ++level) {
+    const double updates = static_cast<double>(cells[level]) * steps[level];
+    level_updates_[level] += updates;
+    updates_ += updates;
+  }
+}
+
+void RunReport::noteStep(const std::vector<int>& stepsOfLevels) {
+  if (!stepsOfLevels.empty()) {
+    noteLevels(stepsOfLevels);
+  } else {
+    updates_ += static_cast<double>(run_.problem.grid->cellCount());
+    uniform_updates_ += static_cast<double>(run_.problem.grid->finest().cells().size());
+  }
   for (int material = 0; material < run_.materials(); ++material)
     for (const grid::Patch& patch : run_.problem.grid->patches())
       particle_steps_ += run_.warehouse.particles(data::Generation::old, material, patch.id()).owned();
@@ -72,11 +100,8 @@ void RunReport::addLayout(Report& report) {
   report.cells = static_cast<long>(problem.grid->cellCount());
   report.updates = updates_;
   report.uniformUpdates = uniform_updates_;
-  report.levels.resize(problem.grid->levels());
-  for (int id = 0; report.levels.size() > 1 && id < problem.grid->patchCount(); ++id) {
-    const grid::Patch patch = problem.grid->patch(id);
-    report.levels[patch.level().number()] += static_cast<long>(patch.cells().size());
-  }
+  report.levels = cellsOfLevels();
+  report.levelUpdates = level_updates_;
 }
 
 void RunReport::addProgress(Report& report) {

@@ -16,8 +16,8 @@ class RunReport {
   /// Notes that the start-up is over. Modules that had to be built first do not count.
   void noteStartUp(double outputSeconds) { start_up_ = run_.clock.now() - outputSeconds - secondsOfBuilds(); }
   void beginLoop(double outputSeconds);
-  /// Notes that a step has been taken.
-  void noteStep();
+  /// Notes that a step has been taken, and how many steps of each level are in it; none: one of each.
+  void noteStep(const std::vector<int>& stepsOfLevels = {});
   void endLoop(double outputSeconds);
 
   /// The report, except how the run ended, its outputs, and the patches that changed ranks. `fileMemory` is by how much
@@ -25,6 +25,8 @@ class RunReport {
   report::Report make(double fileMemory = 0);
 
  private:
+  void noteLevels(const std::vector<int>& steps);
+  std::vector<long> cellsOfLevels() const;
   void addMemory(report::Report& report, double fileMemory);
   void addLayout(report::Report& report);
   void addProgress(report::Report& report);
@@ -38,9 +40,10 @@ class RunReport {
   double output_before_ = 0;
   double start_up_ = 0, loop_ = 0;  ///< s, without outputs
   report::TimeUse use_;
-  long particle_steps_ = 0;     ///< of this rank
-  double updates_ = 0;          ///< of cells, of all ranks
-  double uniform_updates_ = 0;  ///< the same, had all cells been as fine as the finest
+  long particle_steps_ = 0;            ///< of this rank
+  double updates_ = 0;                 ///< of cells, of all ranks
+  double uniform_updates_ = 0;         ///< the same, had all cells been as fine as the finest
+  std::vector<double> level_updates_;  ///< of the cells of each level, where finer ones take smaller steps
 };
 
 }  // namespace tushar::simulation

@@ -23,7 +23,7 @@ RunState::RunState(Problem givenProblem, const RunOptions& options, Clock::time_
       time(problem.time),
       clock(startedAt),
       progress(options.quiet || !ranks.isFirst(), stdout) {
-  phases.compile(problem.analyses, problem.archive.saves, *problem.grid, table, problem.regrid);
+  phases.compile(problem.analyses, problem.archive.saves, *problem.grid, table, problem.regrid, problem.smallerSteps);
   warehouse.grow(materials());
 }
 

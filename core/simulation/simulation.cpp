@@ -42,6 +42,7 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       rebalancer_(run_),
       regridder_(run_),
       report_(run_) {
+  if (run_.problem.smallerSteps) level_steps_.emplace(run_);
   run_.scheduler.relocation().setAdviceNearCoarser(adviceNearCoarser(run_.problem.regrid));
 }
 
@@ -179,7 +180,7 @@ void Simulation::loop() {
 void Simulation::step() {
   TimeControl& time = run_.time;
   advance();
-  report_.noteStep();
+  level_steps_ ? report_.noteStep(level_steps_->steps()) : report_.noteStep();
   if (run_.progress.due()) run_.progress.live(time.step(), time.time(), time.delT(), run_.problem.time.maxTime);
   regridder_.regridIfDue();
   rebalancer_.balanceIfDue();
@@ -195,23 +196,32 @@ void Simulation::advance() {
   TimeControl& time = run_.time;
   tasks::TaskGraph& graph = run_.phases.timeAdvance;
   run_.warehouse.beginStep();
-  const int delT = run_.table.number(data::delT, -1);
-  run_.warehouse.resetReduction(delT);
-  run_.scheduler.run(run_.phases.stableTimeStep, {time.step() + 1, time.time()});
-  auto& dt = run_.warehouse.reduction<data::Minimum>(delT);
-  dt.value = time.next(dt, outputs_.nextTime());
-  const auto tryStep = [&] {
-    return run_.scheduler.run(graph, {time.step() + 1, time.time(), dt.value, time.repeats(), time.mayHalve()});
-  };
+  const data::Minimum stable = stableStep();
+  auto& dt = run_.warehouse.reduction<data::Minimum>(run_.table.number(data::delT, -1));
+  dt = {time.next(stable, outputs_.nextTime()), stable.reason};
   const KeptReductions before(run_.warehouse, graph.reductions());
   try {
-    while (const auto asked = tryStep()) dt.value = time.repeat(*asked);
+    while (const auto asked = tryStep(dt.value)) dt.value = time.repeat(*asked);
   } catch (const NumericalError&) {
     before.restore();
     throw;
   }
-  run_.scheduler.commit(graph);
+  if (!level_steps_) run_.scheduler.commit(graph);
   time.advance();
+}
+
+data::Minimum Simulation::stableStep() {
+  if (level_steps_) return level_steps_->stable();
+  const int delT = run_.table.number(data::delT, -1);
+  run_.warehouse.resetReduction(delT);
+  run_.scheduler.run(run_.phases.stableTimeStep, {run_.time.step() + 1, run_.time.time()});
+  return run_.warehouse.reduction<data::Minimum>(delT);
+}
+
+std::optional<data::Minimum> Simulation::tryStep(double dt) {
+  TimeControl& time = run_.time;
+  const tasks::StepInfo at{time.step() + 1, time.time(), dt, time.repeats(), time.mayHalve()};
+  return level_steps_ ? level_steps_->advance(at) : run_.scheduler.run(run_.phases.timeAdvance, at);
 }
 
 bool Simulation::hasEnded() const {

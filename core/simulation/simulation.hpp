@@ -11,6 +11,7 @@
 #include "core/output/run_log.hpp"
 #include "core/report/report.hpp"
 #include "core/simulation/checkpoints.hpp"
+#include "core/simulation/level_steps.hpp"
 #include "core/simulation/outputs.hpp"
 #include "core/simulation/rebalancer.hpp"
 #include "core/simulation/regridder.hpp"
@@ -54,6 +55,10 @@ class Simulation {
   void step();
   /// Advances the state by a time step, which is repeated with a shorter one if a task requires it.
   void advance();
+  /// The longest step that the state allows, and what limits it.
+  data::Minimum stableStep();
+  /// Tries the step; the factor for a smaller one, if a task requires it.
+  std::optional<data::Minimum> tryStep(double dt);
   bool hasEnded() const;
   std::string whyEnded() const;
   NumericalError advised(const NumericalError& error) const;
@@ -73,6 +78,7 @@ class Simulation {
   Rebalancer rebalancer_;
   Regridder regridder_;
   RunReport report_;
+  std::optional<LevelSteps> level_steps_;  ///< where finer levels take smaller steps
   std::optional<NumericalError> failure_;
   output::RunRecord record_;
   std::optional<output::RunLog> log_;  ///< on rank 0, of a run that has an archive

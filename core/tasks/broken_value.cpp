@@ -43,6 +43,8 @@ bool keepsBound(Warehouse& warehouse, const Bounded& written, const Patch& patch
   return kept;
 }
 
+bool isOfLevel(const Patch& patch, int level) { return level < 0 || patch.level().number() == level; }
+
 /// `0.3`, or `(0.3, 0.1)`.
 std::string textOf(const double* numbers, int count) {
   std::string text;
@@ -73,16 +75,18 @@ struct Found {
 /// Looks through a variable for broken values, on all patches of all ranks.
 class Search {
  public:
-  Search(Warehouse& warehouse, const Bounded& written, Bound bound)
+  Search(Warehouse& warehouse, const Bounded& written, Bound bound, int ofLevel)
       : warehouse_(warehouse),
         grid_(warehouse.grid()),
         written_(written),
         bound_(bound),
+        of_level_(ofLevel),
         label_(*warehouse.table()[written.variable].label),
         material_(warehouse.table()[written.variable].material) {}
 
   std::optional<BrokenValue> run() {
-    for (const Patch& patch : grid_.patches()) isParticle() ? lookAtParticles(patch) : lookAtGrid(patch);
+    for (const Patch& patch : grid_.patches())
+      if (isOfLevel(patch, of_level_)) isParticle() ? lookAtParticles(patch) : lookAtGrid(patch);
     warehouse_.ranks().merge(found_);
     if (found_.broken == 0) return std::nullopt;
     return BrokenValue{std::string(label_.name), found_.patch, isParticle() ? particleSentence() : gridSentence()};
@@ -254,6 +258,7 @@ class Search {
   const Grid& grid_;
   Bounded written_;
   Bound bound_;
+  int of_level_;  ///< -1: any
   const Label& label_;
   int material_;
   Found found_;
@@ -268,23 +273,24 @@ bool keepsBounds(Warehouse& warehouse, const std::vector<Bounded>& written, cons
   return kept;
 }
 
-std::size_t firstThatBreaks(Warehouse& warehouse, const std::vector<Bounded>& written) {
+std::size_t firstThatBreaks(Warehouse& warehouse, const std::vector<Bounded>& written, int level) {
   const auto& patches = warehouse.grid().patches();
   const auto breaks = [&](const Bounded& variable) {
-    return std::any_of(patches.begin(), patches.end(),
-                       [&](const Patch& patch) { return !keepsBound(warehouse, variable, patch); });
+    return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
+      return isOfLevel(patch, level) && !keepsBound(warehouse, variable, patch);
+    });
   };
   return static_cast<std::size_t>(std::find_if(written.begin(), written.end(), breaks) - written.begin());
 }
 
-std::optional<BrokenValue> firstBroken(Warehouse& warehouse, const Bounded& written, Bound bound) {
-  return Search(warehouse, written, bound).run();
+std::optional<BrokenValue> firstBroken(Warehouse& warehouse, const Bounded& written, Bound bound, int level) {
+  return Search(warehouse, written, bound, level).run();
 }
 
-std::optional<BrokenValue> firstBroken(Warehouse& warehouse, const std::vector<Bounded>& written) {
+std::optional<BrokenValue> firstBroken(Warehouse& warehouse, const std::vector<Bounded>& written, int level) {
   for (const Bounded& variable : written) {
     const Bound bound = warehouse.table()[variable.variable].label->bound;
-    if (auto broken = firstBroken(warehouse, variable, bound)) return broken;
+    if (auto broken = firstBroken(warehouse, variable, bound, level)) return broken;
   }
   return std::nullopt;
 }

@@ -90,6 +90,7 @@ void Exchange::forEach(const Work& work) {
   const std::vector<Patch>& patches = warehouse_->grid().patches();
   const auto workOn = [&](int place) {
     const std::size_t at = place;
+    if (level_ >= 0 && patches[at].level().number() != level_) return;
     const trace::Span span(trace::Kind::message, "fill ghosts", patches[at].id());
     for (const BoundGhostFill& fill : fills_) work(fill, patches[at], at);
   };
@@ -139,7 +140,7 @@ void Exchange::post(bool hasStopped) {
     for (std::size_t k = 0; k < fills_.size() && !hasStopped; ++k) {
       const auto copies = planOf(fills_[k]).outgoing.find(rank);
       if (copies == planOf(fills_[k]).outgoing.end()) continue;
-      Packer packer(*warehouse_, fills_[k], message);
+      Packer packer(*warehouse_, fills_[k], part_, message);
       if (resolves_[k])
         for (const GhostCopy& copy : copies->second) packer.addCounts(copy);
       for (const GhostCopy& copy : copies->second) {
@@ -184,12 +185,11 @@ CellValues Exchange::valuesAt(const BoundGhostFill& fill, const GhostCopy& copy)
 void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, const CellValues& to) {
   const data::Label& label = *warehouse_->table()[fill.variable].label;
   const Variable from = warehouse_->variable(fill.generation, fill.variable, copy.from);
-  if (!copy.isMean)
+  Bytes values;
+  if (!computeValues(*warehouse_, fill, copy, part_, values))
     return forEachRowOf(copy.box, label.bytes, [&](const Index3& first, std::size_t length) {
       std::memcpy(valueAt(to, first, label.bytes), valueAt(from, first - copy.shift, label.bytes), length);
     });
-  Bytes values(copy.box.size() * label.bytes);
-  writeMeans(warehouse_->grid(), label, copy, from, values.data());
   const std::byte* next = values.data();
   forEachRowOf(copy.box, label.bytes, [&](const Index3& first, std::size_t length) {
     std::memcpy(valueAt(to, first, label.bytes), next, length);

@@ -29,6 +29,12 @@ class Exchange {
   /// is determined on first use of their set. All ranks run them for the same fills in the same order, all three of one
   /// before the next.
   ///
+  /// From now on only patches of a level get ghosts, from coarser cells as they are at a part of their step; -1: those
+  /// of all levels, from old values.
+  void setLevel(int level, double part) {
+    level_ = level;
+    part_ = part;
+  }
   /// Posts messages. A rank on which a task failed says so in place of its values (`hasStopped`).
   void send(std::span<const BoundGhostFill> fills, bool hasStopped);
   /// Fills the ghosts that need no message from other ranks, unless a task has failed.
@@ -82,7 +88,9 @@ class Exchange {
   template <class Work>
   void forEach(const Work& work);
   const GhostPlan& planOf(const BoundGhostFill& fill) {
-    return plans_.of(warehouse_->grid(), reachOf(warehouse_->table(), fill));
+    GhostReach reach = reachOf(warehouse_->table(), fill);
+    reach.level = level_;
+    return plans_.of(warehouse_->grid(), reach);
   }
 
   data::Warehouse* warehouse_;
@@ -91,6 +99,8 @@ class Exchange {
   NearRows near_;
   GhostPlans plans_;
   std::vector<std::vector<GhostCopy>> faces_;  ///< by place of the patch on this rank; settled on first use
+  int level_ = -1;
+  double part_ = 0;
   // The exchange that was sent:
   std::span<const BoundGhostFill> fills_;
   bool has_stopped_ = false;

@@ -18,8 +18,6 @@ struct PackedRun {
   std::int32_t count;
 };
 
-}  // namespace
-
 void writeMeans(const grid::Grid& grid, const data::Label& label, const GhostCopy& copy, const Variable& from,
                 std::byte* to) {
   if (copy.rim >= 0)
@@ -28,14 +26,46 @@ void writeMeans(const grid::Grid& grid, const data::Label& label, const GhostCop
   restrictTo(label, grid.dimension(), copy.box.shifted(Index3{} - copy.shift), {from.values, from.stored}, to);
 }
 
+/// Writes old + part (new - old) of the cells of a copy; both generations have the same ghosts.
+void writeBetween(const data::Label& label, const GhostCopy& copy, const Variable& before, const Variable& after,
+                  double part, double* to) {
+  const std::size_t components = label.components;
+  const auto* old = reinterpret_cast<const double*>(before.values);
+  const auto* fresh = reinterpret_cast<const double*>(after.values);
+  const grid::Box box = copy.box.shifted(Index3{} - copy.shift);
+  grid::forEach<3>(box.rowStarts(), [&](const Index3& first) {
+    const std::size_t start = before.stored.offset(first) * components;
+    const std::size_t end = start + static_cast<std::size_t>(box.extent(0)) * components;
+    for (std::size_t k = start; k < end; ++k) *to++ = old[k] + part * (fresh[k] - old[k]);
+  });
+}
+
+}  // namespace
+
+bool computeValues(data::Warehouse& warehouse, const BoundGhostFill& fill, const GhostCopy& copy, double part,
+                   mpi::Bytes& values) {
+  const data::Label& label = *warehouse.table()[fill.variable].label;
+  const Variable from = warehouse.variable(fill.generation, fill.variable, copy.from);
+  const auto makeRoom = [&] { values.resize(copy.box.size() * label.bytes); };
+  if (copy.isMean) {
+    makeRoom();
+    writeMeans(warehouse.grid(), label, copy, from, values.data());
+    return true;
+  }
+  if (part == 0 || copy.coarse < 0 || fill.generation != data::Generation::old || label.number != data::Number::real)
+    return false;
+  const Variable after = warehouse.variable(data::Generation::fresh, fill.variable, copy.from);
+  if (!after.held) return false;  // no step changes it
+  makeRoom();
+  writeBetween(label, copy, from, after, part, reinterpret_cast<double*>(values.data()));
+  return true;
+}
+
 void Packer::addGrid(const GhostCopy& copy) {
   const Variable from = variable(copy.from);
   const std::size_t bytes = name_.label->bytes;
-  if (copy.isMean) {  // in a message values stand at any byte: numbers are made elsewhere
-    mpi::Bytes values(copy.box.size() * bytes);
-    writeMeans(warehouse_.grid(), *name_.label, copy, from, values.data());
-    return mpi::append(message_, values.data(), values.size());
-  }
+  mpi::Bytes values;  // in a message values stand at any byte: numbers are made elsewhere
+  if (computeValues(warehouse_, fill_, copy, part_, values)) return mpi::append(message_, values.data(), values.size());
   forEachRowOf(copy.box.shifted(Index3{} - copy.shift), bytes, [&](const Index3& first, std::size_t length) {
     mpi::append(message_, valueAt(from, first, bytes), length);
   });

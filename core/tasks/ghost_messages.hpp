@@ -33,15 +33,18 @@ std::byte* valueAt(const Values& values, const Index3& place, std::size_t bytes)
   return values.values + values.stored.offset(place) * bytes;
 }
 
-/// Writes the values of a copy that are means of finer ones to `to`, one after the other.
-void writeMeans(const grid::Grid& grid, const data::Label& label, const GhostCopy& copy, const data::Variable& from,
-                std::byte* to);
+/// Computes the values of a copy, one after the other, if they are other ones than `copy.from` has: means of finer
+/// ones; or coarser ones at a part of their step, old + part (new - old), which real numbers are between old and new.
+/// Whether they are.
+bool computeValues(data::Warehouse& warehouse, const BoundGhostFill& fill, const GhostCopy& copy, double part,
+                   mpi::Bytes& values);
 
 /// Appends to a message the values that another rank receives for one ghost fill.
 class Packer {
  public:
-  Packer(data::Warehouse& warehouse, const BoundGhostFill& fill, mpi::Bytes& message)
-      : warehouse_(warehouse), fill_(fill), name_(warehouse.table()[fill.variable]), message_(message) {}
+  /// `part` of the step of coarser cells that is over.
+  Packer(data::Warehouse& warehouse, const BoundGhostFill& fill, double part, mpi::Bytes& message)
+      : warehouse_(warehouse), fill_(fill), name_(warehouse.table()[fill.variable]), part_(part), message_(message) {}
 
   void addGrid(const GhostCopy& copy);
   /// For nodes, only rows near particles: how many, and the place, length and values of each.
@@ -58,6 +61,7 @@ class Packer {
   data::Warehouse& warehouse_;
   const BoundGhostFill& fill_;
   const data::VariableName name_;
+  double part_;
   mpi::Bytes& message_;
 };
 

@@ -146,7 +146,7 @@ class Planner {
     std::set<int> readers;
     for (const Patch& patch : grid_.patches()) {
       PlannerOfPatch ofPatch(grid_, reach_, patch);
-      ofPatch.run();
+      if (needs(patch)) ofPatch.run();
       plan.into.push_back(std::move(ofPatch.copies));
       plan.coarse.push_back(std::move(ofPatch.coarse));
       plan.isLocal.push_back(true);
@@ -159,6 +159,7 @@ class Planner {
     }
     for (const int reader : readers) {
       const Patch patch = grid_.patch(reader);
+      if (!needs(patch)) continue;
       PlannerOfPatch ofReader(grid_, reach_, patch);
       ofReader.run();
       for (const GhostCopy& copy : ofReader.copies)
@@ -168,6 +169,7 @@ class Planner {
   }
 
  private:
+  bool needs(const Patch& patch) const { return reach_.level < 0 || reach_.level == patch.level().number(); }
   /// Patches of other ranks that may need something of this one.
   void noteReaders(const Patch& patch, std::set<int>& readers) const {
     const Level& level = patch.level();

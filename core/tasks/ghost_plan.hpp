@@ -45,6 +45,7 @@ struct GhostPlan {
 struct GhostReach {
   data::Centring centring;
   int width;
+  int level = -1;  ///< only patches of this level need them; -1: those of all levels
 
   friend auto operator<=>(const GhostReach&, const GhostReach&) = default;
 };

@@ -1,7 +1,6 @@
 #include "core/tasks/reflux.hpp"
 
 #include <map>
-#include <set>
 
 #include "core/data/rim_flux.hpp"
 
@@ -9,13 +8,13 @@ namespace tushar::tasks {
 
 namespace {
 
-/// Accesses of the task: the fluxes, the variable, the time step.
+/// Accesses of the task that changes a variable: the fluxes or their register, the variable, the time step.
 enum { fluxes, variable, timeStep };
 
-void reflux(const TaskContext& context, int components) {
+/// U += ± dt (F - mean of the finer F) / h; `dt` is 1 where the register has dt F.
+void reflux(const TaskContext& context, int components, double dt) {
   const grid::Patch& patch = context.patch();
   const data::Variable rim = context.variable(fluxes), cells = context.variable(variable);
-  const double dt = context.reduction<data::Minimum>(timeStep).value;
   for (const grid::RimPiece& piece : context.rims()) {
     if (!piece.isFiner) continue;
     const double ratio = (piece.side == 0 ? -dt : dt) / patch.level().spacing(piece.axis);
@@ -29,21 +28,74 @@ void reflux(const TaskContext& context, int components) {
   }
 }
 
-/// `materials`: those that have the variable; none if it belongs to none.
-Task refluxTask(const data::Label& label, const std::vector<std::string>& materials) {
+/// A variable, and the materials that have it: none if it belongs to none.
+struct Flowing {
+  const data::Label* label;
+  std::vector<std::string> materials;
+
+  std::string named(const char* verb) const { return verb + (" " + std::string(label->name)); }
+};
+
+Task refluxTask(const Flowing& flowing) {
   Task task;
-  task.name = "reflux " + std::string(label.name);
-  task.materials = materials;
-  task.accesses = {{&data::rimLabelOf(label), AccessKind::requiresNew, 1},
-                   {&label, AccessKind::modifies},
+  task.name = flowing.named("reflux");
+  task.materials = flowing.materials;
+  task.accesses = {{&data::rimLabelOf(*flowing.label), AccessKind::requiresNew, 1},
+                   {flowing.label, AccessKind::modifies},
                    {&data::delT, AccessKind::requiresOld}};
-  task.body = [components = label.components](const TaskContext& context) { reflux(context, components); };
+  task.body = [components = flowing.label->components](const TaskContext& context) {
+    reflux(context, components, context.reduction<data::Minimum>(timeStep).value);
+  };
   return task;
 }
 
-}  // namespace
+/// The label of the sums of dt F through the rims of patches, `rim.sum.` and the name of the variable.
+const data::Label& registerOf(const data::Label& label) { return data::rimLabelOf(data::rimLabelOf(label)); }
 
-TaskList withRefluxing(const TaskList& list) {
+/// Accesses of the task that adds to a register.
+enum { rim, sums, step, part };
+
+/// To coarser cells sums begin anew with each step of theirs; to finer ones there is one step at a time.
+void addToRegister(const TaskContext& context, int components) {
+  const double dt = context.reduction<data::Minimum>(step).value;
+  const bool isFirst = context.reduction<data::Minimum>(part).value == 0;
+  const auto* through = reinterpret_cast<const double*>(context.variable(rim).values);
+  auto* sum = reinterpret_cast<double*>(context.variable(sums).values);
+  for (const grid::RimPiece& piece : context.rims()) {
+    const std::size_t first = piece.first * static_cast<std::size_t>(components);
+    const std::size_t end = first + piece.cells.size() * static_cast<std::size_t>(components);
+    for (std::size_t k = first; k < end; ++k)
+      sum[k] = isFirst || piece.isFiner ? dt * through[k] : sum[k] + dt * through[k];
+  }
+}
+
+Task registerTask(const Flowing& flowing) {
+  Task task;
+  task.name = flowing.named("register fluxes of");
+  task.materials = flowing.materials;
+  task.accesses = {{&data::rimLabelOf(*flowing.label), AccessKind::requiresNew},
+                   {&registerOf(*flowing.label), AccessKind::computes},
+                   {&data::delT, AccessKind::requiresOld},
+                   {&partOfStep, AccessKind::requiresOld}};
+  task.body = [components = flowing.label->components](const TaskContext& context) {
+    addToRegister(context, components);
+  };
+  return task;
+}
+
+Task refluxTaskOfSteps(const Flowing& flowing) {
+  Task task;
+  task.name = flowing.named("reflux");
+  task.materials = flowing.materials;
+  task.accesses = {{&registerOf(*flowing.label), AccessKind::requiresNew, 1}, {flowing.label, AccessKind::modifies}};
+  task.body = [components = flowing.label->components](const TaskContext& context) { reflux(context, components, 1); };
+  return task;
+}
+
+/// The list in which all but the first of the tasks that keep the fluxes of a variable add to them. Calls
+/// `behind(list, flowing)` after the last one.
+template <class Behind>
+TaskList withTasksBehindFluxes(const TaskList& list, const Behind& behind) {
   std::map<std::string_view, int> last;  // task that keeps the fluxes, by the name of the rim's label
   for (std::size_t t = 0; t < list.tasks().size(); ++t)
     for (const Access& access : list.tasks()[t].accesses)
@@ -57,9 +109,33 @@ TaskList withRefluxing(const TaskList& list) {
     with.add(task);
     for (const Access& access : task.accesses)
       if (access.keeps && last[access.label->name] == static_cast<int>(t))
-        with.add(refluxTask(*access.keeps, task.perMaterial(access) ? task.materials : std::vector<std::string>()));
+        behind(with, Flowing{access.keeps, task.perMaterial(access) ? task.materials : std::vector<std::string>()});
   }
   return with;
+}
+
+}  // namespace
+
+TaskList withRefluxing(const TaskList& list) {
+  return withTasksBehindFluxes(list, [](TaskList& with, const Flowing& flowing) { with.add(refluxTask(flowing)); });
+}
+
+SteppedByLevel withRegisters(const TaskList& list) {
+  SteppedByLevel lists;
+  lists.advance = withTasksBehindFluxes(list, [&](TaskList& with, const Flowing& flowing) {
+    with.add(registerTask(flowing));
+    lists.reflux.add(refluxTaskOfSteps(flowing));
+  });
+  return lists;
+}
+
+Names registersOf(const TaskList& list) {
+  Names names;
+  for (const Task& task : list.tasks())
+    for (const Access& access : task.accesses)
+      if (access.label->centring == data::Centring::rim && access.writes() && !access.keeps)
+        names.emplace(access.label->name);
+  return names;
 }
 
 }  // namespace tushar::tasks

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "core/grid/level.hpp"
+#include "core/data/reduction.hpp"
 #include "core/tasks/task_list.hpp"
+#include "core/tasks/validate.hpp"
 
 namespace tushar::tasks {
 
@@ -13,5 +14,22 @@ namespace tushar::tasks {
 /// axis by axis, the lower face first. So what leaves one level arrives in the other, and totals are kept to round-off.
 /// Source: M. J. Berger and P. Colella, J. Comput. Phys. 82 (1989) 64.
 TaskList withRefluxing(const TaskList& list);
+
+/// The part of the step of the next coarser level that is over when a level's step begins.
+inline constexpr data::ReductionLabel<data::Minimum> partOfStep{"partOfStep", "1",
+                                                                "part of the next coarser level's step that is over"};
+
+/// The lists of a step in which finer levels make several smaller steps.
+struct SteppedByLevel {
+  /// Behind the last task that keeps the fluxes of a variable comes one that adds fluxes times the step to a register,
+  /// over all steps of a level within one of the next coarser level.
+  TaskList advance;
+  /// After those steps, on the coarser level: U += ± 1 / h (dt F - mean of the sums of dt F of the finer level).
+  TaskList reflux;
+};
+SteppedByLevel withRegisters(const TaskList& list);
+
+/// The registers of a list, by name.
+Names registersOf(const TaskList& list);
 
 }  // namespace tushar::tasks

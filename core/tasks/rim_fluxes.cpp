@@ -1,6 +1,8 @@
 #include "core/tasks/rim_fluxes.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 namespace tushar::tasks {
 
@@ -15,29 +17,31 @@ Index3 firstBehind(Index3 cell, const GhostCopy& copy, int dimension) {
   return cell;
 }
 
+/// The rim of a fine patch that a copy is made from, all of which one coarser patch is behind.
+const grid::RimPiece& pieceOf(const std::vector<grid::RimPiece>& pieces, const GhostCopy& copy, const Index3& behind) {
+  return *std::find_if(pieces.begin(), pieces.end(), [&](const grid::RimPiece& one) {
+    return !one.isFiner && one.axis == copy.axis && one.side != copy.side && one.cells.contains(behind);
+  });
+}
+
 }  // namespace
 
 void meanFluxes(const grid::Grid& grid, const GhostCopy& copy, int components, const double* fluxes, double* to) {
   const int dimension = grid.dimension();
-  const std::vector<grid::RimPiece>& pieces = grid.rims(copy.from);
-  const auto at = [&](const Index3& cell) {
-    const auto piece = std::find_if(pieces.begin(), pieces.end(), [&](const grid::RimPiece& one) {
-      return !one.isFiner && one.axis == copy.axis && one.side != copy.side && one.cells.contains(cell);
-    });
-    return fluxes + (piece->first + piece->cells.offset(cell)) * static_cast<std::size_t>(components);
-  };
-  const int first = copy.axis == 0 ? 1 : 0, second = copy.axis == 2 ? 1 : 2;  // the axes of the face
+  const grid::RimPiece& piece = pieceOf(grid.rims(copy.from), copy, firstBehind(copy.box.lower, copy, dimension));
+  const std::array<std::ptrdiff_t, 3> strides{
+      components, piece.cells.extent(0) * std::ptrdiff_t{components},
+      piece.cells.extent(0) * std::ptrdiff_t{piece.cells.extent(1)} * components};
+  const std::ptrdiff_t first = strides[copy.axis == 0 ? 1 : 0],
+                       second = strides[copy.axis == 2 ? 1 : 2];  // of the face
   grid::forEach<3>(copy.box, [&](const Index3& cell) {
-    const Index3 behind = firstBehind(cell, copy, dimension);
-    for (int k = 0; k < components; ++k) {
-      const auto pair = [&](Index3 face) {
-        const double lower = at(face)[k];
-        ++face[first];
-        return lower + at(face)[k];
-      };
-      if (dimension == 1) *to++ = at(behind)[k];
-      if (dimension == 2) *to++ = 0.5 * pair(behind);
-      if (dimension == 3) *to++ = 0.25 * (pair(behind) + pair(behind + Index3::unit(second)));
+    const std::size_t place = piece.first + piece.cells.offset(firstBehind(cell, copy, dimension));
+    const double* face = fluxes + place * static_cast<std::size_t>(components);
+    for (int k = 0; k < components; ++k, ++face) {
+      const auto pair = [&](std::ptrdiff_t beside) { return face[beside] + face[beside + first]; };
+      if (dimension == 1) *to++ = *face;
+      if (dimension == 2) *to++ = 0.5 * pair(0);
+      if (dimension == 3) *to++ = 0.25 * (pair(0) + pair(second));
     }
   });
 }

@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/grid/choose_patches.hpp"
+#include "core/tasks/kept_levels.hpp"
 
 namespace tushar::tasks {
 
@@ -81,16 +82,17 @@ void Scheduler::workOn(std::size_t place, const CompiledTask& task, const Work& 
 template <class Work>
 void Scheduler::forEachPatch(CompiledTask& task, const Work& work) {
   const int patches = warehouse_->patches();
-  if (!exchange_.isUnderWay())
+  const bool isUnderWay = exchange_.isUnderWay();
+  if (!isUnderWay && level_ < 0)
     return threads_.forEach(patches, [&](int k) { workOn(static_cast<std::size_t>(k), task, work); });
   std::vector<std::size_t> early, late;
   for (std::size_t place = 0; place < static_cast<std::size_t>(patches); ++place)
-    (exchange_.isReady(place) ? early : late).push_back(place);
+    if (isOfLevel(place)) (!isUnderWay || exchange_.isReady(place) ? early : late).push_back(place);
   const auto workOnAll = [&](const std::vector<std::size_t>& places) {
     threads_.forEach(static_cast<int>(places.size()), [&](int k) { workOn(places[k], task, work); });
   };
   workOnAll(early);
-  if (finishExchange(task)) workOnAll(late);
+  if (isUnderWay && finishExchange(task)) workOnAll(late);
 }
 
 /// False if a rank from which this one receives messages has stopped.
@@ -136,7 +138,7 @@ void Scheduler::gatherReductions(const CompiledTask& task) {
 std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at) {
   if (graph.tasks().empty()) return std::nullopt;
   const OneClock oneClock(threads_, warehouse_->ranks());
-  start(graph, static_cast<int>(graph.tasks().size()));
+  start(graph, static_cast<int>(graph.tasks().size()), at);
   for (int t = 0; t < end_; ++t) {
     CompiledTask& task = graph.tasks()[t];
     runTask(graph, t, at);
@@ -160,9 +162,11 @@ double Scheduler::lap(trace::Kind kind) {
   return taken;
 }
 
-void Scheduler::start(const TaskGraph& graph, int end) {
+void Scheduler::start(const TaskGraph& graph, int end, const StepInfo& at) {
   lap_started_ = Clock::now();
   end_ = end;
+  level_ = at.level;
+  exchange_.setLevel(at.level, at.part);
   outcome_ = {};
   error_.reset();
   heard_stop_ = false;
@@ -345,8 +349,11 @@ void Scheduler::install(const CompiledTask& task, int material, const StepInfo& 
   makers_.clear();
 }
 
+/// What a level has computed stays where others are computed.
 void Scheduler::allocateOutputs(const MaterialBinding& binding) {
-  for (const Output& output : binding.outputs) switch (warehouse_->table()[output.variable].label->centring) {
+  for (const Output& output : binding.outputs) {
+    if (level_ >= 0 && isHeld(*warehouse_, Generation::fresh, output.variable)) continue;
+    switch (warehouse_->table()[output.variable].label->centring) {
       case data::Centring::particle:
         warehouse_->allocateParticles(Generation::fresh, output.variable, output.set);
         break;
@@ -356,6 +363,7 @@ void Scheduler::allocateOutputs(const MaterialBinding& binding) {
       default:
         warehouse_->allocateGrid(Generation::fresh, output.variable);
     }
+  }
 }
 
 void Scheduler::free(const CompiledTask& task) {
@@ -366,6 +374,7 @@ void Scheduler::free(const CompiledTask& task) {
 void Scheduler::fillGhosts(const std::vector<int>& variables) {
   std::vector<BoundGhostFill> fills;
   for (const int number : variables) fills.push_back({number, Generation::old, Generation::old, false});
+  exchange_.setLevel(-1, 0);
   exchange_.send(fills, false);
   exchange_.begin(false);
   exchange_.finish();

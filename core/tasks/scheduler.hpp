@@ -17,6 +17,8 @@ struct StepInfo {
   double delT = 0;         ///< s; 0 if it has no meaning
   int repeats = 0;         ///< of this step so far
   bool mayRepeat = false;  ///< whether a NumericalError repeats the step instead of being thrown
+  int level = -1;          ///< whose patches the graph runs on; -1: those of all levels
+  double part = 0;         ///< of the step of the next coarser level that is over; where `level` is given
 };
 
 /// Names where an error happened: task, patch (-1: on all at once), material (-1: none), step, time.
@@ -30,6 +32,9 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 /// another: for ghosts, in a relocation, and once at the end of the graph, where reductions are merged and all agree on
 /// the outcome. A rank on which a task fails runs no other, and neither does one that would read its values. A task
 /// for all patches at once is run by all ranks that have patches, or by none.
+///
+/// A graph whose tasks know only cells of their own level may be run on one level after the other, each with its own
+/// step: what it computes stays on all levels until forgetNew(), and commitLevel() makes it the old state of one.
 class Scheduler {
  public:
   /// Uses up to `threads` threads, but no more than this rank has patches, and one for each `cellsPerThread` cells of a
@@ -55,6 +60,10 @@ class Scheduler {
   void fillGhosts(const std::vector<int>& variables);
   /// Makes the results of a graph the old state.
   void commit(TaskGraph& graph);
+  /// Makes the results of a graph the old state of a level: copies them.
+  void commitLevel(const TaskGraph& graph, int level);
+  /// Discards what a graph that has been run level by level has computed.
+  void forgetNew(const TaskGraph& graph);
 
   /// Cost of each patch of this rank since the last call, in seconds of the clock if all threads worked all the time;
   /// zeros on a single rank.
@@ -85,10 +94,12 @@ class Scheduler {
   double lap(trace::Kind kind);
   int usefulThreads() const;
   bool hasStopped() const { return !outcome_.isNone() || heard_stop_; }
+  /// Whether the graph runs on a patch, the one at this place of the rank.
+  bool isOfLevel(std::size_t place) const;
   bool mayRunTogether();
   const mpi::Communicator& ranksWithPatches();
   /// Starts a run of the first `end` tasks.
-  void start(const TaskGraph& graph, int end);
+  void start(const TaskGraph& graph, int end, const StepInfo& at);
   void runTask(TaskGraph& graph, int number, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
   /// Completes node variables of which each patch has written its own nodes.
@@ -129,6 +140,7 @@ class Scheduler {
   std::optional<NumericalError> error_;  ///< behind it, on the rank where a body threw it
   std::vector<double> costs_;            ///< by patch, s of the threads that worked on it
   bool heard_stop_ = false;              ///< a rank whose values this one needs has stopped
+  int level_ = -1;                       ///< whose patches the graph runs on; -1: all
   int running_ = 0;                      ///< place of the task in its graph
   int end_ = 0;                          ///< place behind the last task that is to run
   Clock::time_point lap_started_;

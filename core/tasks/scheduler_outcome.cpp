@@ -33,7 +33,7 @@ void Scheduler::note(const CompiledTask& task, int material, const NumericalErro
 void Scheduler::noteBroken(const CompiledTask& task, int first, int end) {
   for (int material = first; material < end; ++material) {
     const auto& bounded = task.of(material).bounded;
-    const std::size_t place = firstThatBreaks(*warehouse_, bounded);
+    const std::size_t place = firstThatBreaks(*warehouse_, bounded, level_);
     if (place == bounded.size()) continue;
     const auto value = data::Reason::of(warehouse_->table()[bounded[place].variable].label->name);
     return outcome_.merge({running_, Outcome::Kind::breaks, material, place, warehouse_->ranks().rank(), {}, value});
@@ -65,14 +65,14 @@ void Scheduler::agree(const TaskGraph& graph) {
 NumericalError Scheduler::whatBroke(TaskGraph& graph, const StepInfo& at) {
   const Outcome outcome = outcome_;
   if (!warehouse_->ranks().isAlone()) {
-    start(graph, outcome.task + 1);
+    start(graph, outcome.task + 1, at);
     for (int t = 0; t < end_; ++t) {
       if (t > 0) free(graph.tasks()[t - 1]);
       runTask(graph, t, at);
     }
   }
   const CompiledTask& task = graph.tasks()[outcome.task];
-  const auto broken = firstBroken(*warehouse_, task.of(outcome.material).bounded);
+  const auto broken = firstBroken(*warehouse_, task.of(outcome.material).bounded, level_);
   if (!broken)
     throw TaskError(
         fmt::format("{} violated its bound, but not when the task was run again: a body must give the same result "

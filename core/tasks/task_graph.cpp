@@ -39,6 +39,10 @@ bool mayStartEarly(const CompiledTask& task, const data::VariableTable& table) {
                       [&](const Access& one) { return one.writes() && isFilled(one); });
 }
 
+bool outlivesStep(const data::Label& label) {
+  return label.centring != Centring::reduction && label.centring != Centring::rim;
+}
+
 int materialOf(const Access& access, int material) {
   return access.label->centring == Centring::reduction || access.ofNone ? -1 : material;
 }
@@ -168,7 +172,7 @@ void TaskGraph::noteResults(data::VariableTable& table) {
   for (const std::string& name : needed)
     if (written.contains(name))
       for (int m = -1; m < materials_; ++m)
-        if (const int number = table.find(name, m); number >= 0 && table[number].label->centring != Centring::reduction)
+        if (const int number = table.find(name, m); number >= 0 && outlivesStep(*table[number].label))
           results_.push_back(number);
   if (changes)
     for (int m = 0; m < materials_; ++m) changed_sets_.push_back(m);

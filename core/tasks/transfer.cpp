@@ -40,40 +40,63 @@ template <int D>
 void meansOf(const Box& box, const CellValues& values, int components, double* to) {
   const Cells<const double> fine(values, components);
   const std::ptrdiff_t x = fine.stride(0), y = fine.stride(1), z = fine.stride(2);
-  grid::forEach<3>(box, [&](const Index3& cell) {
-    Index3 first = cell;
+  grid::forEachRow<3>(box, [&](Index3 first, int count) {
     for (int d = 0; d < D; ++d) first[d] *= 2;
     const double* child = fine.at(first);
-    for (int k = 0; k < components; ++k, ++child) {
-      const auto pair = [&](std::ptrdiff_t beside) { return child[beside] + child[beside + x]; };
-      if constexpr (D == 1) *to++ = 0.5 * pair(0);
-      if constexpr (D == 2) *to++ = 0.25 * (pair(0) + pair(y));
-      if constexpr (D == 3) *to++ = 0.125 * ((pair(0) + pair(y)) + (pair(z) + pair(y + z)));
-    }
+    for (int cell = 0; cell < count; ++cell, child += x)  // the second one along x
+      for (int k = 0; k < components; ++k, ++child) {
+        const auto pair = [&](std::ptrdiff_t beside) { return child[beside] + child[beside + x]; };
+        if constexpr (D == 1) *to++ = 0.5 * pair(0);
+        if constexpr (D == 2) *to++ = 0.25 * (pair(0) + pair(y));
+        if constexpr (D == 3) *to++ = 0.125 * ((pair(0) + pair(y)) + (pair(z) + pair(y + z)));
+      }
   });
 }
+
+/// A finer cell: its numbers, and on which side of its parent's middle it is along each axis, -1 or 1.
+struct Child {
+  double* numbers;
+  std::array<double, 3> side;
+};
+
+/// The children of a coarse cell that are in a box.
+template <int D>
+class Children {
+ public:
+  Children(const Cells<double>& fine, const Box& box, const Index3& parent) {
+    const Box all = Box{parent, parent + Index3::filled(1)}.refined(D);
+    grid::forEach<3>(all.intersect(box), [&](const Index3& cell) {
+      Child& child = children_[count_++];
+      child.numbers = fine.at(cell);
+      for (int d = 0; d < D; ++d) child.side[static_cast<std::size_t>(d)] = cell[d] == all.lower[d] ? -1 : 1;
+    });
+  }
+  const Child* begin() const { return children_.data(); }
+  const Child* end() const { return begin() + count_; }
+
+ private:
+  std::array<Child, 1 << D> children_;
+  std::size_t count_ = 0;
+};
 
 template <int D>
 void interpolate(const CellValues& from, const Box& box, const CellValues& to, int components) {
   const Cells<const double> coarse(from, components);
   const Cells<double> fine(to, components);
-  grid::forEach<3>(box, [&](const Index3& cell) {
-    Index3 parent = cell;
-    std::array<std::ptrdiff_t, 3> stride{};
-    std::array<double, 3> side{};
-    for (int d = 0; d < D; ++d) {
-      const std::size_t axis = d;
-      parent[d] = grid::coarserCell(cell[d]);
-      stride[axis] = coarse.hasBoth(parent, d) ? coarse.stride(d) : 0;
-      side[axis] = cell[d] == 2 * parent[d] ? -0.25 : 0.25;
-    }
+  grid::forEach<3>(box.coarsened(D), [&](const Index3& parent) {
+    const Children<D> children(fine, box, parent);
+    std::array<std::ptrdiff_t, D> stride{};
+    for (int d = 0; d < D; ++d) stride[static_cast<std::size_t>(d)] = coarse.hasBoth(parent, d) ? coarse.stride(d) : 0;
     const double* middle = coarse.at(parent);
-    double* into = fine.at(cell);
     for (int k = 0; k < components; ++k, ++middle) {
-      double value = *middle;
+      std::array<double, D> quarter{};
       for (std::size_t d = 0; d < D; ++d)
-        value += side[d] * Mc::slope(*middle - middle[-stride[d]], middle[stride[d]] - *middle);
-      into[k] = value;
+        quarter[d] = 0.25 * Mc::slope(*middle - middle[-stride[d]], middle[stride[d]] - *middle);
+      for (const Child& child : children) {
+        double value = *middle;
+        for (std::size_t d = 0; d < D; ++d) value += child.side[d] * quarter[d];
+        child.numbers[k] = value;
+      }
     }
   });
 }

@@ -36,6 +36,15 @@ TEST(Levels, AreInTheReportOfARefinedGrid) {
   EXPECT_NE(text.find("regridding                             250.00\n"), std::string::npos) << text;
 }
 
+TEST(Levels, HaveTheirUpdatesInTheReportWhereEachTakesItsOwnSteps) {
+  Report report = refined();
+  EXPECT_FALSE(nlohmann::json::parse(toJson(report)).contains("level_updates"));
+  report.levelUpdates = {10, 2500, 120946};
+  EXPECT_EQ(nlohmann::json::parse(toJson(report))["level_updates"], report.levelUpdates);
+  const std::string line = "3 regrids\n  of levels that each take their own steps: 10 + 2500 + 1.209e+05\n";
+  EXPECT_NE(toText(report).find(line), std::string::npos) << toText(report);
+}
+
 TEST(Levels, TheReportSaysWhereRefinementDoesNotPay) {
   const std::string advice = "  it would probably be faster: on levels an update takes about ";
   Report report = refined();

@@ -88,7 +88,7 @@ TEST(Regridder, IsAdaptiveWhereThereAreThresholdsUnlessTheSceneSaysOtherwise) {
 TEST(Regridder, NotesWhatOfUintahsDoesNothing) {
   const Read found =
       read(square,
-           "<AMR type=\"Dynamic\"><useLockStep>false</useLockStep><Regridder type=\"BNR\">"
+           "<AMR type=\"Dynamic\"><useLockStep>true</useLockStep><Regridder type=\"BNR\">"
            "<max_timestep_interval>50</max_timestep_interval><min_boundary_cells>[1,1,0]</min_boundary_cells>"
            "</Regridder><ICE><orderOfInterpolation>1</orderOfInterpolation></ICE></AMR>");
 
@@ -99,8 +99,15 @@ TEST(Regridder, NotesWhatOfUintahsDoesNothing) {
           "AMR/Regridder/max_timestep_interval: does nothing: every regrid is due by <min_timestep_interval>",
           "AMR/Regridder/min_boundary_cells: does nothing: <cell_stability_dilation> alone widens the refined region, "
           "besides the distance that signals travel",
-          "AMR/ICE/orderOfInterpolation: does nothing: values between levels are of second order",
-          "AMR/useLockStep: all levels take the same time step: smaller steps on finer levels are not available yet"}));
+          "AMR/ICE/orderOfInterpolation: does nothing: values between levels are of second order"}));
+  EXPECT_FALSE(found.amr.smallerSteps);
+}
+
+TEST(Regridder, ReadsWhetherFinerLevelsTakeSmallerSteps) {
+  const Read found = read(square, "<AMR><useLockStep>false</useLockStep></AMR>");
+  EXPECT_EQ(found.problems, Strings{});
+  EXPECT_TRUE(found.amr.smallerSteps);
+  EXPECT_FALSE(read(square, "<AMR/>").amr.smallerSteps);
 }
 
 TEST(Regridder, SaysWhatIsMisspelt) {

@@ -101,6 +101,42 @@ TEST(LevelLimits, RefuseTasksThatSeeAllPatchesOfMaterials) {
 
 namespace {
 
+void limit(const Patch&, CellView<const double>, Minimum&) {}
+void sumUp(const Patch&, CellView<const double>, Sum&) {}
+
+/// What keeps tasks from smaller steps on finer levels, line by line.
+std::string problemsOfSteps(const TaskList& list) {
+  std::string text;
+  for (const InputProblem& problem : problemsOfSmallerSteps(list.tasks(), {"a.ups", 7, 3}))
+    text += problem.text() + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST(LevelLimits, SmallerStepsAreForTasksThatReadTheOldStateAndTheirOwnCells) {
+  constexpr ReductionLabel<Sum> all{"TotalValue", "1", "of all cells"};
+  TaskList fit;
+  fit.perPatch("limit", limit, requiresOld(value, 2), computes(delT));
+  fit.perPatch("own", readCells, requiresNew(value));
+  fit.perPatch("flow", flow, computes(value), keepsFlux(value));
+  EXPECT_EQ(problemsOfSteps(fit), "");
+  TaskList far, sums, solve, nodes;
+  far.perPatch("far", readCells, requiresNew(value, 1));
+  sums.perPatch("sum", sumUp, requiresOld(value), computes(all));
+  solve.perRank("solve", readAll, requiresOld(value));
+  nodes.perPatch("turn", readNodes, requiresNew(corner));
+  const std::string end = ": all levels must take the same time step, as by default\n";
+  const std::string start = "a.ups:7:3: AMR/useLockStep: task ";
+  EXPECT_EQ(problemsOfSteps(far),
+            start + "far reads the new c.value beyond a patch, where another level does not have it yet" + end);
+  EXPECT_EQ(problemsOfSteps(sums), start + "sum computes TotalValue over the whole grid" + end);
+  EXPECT_EQ(problemsOfSteps(solve), start + "solve sees all patches at once" + end);
+  EXPECT_EQ(problemsOfSteps(nodes), start + "turn uses nodes (g.corner)" + end);
+}
+
+namespace {
+
 /// Reads its cells from far away.
 class FarCooling : public test::Cooling {
  public:

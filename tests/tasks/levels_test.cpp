@@ -221,6 +221,117 @@ TEST(Levels, AreRefluxedByATaskBehindTheOneThatKeepsTheFluxes) {
 
 namespace {
 
+/// A constant field that grows by 1 in a step.
+void fillBefore(const Patch&, CellView<double> values) { values.fill(3); }
+void fillAfter(const Patch&, CellView<const double>, CellView<double> values) { values.fill(4); }
+/// How much ghosts have grown of cells beside [16, 48), those of level 1 in a grid of two levels; others have not.
+void compareGrowth(const Patch&, CellView<const double> values, Maximum& growth) {
+  forEach<1>(values.box(), [&](const Index<1>& cell) {
+    if (cell[0] < 16 || cell[0] >= 48)
+      growth.add(values[cell] - 3);
+    else
+      EXPECT_EQ(values[cell], 3);
+  });
+}
+
+}  // namespace
+
+TEST(Levels, HaveGhostsInCoarserCellsThatAreBetweenOldAndNewAtAPartOfTheirStep) {
+  for (const double part : {0.0, 0.25, 0.5}) {
+    test::Runner run(refined<1>(2, false, 1));
+    TaskList start, step, look;
+    start.perPatch("fill", fillBefore, computes(value));
+    step.perPatch("grow", fillAfter, requiresOld(value, 2), computes(value));
+    look.perPatch("compare", compareGrowth, requiresOld(value, 2), computes(greatest));
+    TaskGraph starts = run.compile(start, {"c.value"}), steps = run.compile(step, {"c.value"}, true),
+              looks = run.compile(look, {"greatest"});
+    run.step(starts);
+    run.scheduler.run(steps, {.level = 0});
+    run.scheduler.run(looks, {.level = 1, .part = part});
+    EXPECT_EQ(run.warehouse.reductionValues(run.table.find("greatest", -1)).at(0), part);
+    run.scheduler.commitLevel(steps, 0);
+    run.scheduler.forgetNew(steps);
+    run.scheduler.run(looks, {.level = 1});
+    EXPECT_EQ(run.warehouse.reductionValues(run.table.find("greatest", -1)).at(0), 1);
+  }
+}
+
+namespace {
+
+/// The waves of checkAdvection by three levels that each take two steps in one of the next coarser.
+template <int D>
+class SteppedWaves {
+ public:
+  explicit SteppedWaves(int blocksPerPatch, int threads = 1) : run_(refined<D>(3, true, blocksPerPatch), threads) {
+    TaskList start, list, sums;
+    start.perPatch("fill", fillWave<D>, computes(value));
+    list.perPatch("advect", advect<D>, requiresOld(value, 1), requiresOld(delT), computes(value), keepsFlux(value));
+    sums.perPatch("integrate", integrate<D>, requiresOld(value), computes(total));
+    const SteppedByLevel lists = withRegisters(list);
+    Names wanted = registersOf(lists.advance);
+    EXPECT_EQ(wanted.size(), 1U);
+    wanted.insert("c.value");
+    TaskGraph starts = run_.compile(start, {"c.value"});
+    advance_ = run_.compile(lists.advance, wanted, true);
+    reflux_ = run_.compile(lists.reflux, {"c.value"});
+    integrals_ = run_.compile(sums, {"total"});
+    run_.step(starts);
+  }
+
+  double integral() {
+    run_.step(integrals_);
+    return run_.warehouse.reductionValues(run_.table.find("total", -1)).at(0);
+  }
+  void step() {
+    advance(0, 0.8 / 128 / D, 0);
+    run_.scheduler.forgetNew(advance_);
+  }
+  std::vector<double> cells() { return cellsAlongCurve<D>(run_); }
+
+ private:
+  void advance(int level, double dt, double part) {
+    const StepInfo at{.delT = dt, .level = level, .part = part};
+    run_.warehouse.template reduction<Minimum>(run_.table.find(delT.name, -1)).value = dt;
+    run_.warehouse.template reduction<Minimum>(run_.table.find(partOfStep.name, -1)).value = part;
+    run_.scheduler.run(advance_, at);
+    if (level < 2) {
+      advance(level + 1, dt / 2, 0);
+      advance(level + 1, dt / 2, 0.5);
+      run_.scheduler.run(reflux_, at);
+    }
+    run_.scheduler.commitLevel(advance_, level);
+  }
+
+  test::Runner run_;
+  TaskGraph advance_, reflux_, integrals_;
+};
+
+template <int D>
+void checkSteppedAdvection() {
+  const auto after = [](int blocksPerPatch, int threads) {
+    SteppedWaves<D> waves(blocksPerPatch, threads);
+    const double before = waves.integral();
+    for (int k = 0; k < 5; ++k) waves.step();
+    EXPECT_NEAR(waves.integral(), before, 4e-16 * before * D);
+    return waves.cells();
+  };
+  const std::vector<double> one = after(1, 1);
+  for (const int blocks : {2, 3, 8}) EXPECT_EQ(after(blocks, 1), one);
+  EXPECT_EQ(after(2, 3), one);
+  const std::vector<double> together = advected<D>(1).cells;  // in as many steps as the finest level has made
+  for (std::size_t k = 0; k < one.size(); ++k) EXPECT_NEAR(one[k], together[k], 0.02 * std::pow(2.5, D));
+}
+
+}  // namespace
+
+TEST(Levels, KeepWhatFlowsBetweenThemInStepsOfTheirOwn) {
+  checkSteppedAdvection<1>();
+  checkSteppedAdvection<2>();
+  checkSteppedAdvection<3>();
+}
+
+namespace {
+
 /// Refines the first block, and coarsens the middle by two levels.
 grid::BlockTree otherTree(const grid::Grid& grid) { return grid.tree().regridded({{0, {}}}, {}); }
 

@@ -1,0 +1,111 @@
+#include "core/simulation/level_steps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/tasks/kept_levels.hpp"
+#include "core/tasks/reflux.hpp"
+
+namespace tushar::simulation {
+
+int stepsThatFill(double rest, double stable, bool isFirst) {
+  constexpr double band = 1.125, rounding = 1e-9;
+  const double exact = rest / stable;
+  const double fewest = std::ceil(exact / band - rounding);
+  return static_cast<int>(std::max({1.0, fewest, isFirst ? std::min(2.0, std::ceil(exact - rounding)) : 1.0}));
+}
+
+int LevelSteps::levelsWithCells() const {
+  const grid::Grid& grid = *run_.problem.grid;
+  int levels = 1;
+  for (const grid::BlockId& leaf : grid.tree().leaves()) levels = std::max(levels, leaf.level + 1);
+  return levels;
+}
+
+data::Minimum LevelSteps::stable() {
+  levels_ = levelsWithCells();
+  stable_.assign(static_cast<std::size_t>(levels_), std::nullopt);
+  data::Minimum least;
+  for (int level = 0; level < levels_; ++level) {
+    data::Minimum ofLevel = stableOf({.step = run_.time.step() + 1, .time = run_.time.time(), .level = level});
+    ofLevel.value = std::ldexp(ofLevel.value, level);
+    least.merge(ofLevel);
+  }
+  return least;
+}
+
+const data::Minimum& LevelSteps::stableOf(const tasks::StepInfo& at) {
+  std::optional<data::Minimum>& known = stable_[static_cast<std::size_t>(at.level)];
+  if (!known) {
+    run_.warehouse.resetReduction(number(data::delT));
+    run_.scheduler.run(run_.phases.stableTimeStep, at);
+    known = run_.warehouse.reduction<data::Minimum>(number(data::delT));
+  }
+  return *known;
+}
+
+std::optional<data::Minimum> LevelSteps::advance(const tasks::StepInfo& whole) {
+  const tasks::TaskGraph& graph = run_.phases.timeAdvance;
+  const tasks::KeptLevels before(run_.warehouse, graph.results());
+  const auto stableBefore = stable_;
+  steps_.assign(static_cast<std::size_t>(run_.problem.grid->levels()), 0);
+  tasks::StepInfo coarsest = whole;
+  coarsest.level = 0;
+  std::optional<data::Minimum> asked;
+  try {
+    asked = advanceLevel(coarsest);
+  } catch (const NumericalError&) {
+    before.restore();
+    throw;
+  }
+  run_.scheduler.forgetNew(graph);
+  run_.warehouse.reduction<data::Minimum>(number(data::delT)).value = whole.delT;
+  if (!asked) return asked;
+  before.restore();
+  stable_ = stableBefore;
+  return asked;
+}
+
+std::optional<data::Minimum> LevelSteps::advanceLevel(const tasks::StepInfo& at) {
+  run_.warehouse.reduction<data::Minimum>(number(data::delT)).value = at.delT;
+  run_.warehouse.reduction<data::Minimum>(number(tasks::partOfStep)).value = at.part;
+  if (auto asked = run_.scheduler.run(run_.phases.timeAdvance, at)) return asked;
+  if (at.level + 1 < levels_) {
+    if (auto asked = advanceFiner(at)) return asked;
+    if (auto asked = run_.scheduler.run(run_.phases.refluxing, at)) return asked;
+  }
+  run_.scheduler.commitLevel(run_.phases.timeAdvance, at.level);
+  stable_[static_cast<std::size_t>(at.level)].reset();
+  ++steps_[static_cast<std::size_t>(at.level)];
+  return std::nullopt;
+}
+
+std::optional<data::Minimum> LevelSteps::advanceFiner(const tasks::StepInfo& coarser) {
+  tasks::StepInfo at = coarser;
+  ++at.level;
+  for (double done = 0; done < coarser.delT; done += at.delT) {
+    const double rest = coarser.delT - done;
+    at.time = coarser.time + done;
+    at.part = done / coarser.delT;
+    const int steps = stepsThatFill(rest, longestStep(rest, at), at.part == 0);
+    at.delT = rest / steps;
+    if (auto asked = advanceLevel(at)) return asked;
+    if (steps == 1) break;
+  }
+  return std::nullopt;
+}
+
+double LevelSteps::longestStep(double rest, const tasks::StepInfo& next) {
+  constexpr double most = 1000;  // steps in one of the coarser level: signals do not get so much faster
+  const double stable = run_.problem.time.timestepMultiplier * stableOf(next).value;
+  if (!(stable * most > rest))
+    throw NumericalError(fmt::format("the time step of level {} fell to {:.6g} s within one of {:.6g} s (step {}, time "
+                                     "{:.6g} s)",
+                                     next.level, stable, rest, next.step, next.time),
+                         "whatever keeps speeds finite, or useLockStep true in <AMR>");
+  return stable;
+}
+
+}  // namespace tushar::simulation

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/simulation/run_state.hpp"
+
+namespace tushar::simulation {
+
+/// The steps of a run in which finer levels take smaller ones.
+///
+/// A level makes its step from the old state, then the next finer level makes steps up to the end of it: two in
+/// general, one if that is stable there, three or more where signals have become faster meanwhile. Its ghosts in
+/// coarser cells are between the old and the new values of these. Then the flux out of coarse cells becomes what the
+/// finer steps have taken, and the new state of the coarser level becomes its old one. Between such steps of the
+/// coarsest level all levels are at the same time.
+/// Source: M. J. Berger and P. Colella, J. Comput. Phys. 82 (1989) 64; the number of finer steps is ours.
+///
+/// All ranks make the same calls.
+class LevelSteps {
+ public:
+  explicit LevelSteps(RunState& run) : run_(run) {}
+
+  /// The longest step of the coarsest level [s] with which two steps of each level in one of the next coarser are
+  /// stable, and what limits it.
+  data::Minimum stable();
+  /// Advances the old state of all levels by the step of the coarsest, `whole.delT`. If a task requests a smaller one,
+  /// returns its factor and reason; then, and if a NumericalError comes out, the old state is as it was.
+  std::optional<data::Minimum> advance(const tasks::StepInfo& whole);
+
+  /// Steps of each level in the last step of the coarsest; 0 for those that have no cells.
+  const std::vector<int>& steps() const { return steps_; }
+
+ private:
+  /// Makes a step of a level, and those of the finer ones within it.
+  std::optional<data::Minimum> advanceLevel(const tasks::StepInfo& at);
+  std::optional<data::Minimum> advanceFiner(const tasks::StepInfo& coarser);
+  /// What the state of a level allows, s.
+  const data::Minimum& stableOf(const tasks::StepInfo& at);
+  /// The longest step of a level [s] with the scene's multiplier. Throws NumericalError if it is far below the rest of
+  /// the coarser one.
+  double longestStep(double rest, const tasks::StepInfo& next);
+  int levelsWithCells() const;
+  int number(const data::Label& label) { return run_.table.number(label, -1); }
+
+  RunState& run_;
+  int levels_ = 1;                                    ///< that have cells
+  std::vector<std::optional<data::Minimum>> stable_;  ///< by level: of its state as it is now, where that is known
+  std::vector<int> steps_;
+};
+
+/// How many equal steps fill `rest` [s] where `stable` [s] is the longest: for a rest that begins with the coarser step
+/// (`isFirst`) one if it is stable, two up to an eighth beyond; for a later rest, up to an eighth beyond it is still
+/// one, as signals may have become faster since the coarser step was chosen.
+int stepsThatFill(double rest, double stable, bool isFirst);
+
+}  // namespace tushar::simulation
