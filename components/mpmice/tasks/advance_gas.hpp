@@ -45,7 +45,7 @@ void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& ce
                      euler::Work<D, K>& work) {
   const Box known = level.clipCells(box.grown(1, D));
   const auto hasBody = [&](const Index<D>& cell) {
-    return known.contains(cell) && (cells.free[cell] < 1 || cells.isEmpty(cell));
+    return known.contains(cell) && cells.hasBody(cell);
   };
   near.forEachIn(box, [&](const Index<D>& cell) {
     Index<D> source = cell;
