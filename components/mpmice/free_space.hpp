@@ -55,15 +55,15 @@ class FreeSpace {
 
   /// Open share of a face.
   double aperture(const Index<D>& cell, int axis, int side) const {
-    if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : cells_.free[cell];
+    if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : roomOf(cells_.free[cell]);
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
     if (isEmpty(below) || isEmpty(above)) return 0;
-    return openShare(cells_.coverage[above][axis], cells_.free[below], cells_.free[above], thin_walls_);
+    return openShare(cells_.coverage[above][axis], roomOf(cells_.free[below]), roomOf(cells_.free[above]), thin_walls_);
   }
   OpenFaces faces(const Index<D>& cell, int axis) const {
     if (isEmpty(cell)) return {};
     OpenFaces both{{aperture(cell, axis, 0), aperture(cell, axis, 1)}};
-    both.area = std::max(std::max(both.open[0], both.open[1]), cells_.free[cell]);
+    both.area = std::max(std::max(both.open[0], both.open[1]), roomOf(cells_.free[cell]));
     return both;
   }
 

@@ -71,6 +71,8 @@ struct GasInCells {
             .coverage = take(reads(c::coverage<D>, ghost.room))};
   }
   bool isEmpty(const Index<D>& cell) const { return free[cell] < leastFreeVolume || !(held.density[cell] > 0); }
+  /// Whether a body is in a cell, or no gas.
+  bool hasBody(const Index<D>& cell) const { return free[cell] < wholeFreeVolume || isEmpty(cell); }
   /// rho, rho v, E of the gas alone; the cell must hold some.
   euler::State<D> conserved(const Index<D>& cell) const {
     const double inverse = 1 / free[cell];
@@ -85,6 +87,18 @@ struct GasInCells {
     Parcel<D> parcel{conserved(cell)};
     for (std::size_t k = 0; k < held.shares.size(); ++k) {
       parcel.masses[k] = held.masses[k][cell] / free[cell];
+      parcel.shares[k] = held.shares[k][cell];
+    }
+    return parcel;
+  }
+  /// What a cell holds, whether it has room or not, times a factor.
+  Parcel<D> contentOf(const Index<D>& cell, double factor) const {
+    Parcel<D> parcel;
+    parcel.u[euler::kDensity] = factor * held.density[cell];
+    for (int d = 0; d < D; ++d) parcel.u[euler::kVelocity(d)] = factor * held.momentum[cell][d];
+    parcel.u[euler::kPressure<D>] = factor * held.totalEnergy[cell];
+    for (std::size_t k = 0; k < held.shares.size(); ++k) {
+      parcel.masses[k] = factor * held.masses[k][cell];
       parcel.shares[k] = held.shares[k][cell];
     }
     return parcel;

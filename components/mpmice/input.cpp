@@ -83,10 +83,10 @@ void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diag
   const auto mpm = root.child("MPM");
   if (const auto radial = mpm ? mpm->child("axisymmetric") : std::nullopt; radial && radial->text() == "true")
     diagnostics.error(*radial, "not beside a gas, whose grid is Cartesian");
-  if (scene.gas.cfl > smallFreeVolume)
+  if (scene.gas.cfl > greatestCfl)
     diagnostics.error(*root.child("CFD")->child("cfl"),
                       fmt::format("found {:g}, expected at most {:g} beside bodies: cells may be half full",
-                                  scene.gas.cfl, smallFreeVolume));
+                                  scene.gas.cfl, greatestCfl));
 }
 
 /// Notes that conditions on a part of a side hold for the gas alone, and that bodies have those of whole sides.

@@ -108,6 +108,10 @@ inline constexpr ReductionLabel<Sum> mergedCells{"MergedCells", "1",
                                                  "cells that gave their gas to a neighbour in the last step"};
 inline constexpr ReductionLabel<Minimum> leastFreeVolume{"LeastFreeVolume", "1",
                                                          "least share of a cell that holds gas"};
+inline constexpr ReductionLabel<Minimum> leastMass{"LeastGasMass", "kg/m^3",
+                                                   "least mass of gas in a cell, over the volume of the cell"};
+inline constexpr ReductionLabel<Minimum> leastHeat{
+    "LeastGasHeat", "J/m^3", "least internal energy of gas in a cell, less that of p_inf, over the volume of the cell"};
 }  // namespace total
 
 }  // namespace tushar::mpmice

@@ -105,14 +105,14 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   if (settings_.implicit)
     tasks.acrossMaterials("mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_),
                           requiresOld(delT), withoutMaterial(all<GasInStep<D>>()),
-                          withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 1),
+                          withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 2),
                           withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size())),
                           withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
   else
     tasks.acrossMaterials("mpmice::advanceGas", advanceBody<D>(settings_.gas.method, settings_.gases.size()), materials,
                           with(settings_), requiresOld(delT),
                           withoutMaterial(gasIn(readsOld, {.state = 2, .mass = 2, .room = 3})),
-                          withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 1),
+                          withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 2),
                           withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size())),
                           withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
   if (settings_.diffusion.acts())
@@ -203,6 +203,8 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("mpmice::sumKineticEnergy", sumKineticEnergy<D>, gas, computes(total::gasKineticEnergy),
                  computes(euler::total::kineticEnergy));
   tasks.perPatch("mpmice::findLeastFreeVolume", findLeastFreeVolume<D>, gas, computes(total::leastFreeVolume));
+  tasks.perPatch("mpmice::findLeastContent", findLeastContent<D>, with(settings_), gas, computes(total::leastMass),
+                 computes(total::leastHeat));
   tasks.perPatch("mpmice::sumImpulse", sumVectorOverVolume<D>, requiresOld(c::impulseSinceStart<D>),
                  computes(total::impulse));
   tasks.perPatch("mpmice::sumWork", sumOverVolume<D>, requiresOld(c::workSinceStart), computes(total::work));

@@ -20,13 +20,24 @@ struct Settings {
   std::vector<euler::Settings> gases = {};        ///< each of several gases that share cells; the first is `gas`
 };
 
+/// How far limits of free volumes are from shares of a cell that bodies fill where they are aligned with it: round-off
+/// must not decide on which side these are.
+inline constexpr double offRoundShares = 1e-9;
 /// Smaller free volumes count as 0.
-inline constexpr double leastFreeVolume = 1e-9;
-/// A cell with a smaller fraction of free volume gives its gas to a neighbour. An open face lets out, in a step, up to
-/// cfl over this share of what a cell has, so that it is also the greatest cfl.
-inline constexpr double smallFreeVolume = 0.5;
+inline constexpr double leastFreeVolume = offRoundShares;
+/// From here on a cell is free of bodies.
+inline constexpr double wholeFreeVolume = 1 - offRoundShares;
+/// A cell with a smaller fraction of free volume gives its gas to a neighbour.
+inline constexpr double smallFreeVolume = 0.5 - offRoundShares;
+/// An open face lets out, in a step, up to twice this of what a cell has that gives to no neighbour.
+inline constexpr double greatestCfl = 0.5;
 /// A smaller closed hole keeps its contents.
-inline constexpr double narrowFreeVolume = 0.2;
+inline constexpr double narrowFreeVolume = 0.2 - offRoundShares;
+
+/// The share of a cell that its gas has, of a free volume: it falls to 0 steadily where the cell counts as full.
+inline double roomOf(double free) {
+  return free < 2 * leastFreeVolume ? std::max(0.0, 2 * (free - leastFreeVolume)) : free;
+}
 
 /// The cells within some layers of a cell.
 template <int D>

@@ -17,7 +17,7 @@ struct BodiesInStep {
   static BodiesInStep from(auto& take, bool isViscous) {
     return {.walls = KnownWalls<D>::from(take, 0, isViscous),
             .newFree = take(requiresNew(c::unfilledVolume, 3)),
-            .swept = take(requiresNew(c::swept<D>, 1))};
+            .swept = take(requiresNew(c::swept<D>, 2))};
   }
 };
 
@@ -27,6 +27,9 @@ struct Given {
   Vec<D> impulse = Vec<D>::Zero();  ///< N s/m³
   double work = 0;                  ///< J/m³
 };
+
+/// What a cell keeps at least, of what it gives to others, so that round-off makes nothing negative.
+inline constexpr double roundOffOfShares = 1e-12;
 
 /// The exchange of the gas with walls in a step.
 template <int D>
@@ -134,33 +137,80 @@ class WallExchange {
     return cells_.free[face] < 1 || cells_.free[below] < 1 || step_.swept[face][axis] != 0;
   }
 
-  /// Gas follows a wall that draws back, and makes way for one that comes, with all it holds: the volume that the
-  /// covered share of the face would sweep, less the volume that bodies swept.
+  /// The volume, over a cell's, that follows walls up through the lower face of a cell: what the covered share of the
+  /// face would sweep, less the volume that bodies swept.
+  double followingUp(const Index<D>& above, int axis, double wallVelocity) const {
+    return (1 - space_.aperture(above, axis, 0)) * wallVelocity * dt_ * level_.inverseSpacing(axis) -
+           step_.swept[above][axis];
+  }
+
+  /// Gas follows a wall that draws back, and makes way for one that comes, with all it holds.
   void flow(const Index<D>& cell, int axis, int side, double wallVelocity,
             const euler::MixtureViews<D, double>& held) const {
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
-    const double up = (1 - space_.aperture(above, axis, 0)) * wallVelocity * dt_ * level_.inverseSpacing(axis) -
-                      step_.swept[above][axis];
+    const double up = followingUp(above, axis, wallVelocity);
     if (up == 0) return;
     const Index<D>&donor = up > 0 ? below : above, &receiver = up > 0 ? above : below;
     if (isClosedPore(receiver)) return;
-    const std::optional<Parcel<D>> gas = stateOf(donor, receiver);
+    const std::optional<Gift> gas = givenBy(donor, receiver);
     if (!gas) return;
-    const double volume = side == 0 ? up : -up;
-    held.density[cell] += volume * gas->u[euler::kDensity];
-    for (int d = 0; d < D; ++d) held.momentum[cell][d] += volume * gas->u[euler::kVelocity(d)];
-    held.totalEnergy[cell] += volume * gas->u[euler::kPressure<D>];
+    const double volume = (side == 0 ? up : -up) * gas->share;
+    held.density[cell] += volume * gas->of.u[euler::kDensity];
+    for (int d = 0; d < D; ++d) held.momentum[cell][d] += volume * gas->of.u[euler::kVelocity(d)];
+    held.totalEnergy[cell] += volume * gas->of.u[euler::kPressure<D>];
     for (std::size_t k = 0; k < held.shares.size(); ++k) {
-      held.masses[k][cell] += volume * gas->masses[k];
-      held.shares[k][cell] += volume * (gas->shares[k] - cells_.held.shares[k][cell]);
+      held.masses[k][cell] += volume * gas->of.masses[k];
+      held.shares[k][cell] += volume * (gas->of.shares[k] - cells_.held.shares[k][cell]);
     }
   }
 
+  /// What a donor gives: a gas, and the share of the volume asked for.
+  struct Gift {
+    Parcel<D> of;
+    double share = 1;
+  };
+
+  /// What a donor has not is paid by the neighbour that it will share with, if one is free for the most part. Elsewhere
+  /// a donor gives of what it holds, as dense as the gas asked for, and at most all of it.
+  std::optional<Gift> givenBy(const Index<D>& donor, const Index<D>& receiver) const {
+    const std::optional<Parcel<D>> wanted = stateOf(donor, receiver);
+    if (!wanted) return std::nullopt;
+    if (isBesideRoom(donor)) return Gift{*wanted};
+    const double mass = cells_.held.density[donor];
+    if (!(mass > 0)) return std::nullopt;
+    return Gift{cells_.contentOf(donor, wanted->u[euler::kDensity] / mass), mass / std::max(mass, massAskedOf(donor))};
+  }
+  /// The mass that a donor would give through all its faces, kg/m³, and a little more.
+  double massAskedOf(const Index<D>& donor) const {
+    double mass = 0;
+    for (int d = 0; d < D; ++d)
+      for (int side = 0; side < 2; ++side) {
+        const Index<D> face = side == 0 ? donor : donor + Index<D>::unit(d);
+        if (space_.isAtSide(donor, d, side) || !mayFlow(face, d)) continue;
+        const double up = followingUp(face, d, nodes_.velocityAt(face, d, mpm::solid::lane::velocity)[d]);
+        const double out = side == 0 ? -up : up;
+        if (!(out > 0)) continue;
+        const std::optional<Parcel<D>> gas = stateOf(donor, side == 0 ? donor - Index<D>::unit(d) : face);
+        if (gas) mass += out * gas->u[euler::kDensity];
+      }
+    return (1 + roundOffOfShares) * mass;
+  }
+  /// Whether gas is where cells are free for the most part after the step: in this cell, or in one beside it, over a
+  /// corner too, that it shares with.
+  bool isBesideRoom(const Index<D>& cell) const {
+    bool any = false;
+    forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)),
+               [&](const Index<D>& at) { any |= step_.newFree[at] >= smallFreeVolume && cells_.held.density[at] > 0; });
+    return any;
+  }
+
   /// The state of the donor's gas; if it has none, that of the receiver; if that has none either, the mean around the
-  /// donor.
+  /// donor. Where the donor has hardly room, some of both.
   std::optional<Parcel<D>> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
-    if (!space_.isEmpty(donor)) return cells_.parcel(donor);
-    if (!space_.isEmpty(receiver)) return cells_.parcel(receiver);
+    const double room = space_.isEmpty(donor) ? 0 : roomOf(cells_.free[donor]) / cells_.free[donor];
+    if (room == 1) return cells_.parcel(donor);
+    if (!space_.isEmpty(receiver)) return mixed(room, donor, receiver);
+    if (room > 0) return cells_.parcel(donor);
     Parcel<D> sum;
     int count = 0;
     for (int d = 0; d < D; ++d)
@@ -175,6 +225,13 @@ class WallExchange {
     Parcel<D> mean;
     mean.add(sum, 1.0 / count);
     return mean;
+  }
+  /// `part` of the state of one cell and the rest of another's.
+  Parcel<D> mixed(double part, const Index<D>& of, const Index<D>& rest) const {
+    Parcel<D> sum;
+    if (part > 0) sum.add(cells_.parcel(of), part);
+    sum.add(cells_.parcel(rest), 1 - part);
+    return sum;
   }
 
   /// A hole in a body: hardly free, and no cell within two that is free for the most part.

@@ -44,9 +44,7 @@ template <int D, int K>
 void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& cells, const NearBodies<D>& near,
                      euler::Work<D, K>& work) {
   const Box known = level.clipCells(box.grown(1, D));
-  const auto hasBody = [&](const Index<D>& cell) {
-    return known.contains(cell) && (cells.free[cell] < 1 || cells.isEmpty(cell));
-  };
+  const auto hasBody = [&](const Index<D>& cell) { return known.contains(cell) && cells.hasBody(cell); };
   near.forEachIn(box, [&](const Index<D>& cell) {
     Index<D> source = cell;
     for (int d = 0; d < D; ++d) source[d] = std::clamp(cell[d], known.lower[d], known.upper[d] - 1);

@@ -152,4 +152,18 @@ void findLeastFreeVolume(const Patch& patch, const GasInCells<D>& cells, Minimum
   });
 }
 
+/// The least mass, of several gases that of each, and the least internal energy, less that of p_inf, that a cell holds;
+/// closed holes count, which only keep what they hold.
+template <int D>
+void findLeastContent(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& mass,
+                      Minimum& heat) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    mass.add(cells.held.density[cell]);
+    for (const auto& ofGas : cells.held.masses) mass.add(ofGas[cell]);
+    if (cells.held.density[cell] == 0) return;
+    const double energy = euler::internalEnergyIn<D, const double>(cells.held, cell);
+    heat.add(energy - cells.free[cell] * lawAt<D>(settings, cells.held, cell).pInfinity);
+  });
+}
+
 }  // namespace tushar::mpmice

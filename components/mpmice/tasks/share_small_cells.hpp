@@ -172,29 +172,29 @@ void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D
   for (std::size_t k = 0; k < fresh.masses.size(); ++k) fresh.masses[k][cell] = pool.masses[k] * part;
 }
 
-/// Density [kg/m³] and last number of the primitive state of a cell's gas.
-template <int D>
-std::pair<double, double> densityAndLast(const euler::Gas& gas, const Index<D>& cell, double free,
-                                         const euler::StateViews<D, double>& held) {
-  const double mass = held.density[cell];
-  const double internal = held.totalEnergy[cell] - 0.5 * held.momentum[cell].squaredNorm() / mass;
-  return {mass / free, gas.last(mass / free, internal / free)};
-}
-
 /// Checks the contents of a cell after a step. Throws NumericalError where it cannot be, so that the step is repeated
-/// with a smaller time step; in a small cell it waits as in a hole.
+/// with a smaller time step.
 template <int D>
 void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, const NewGas<D>& fresh) {
-  const double free = fresh.free[cell];
-  if (free < leastFreeVolume || fresh.held.density[cell] == 0) return;
-  const auto [density, last] = densityAndLast<D>(gas, cell, free, fresh.held);
-  const double stiff = gas.heat(density, last);
+  const double free = fresh.free[cell], mass = fresh.held.density[cell];
+  if (mass == 0) return;
+  const double internal = euler::internalEnergyIn<D>(fresh.held, cell);
+  if (free < leastFreeVolume && mass > 0 && (internal >= 0 || gas.law)) return;
+  const double density = mass / free, last = gas.last(density, internal / free), stiff = gas.heat(density, last);
   if (density > 0 && stiff > 0 && std::isfinite(stiff)) return;
-  if (free < smallFreeVolume && std::isfinite(density) && std::isfinite(stiff)) {
-    fresh.free[cell] = 0;
-    return;
-  }
   refuseGas<D>(level, gas, cell, free, density, last);
+}
+
+/// What a closed hole has left of a gas that has flown out: less than a number can tell from none. It holds nothing.
+inline constexpr double nothingLeft = 1e-100;
+
+/// Empties a cell that has as good as nothing left.
+template <int D>
+void emptyIfNothingLeft(const Index<D>& cell, const euler::MixtureViews<D, double>& held) {
+  if (!(std::abs(held.density[cell]) < nothingLeft)) return;
+  held.density[cell] = held.totalEnergy[cell] = 0;
+  held.momentum[cell] = Vec<D>::Zero();
+  for (const auto& mass : held.masses) mass[cell] = 0;
 }
 
 /// The state after a step: small cells share theirs with neighbours. Counts them.
@@ -223,6 +223,7 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     const Index<D> centre = small.targetOf(cell);
     if (!(centre == cell)) merged.add(1);
     shareAt<D>(small, state, cell, centre, fresh.held);
+    emptyIfNothingLeft<D>(cell, fresh.held);
     if (state.free[centre] < narrowFreeVolume) fresh.free[cell] = 0;  // a hole keeps its contents until there is room
   });
   near.forEachIn(patch.cells(),

@@ -122,7 +122,7 @@ ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
     const auto hasBody = [&](Index<D> at) {
       for (int d = 0; d < D; ++d)
         if (!level.isPeriodic(d)) at[d] = std::clamp(at[d], level.cells().lower[d], level.cells().upper[d] - 1);
-      return cells.free[at] < 1 || cells.isEmpty(at);
+      return cells.hasBody(at);
     };
     bool is = hasBody(cell);
     for (int d = 0; d < D && !is; ++d) is = hasBody(cell - Index<D>::unit(d)) || hasBody(cell + Index<D>::unit(d));
