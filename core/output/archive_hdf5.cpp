@@ -151,7 +151,8 @@ void Hdf5File::dataset(const std::string& name, const Array& array, const std::v
   const Silence silence;
   const Shape full = fullShape(shape, array);
   const Handle creation = withoutTimes();
-  checked(setCompression(creation, full, compression_) ? 0 : -1, name + ", compressed, in");
+  checked(setCompression(creation, full, compression_) ? 0 : -1,
+          name + (compression_ > 0 ? ", compressed, in" : " in"));
   const bool asFloat = double_as_float_ && precision == Precision::asAsked;
   const Handle data(makeDataset(name, array, full, asFloat, creation), H5Dclose);
   std::visit(
@@ -168,7 +169,8 @@ std::uint64_t Hdf5File::room(const std::string& name, const Array& array, const 
   const Silence silence;
   const Shape full = fullShape(shape, array);
   const Handle creation = withoutTimes();
-  checked(setCompression(creation, full, compression_) ? 0 : -1, name + ", compressed, in");
+  checked(setCompression(creation, full, compression_) ? 0 : -1,
+          name + (compression_ > 0 ? ", compressed, in" : " in"));
   if (compression_ <= 0) {
     H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);

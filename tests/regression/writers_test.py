@@ -28,6 +28,7 @@ CASES = {
     "fields": (SINE, (f"{BOX}/resolution=[900,700,1]",), "5x3x1"),
     "packed fields": (SINE, (f"{BOX}/resolution=[900,700,1]", "DataArchiver/compression=gzip"), "3x4x1"),
     "levels": ("ups/heat/levels.ups", (), "1x1x1"),
+    "packed levels": ("ups/heat/levels.ups", ("DataArchiver/compression=gzip",), "1x1x1"),
 }
 RANKS_AND_WRITERS = ((2, 1), (2, 2), (3, 2), (3, 3), (5, 1), (5, 4), (5, 5))
 LITTLE = 64e6  # bytes that a rank may need beyond its state to write
