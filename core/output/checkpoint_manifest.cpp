@@ -172,8 +172,7 @@ Inspection inspectList(const fs::path& folder, std::string& lines) {
   if (lines.empty() || *text != lines + lastLine(lines))
     return {fmt::format("the content of {} has changed", manifestName)};
   if (const int found = formatOf(lines); found > manifestFormat)
-    return {fmt::format("{} has format {}, but this sus reads formats up to {}", manifestName, found, manifestFormat),
-            true};
+    return {fmt::format("manifest has format {}, but this sus reads formats up to {}", found, manifestFormat), true};
   for (const Line& line : linesOf(lines)) {
     if (line.isOfPart()) continue;
     std::error_code error;
