@@ -304,6 +304,11 @@ grid::Domain readGridFor(const ComponentKind* kind, const Element& section, cons
   return domain;
 }
 
+void takeThreads(const grid::Workers& workers, Problem& problem) {
+  problem.threads = workers.threads;
+  if (workers.mayBeFewer) problem.cellsPerThread = grid::cellsPerThread;
+}
+
 /// The tag that has finer levels take smaller steps; none on a single level.
 std::optional<Location> smallerStepsOn(const grid::Grid& grid, const AmrSettings& amr, Diagnostics& diagnostics) {
   if (grid.levels() > 1 || !amr.smallerSteps) return amr.smallerSteps;
@@ -360,8 +365,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
 
   problem.componentName = kind->name;
   problem.grid = std::make_unique<grid::Grid>(domain, share);
-  problem.threads = workers.threads;
-  if (workers.mayBeFewer) problem.cellsPerThread = grid::cellsPerThread;
+  takeThreads(workers, problem);
   problem.component = makeComponent(problem.grid->finest());
   if (domain.refinement.levels > 1)
     amr.regrid.where = checkTakesLevels(*kind, *problem.component, *root.child("Grid"), amr, diagnostics);

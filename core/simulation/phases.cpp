@@ -75,9 +75,9 @@ std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>&
   return samples;
 }
 
-/// The variables of the old state that lists read.
+/// The variables of the old state that lists read, and what a step itself always needs.
 Names requiredByAll(std::initializer_list<const Pruned*> lists) {
-  Names names;
+  Names names{std::string(data::recomputeTimeStep.name)};
   for (const Pruned* list : lists) names.merge(requiredOfState(list->kept));
   return names;
 }
@@ -285,6 +285,16 @@ void widenForRegridding(const std::vector<std::string>& lasting, int materials, 
         table.widen(number, 1);
 }
 
+void throwIfAny(std::vector<InputProblem> problems) {
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+Names namesOf(const std::vector<ConservedTotal>& totals) {
+  Names names;
+  for (const ConservedTotal& total : totals) names.insert(total.label);
+  return names;
+}
+
 /// Adds problems that are not among those found before.
 void addOthers(const std::vector<InputProblem>& found, std::vector<InputProblem>& problems) {
   for (const InputProblem& problem : found)
@@ -297,14 +307,14 @@ void addOthers(const std::vector<InputProblem>& found, std::vector<InputProblem>
 void checkOnLevels(std::initializer_list<const Pruned*> lists, const grid::Grid& grid, const Location& where) {
   std::vector<InputProblem> problems;
   for (const Pruned* list : lists) addOthers(problemsOnLevels(list->kept, grid, where), problems);
-  if (!problems.empty()) throw InputError(std::move(problems));
+  throwIfAny(std::move(problems));
 }
 
 /// Throws InputError for tasks that cannot run on one level after the other.
 void refuseSmallerSteps(std::initializer_list<const Pruned*> lists, const Location& where) {
   std::vector<InputProblem> problems;
   for (const Pruned* list : lists) addOthers(problemsOfSmallerSteps(list->kept, where), problems);
-  if (!problems.empty()) throw InputError(std::move(problems));
+  throwIfAny(std::move(problems));
 }
 
 }  // namespace
@@ -324,9 +334,8 @@ Phases::Wants Phases::wantsOf(const std::vector<SaveRequest>& samples, const Nam
 void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                      const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid,
                      const std::optional<Location>& smallerSteps) {
-  if (std::vector<InputProblem> problems = problemsOf(saves); !problems.empty()) throw InputError(std::move(problems));
-  if (std::vector<InputProblem> problems = problemsOf(analyses); !problems.empty())
-    throw InputError(std::move(problems));
+  throwIfAny(problemsOf(saves));
+  throwIfAny(problemsOf(analyses));
   const std::vector<SaveRequest> samples = samplesOf(analyses);
   sortSaves(named(saves));
   if (grid.levels() > 1) refuseSavedNodes(analyses);
@@ -334,9 +343,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   const Lists& lists = lists_;
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
   totals_ = totalsAmong(producedBy(lists.diagnostics.tasks()));
-  Names totals;
-  for (const auto& total : totals_) totals.insert(total.label);
-  const Names reported = united(totals, measuredBy(analyses));
+  const Names totals = namesOf(totals_);
   const Wants wants = wantsOf(samples, stepped);
 
   const Names decided = decidedBefore(lists.stableTimeStep.tasks());
@@ -346,19 +353,16 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned step = prune(lists.diagnostics.tasks(), wants.everyStep, false);
   Pruned output = prune(lists.diagnostics.tasks(), wants.everyOutput, false);
   Pruned begin = prune(lists.diagnostics.tasks(), totals, false);
-  Pruned end = prune(lists.diagnostics.tasks(), reported, false);
+  Pruned end = prune(lists.diagnostics.tasks(), united(totals, measuredBy(analyses)), false);
   Pruned refine = prune(refinementTasks(regrid).tasks(), {std::string(tasks::refinementMark.name)}, false);
   const tasks::TaskList mends = regrid.adaptive && !regrid.once ? lists.refine : tasks::TaskList();
   Pruned mend = prune(mends.tasks(), stepped, false);
   Names read = requiredByAll({&stable, &step, &output, &end, &refine, &mend});
-  read.emplace(data::recomputeTimeStep.name);
   Names always = requiredByAll({&stable, &begin, &refine, &mend});
-  always.emplace(data::recomputeTimeStep.name);
   const Pruned bare = prune(lists.timeAdvance.tasks(), always, true);
-  const Names fluxes = tasks::registersOf(lists.reflux.tasks().empty() ? tasks::TaskList() : lists.timeAdvance);
-  Pruned advance = prune(lists.timeAdvance.tasks(), united(united(read, wants.ofState), fluxes), true);
+  read.merge(tasks::registersOf(lists.timeAdvance));
+  Pruned advance = prune(lists.timeAdvance.tasks(), united(read, wants.ofState), true);
   if (smallerSteps) refuseSmallerSteps({&stable, &advance}, *smallerSteps);
-  Pruned reflux = prune(lists.reflux.tasks(), advance.needed, false);
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
   checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine, &mend}, grid, regrid.where);
 
@@ -373,7 +377,8 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   report = tasks::TaskGraph("diagnostics of the report", std::move(end), grid, table);
   refinement = tasks::TaskGraph("refinement", std::move(refine), grid, table);
   refined = tasks::TaskGraph("new finer cells", std::move(mend), grid, table);
-  refluxing = tasks::TaskGraph("after the steps of the next finer level", std::move(reflux), grid, table);
+  refluxing = tasks::TaskGraph("after the steps of the next finer level", prune(lists.reflux.tasks(), stepped, false),
+                               grid, table);
   table.number(data::delT, -1);
   if (smallerSteps) table.number(tasks::partOfStep, -1);
   if (regrid.adaptive) widenForRegridding(lasting_, static_cast<int>(materials_.size()), table);
