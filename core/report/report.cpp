@@ -292,8 +292,9 @@ std::string toText(const Report& report) {
     if (report.wallLoop > 0)
       text += fmt::format(", {:.3g} million particle-steps/s", 1e-6 * report.particleSteps / report.wallLoop);
   }
-  text += "\n" + levelsLine(report) + limitLine(report) + errorTable(report) + driftTable(report) +
-          energyTable(report) + timeTable(report);
+  text += '\n';
+  text += levelsLine(report) + limitLine(report) + errorTable(report) + driftTable(report) + energyTable(report) +
+          timeTable(report);
   if (!report.archive.empty()) text += fmt::format("\n  saved in {}\n", report.archive);
   text += fmt::format("\n  fingerprint {}\n", report.fingerprint);
   return text;

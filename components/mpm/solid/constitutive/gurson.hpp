@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/LU>
+
 #include "components/mpm/particles/drawn.hpp"
 #include "components/mpm/solid/constitutive/elastic_plastic.hpp"
 

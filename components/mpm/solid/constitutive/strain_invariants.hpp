@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/LU>
+
 #include <cmath>
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"

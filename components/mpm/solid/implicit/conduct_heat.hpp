@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/LU>
+
 #include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/implicit/node_map.hpp"
 #include "components/mpm/solid/implicit/particles.hpp"

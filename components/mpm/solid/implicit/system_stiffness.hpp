@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/LU>
+
 #include <map>
 
 #include "components/mpm/solid/implicit/system.hpp"

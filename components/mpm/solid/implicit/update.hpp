@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/LU>
+
 #include "components/mpm/solid/implicit/solve.hpp"
 
 namespace tushar::mpm::solid::implicit {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/LU>
+
 #include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/transfer/placed.hpp"
