@@ -11,9 +11,9 @@ namespace tushar::analysis {
 /// line of names, then for every sample time, place, and the variables: numbers first, vectors, tensors by rows.
 simulation::AnalysisKind particleExtractKind();
 
-/// The line of names of such a file, for columns of particle variables.
+/// The first line of a file: the names, for columns of particle variables.
 std::string extractHeader(const std::vector<output::Array>& columns);
-/// The line of particle `entry`: the time [s], p.x, which is the first column, and the others.
+/// The line for particle `entry`: the time [s], p.x, which is the first column, and the others.
 std::string extractLine(double time, const std::vector<output::Array>& columns, std::size_t entry);
 
 }  // namespace tushar::analysis

@@ -12,7 +12,7 @@ struct BurgersProblem {
   std::function<double(double)> velocity;  ///< u at t = 0, m/s, over x in m; bounded
   double viscosity = 0;                    ///< nu, m²/s
   double lower = 0, upper = 1;             ///< where the profile begins and ends, m
-  bool periodic = false;                   ///< it repeats beyond; else it stays there as it is at its ends
+  bool periodic = false;                   ///< repeats beyond its ends; if false, keeps its end values there
 };
 
 /// The exact solution of Burgers' equation in one dimension, shocks included.

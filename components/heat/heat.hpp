@@ -21,9 +21,9 @@ struct Settings {
   input::Expression conductivity{1.0};  ///< k, W/(m K)
   double density = 1;                   ///< rho, kg/m³
   double specificHeat = 1;              ///< c, J/(kg K)
-  double cfl = 0.9;                     ///< part of the greatest stable time step
+  double cfl = 0.9;                     ///< fraction of the greatest stable time step
   input::Expression temperature{0.0};   ///< at the start, K
-  double refinementTolerance = 0;       ///< error between cells beyond which they get finer, K; 0: none does
+  double refinementTolerance = 0;       ///< error between cells above which they are refined, K; 0: never
 
   double capacity() const { return density * specificHeat; }  ///< rho c, J/(m³ K)
 };

@@ -50,7 +50,7 @@ class GasBefore {
   const Vec<D>& gravity() const { return gravity_; }
   /// rho, v and p.
   const euler::Rows<D>& old() const { return old_; }
-  /// Fills `rows` with the old state, but with another pressure in the cells of the grid; beyond sides too.
+  /// Fills `rows`, beyond sides too, with the old state but another pressure in the cells of the grid.
   void fillWithPressure(const CellView<const double>& pressure, euler::Rows<D>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double) { return pressure[cell]; });
   }
@@ -73,7 +73,7 @@ class GasBefore {
     return VanLeer::slope(middle - old_.number(cell - step, number), old_.number(cell + step, number) - middle);
   }
 
-  /// The normal velocity of a face that has one whatever the pressure, m/s.
+  /// The normal velocity of a face where it does not depend on the pressure, m/s.
   std::optional<double> givenVelocity(const Index<D>& face, int axis) const {
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     if (rule && rule->mirrored) return 0.0;
@@ -101,7 +101,7 @@ class GasBefore {
   }
 
  protected:
-  /// How a side relaxes that a face lies in.
+  /// How the side that contains a face relaxes.
   euler::Relaxation relaxationOf(const Index<D>& face, int axis) const {
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     return rule ? rule->relaxes : euler::Relaxation();

@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// Velocities and masses of all solids at nodes, as faces see them: a face shares what acts on it between the nodes of
+/// Velocities and masses of all solids at nodes, as used at faces: a face shares what acts on it between the nodes of
 /// the cells on both sides, by their masses. One set of shares serves velocity, force and work, so that what the gas
 /// loses is what the nodes get.
 template <int D>
@@ -33,7 +33,7 @@ class BodiesAtNodes {
     forEachAt(cell, axis, [&](const mpm::solid::NodeRecord& record) { mass += record[mpm::solid::lane::mass]; });
     return mass;
   }
-  /// Their mean velocity by mass, m/s; 0 if nothing is. `lane` says which of a record's: before the step, or after.
+  /// Their mass-weighted mean velocity, m/s; 0 without mass. `lane` is that of the record: before the step, or after.
   Vec<D> velocityAt(const Index<D>& cell, int axis, int lane) const {
     double mass = 0;
     Vec<D> momentum = Vec<D>::Zero();

@@ -23,7 +23,7 @@ struct OpenFaces {
   double wall(int side) const { return area - open[side]; }
 };
 
-/// To what degree the walls of a cell face one way: 1 for one plane wall, 0 for two that face each other.
+/// To what degree the walls of a cell face the same way: 1 for one plane wall, 0 for two that face each other.
 template <int D>
 double facingOneWay(const Level& level, const std::array<OpenFaces, D>& faces) {
   double open = 0, all = 0;

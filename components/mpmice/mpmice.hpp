@@ -26,7 +26,7 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleDiagnostics(TaskList& tasks) const;
 
  private:
-  /// The gas in cells, `reads` how far.
+  /// The gas in cells; `reads` gives the access.
   auto gasIn(auto reads, typename GasInCells<D>::Reach reach) const {
     reach.gases = settings_.gases.size();
     return all<GasInCells<D>>(reads, reach);

@@ -14,16 +14,16 @@ struct Part {
   grid::Box stored{};     ///< of cells and nodes: the box in memory
 };
 
-/// The values of a variable on each patch of this rank, in their order. They stay in the warehouse, and are valid until
-/// the state changes.
+/// The values of a variable on each patch of this rank, in the order of the patches. They stay in the warehouse,
+/// and are valid until the state changes.
 struct Parts {
   std::vector<Part> of;
 };
 
-/// The particles of a variable, on each patch in its order.
+/// The values of a particle variable, on each patch in the order of its particles.
 Parts collectParticles(data::Warehouse& warehouse, data::Generation generation, int variable);
 
-/// The cells or nodes of a variable.
+/// The values of a variable of cells or nodes.
 Parts collectGrid(data::Warehouse& warehouse, data::Generation generation, int variable);
 
 }  // namespace tushar::collect

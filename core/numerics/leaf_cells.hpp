@@ -13,7 +13,7 @@ class LeafCells {
   /// The grid must outlive it.
   explicit LeafCells(const grid::Grid& grid) : grid_(&grid) {}
 
-  /// The level of the cells where a cell of a level is, or would be: its own, a coarser one, or the next finer one.
+  /// The level of the leaves at the place of a cell of any level: its own, a coarser one, or the next finer one.
   /// Images along periodic axes count; outside the grid: -1.
   int levelAt(int level, const Index<D>& cell) const { return grid_->tree().levelAt(blockOf(level, cell)); }
   bool isThere(int level, const Index<D>& cell) const { return levelAt(level, cell) == level; }
@@ -32,7 +32,7 @@ class LeafCells {
   const grid::Grid* grid_;
 };
 
-/// A field of a level, beside a face behind which cells are finer, by a polynomial through the cells of the level: of
+/// Values of a field beside a face with finer cells behind it, by a polynomial through the cells of the level: of
 /// second degree along each axis of the face, with their mixed term. Cells that are not there are not used: beside
 /// finer ones, and at sides of the grid, it uses those on the other side.
 template <int D>

@@ -14,8 +14,8 @@ std::string linesUpTo(const std::string& lines, double time);
 /// unfinished.
 void removeUnlisted(const std::filesystem::path& folder, const ArchiveIndex& index);
 
-/// The longer index of outputs up to a step, of the one in a file and its copy in a checkpoint: the file may be torn, or
-/// out of date after a power cut; the checkpoint has no output that was made after it at the same step.
+/// The longer of two indices of outputs up to a step: the one in a file, and its copy in a checkpoint. The file may be
+/// torn, or out of date after a power cut; the checkpoint has no output that was made after it at the same step.
 std::string fullerIndex(const std::filesystem::path& file, const std::string& kept, int step);
 
 }  // namespace tushar::output

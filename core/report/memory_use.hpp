@@ -16,7 +16,7 @@ struct MemoryUse {
 
 /// The memory of all ranks.
 struct MemoryOfRanks {
-  MemoryUse sum, most;  ///< sums over the ranks; the largest of a rank, each number by itself
+  MemoryUse sum, most;  ///< sums over the ranks; the largest on any rank, for each number separately
 };
 
 /// Adds up the variables that a rank holds.

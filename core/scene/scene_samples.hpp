@@ -11,10 +11,10 @@
 
 namespace tushar::scene {
 
-/// Uintah's names of the variables of a component and its modules that are called otherwise here, with the names here.
+/// Uintah's names of variables of a component and its modules whose names differ in Tushar, with the names in Tushar.
 simulation::OtherNames otherNames(const simulation::Component& component,
                                   const std::vector<std::unique_ptr<simulation::Analysis>>& analyses);
-/// The name here of a variable for which a scene may use Uintah's name; other names stay as they are.
+/// The name in Tushar of a variable for which a scene may use Uintah's name; other names stay as they are.
 std::string nameHere(const simulation::OtherNames& names, const std::string& name);
 
 /// Replaces the names and materials of sampled variables by those used here, and removes, with a note, variables of

@@ -72,7 +72,7 @@ class CellNumbering {
   int owned_ = 0;
   std::uint64_t first_ = 0;  ///< own cell of several levels, among those of all ranks
   std::vector<int> ghosts_;
-  /// Numbers by place of the cell; on several levels only of other ranks' cells, by number among all.
+  /// Numbers, by the cell's place; on several levels only those of other ranks' cells, by their global number.
   std::unordered_map<std::uint64_t, int> numbers_;
   mutable std::optional<Run> last_;  ///< the last run that was found
 };

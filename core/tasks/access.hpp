@@ -22,7 +22,7 @@ struct FieldAccess<data::FieldLabel<C, T>, Kind> {
   int ghost = 0;
   bool own = false;
   bool offered = false;
-  AccessKind kind = Kind;  ///< if Kind is requiresOld also requiresNew: the views of both are of one type
+  AccessKind kind = Kind;  ///< may be requiresNew if Kind is requiresOld: both have the same type of view
   int index = -1;          ///< place among the task's accesses
 
   void declare(std::vector<Access>& accesses) { index = append(accesses, {label, kind, ghost, own, offered}); }

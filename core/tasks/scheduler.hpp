@@ -18,7 +18,7 @@ struct StepInfo {
   int repeats = 0;         ///< of this step so far
   bool mayRepeat = false;  ///< whether a NumericalError repeats the step instead of being thrown
   int level = -1;          ///< whose patches the graph runs on; -1: those of all levels
-  double part = 0;         ///< of the step of the next coarser level that is over; where `level` is given
+  double part = 0;         ///< completed part of the next coarser level's step; if `level` is given
 };
 
 /// Names where an error happened: task, patch (-1: on all at once), material (-1: none), step, time.
@@ -138,7 +138,7 @@ class Scheduler {
   std::vector<ParticleMaker> makers_;    ///< by patch, while a task makes particles
   Outcome outcome_;                      ///< of the run of a graph
   std::optional<NumericalError> error_;  ///< behind it, on the rank where a body threw it
-  std::vector<double> costs_;            ///< by patch, s of the threads that worked on it
+  std::vector<double> costs_;            ///< by patch: time of the threads that worked on it, s
   bool heard_stop_ = false;              ///< a rank whose values this one needs has stopped
   int level_ = -1;                       ///< whose patches the graph runs on; -1: all
   int running_ = 0;                      ///< place of the task in its graph

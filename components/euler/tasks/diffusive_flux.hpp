@@ -6,10 +6,10 @@
 
 namespace tushar::euler {
 
-/// T takes the place of the density in a State; that of the pressure is unused.
+/// T takes the place of the density in a State; the place of the pressure is unused.
 inline constexpr std::size_t kTemperature = kDensity;
 
-/// Distances in memory of neighbours, and 1/h, along each axis.
+/// Distances in memory between neighbours, and 1/h, along each axis.
 template <int D>
 struct Spacing {
   std::array<std::ptrdiff_t, D> stride;
@@ -47,7 +47,7 @@ State<D> diffusiveFluxAt(const Diffusion& diffusion, const typename Rows<D>::Poi
   return flux;
 }
 
-/// Keeps those of the fluxes across an axis that are at the rim of the level.
+/// Keeps the fluxes across an axis through faces at the rim of the level.
 template <int D>
 void keepDiffused(const DiffusionRims<D>& rims, const Box& faces, int axis, Rows<D>& flux) {
   rims.momentum.template forEachFaceIn<D>(faces, axis, [&](const Index<D>& face, Vec<D>& through) {

@@ -4,7 +4,7 @@
 
 namespace tushar::ice {
 
-/// The pressure of the first step [Pa], that of the gas.
+/// The pressure with which the first step starts [Pa]: that of the gas.
 template <int D>
 void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<const double> density,
                         CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,

@@ -45,7 +45,7 @@ void forEachFaceOf(const Level& level, const Index<D>& cell, double dt, Visit&& 
   }
 }
 
-/// The equation weight d = 0 of a cell, d the change of its pressure.
+/// The equation weight d = 0 of a cell, where d is the change of its pressure.
 template <int D>
 numerics::CellEquation<D> equationWith(const Index<D>& cell, double weight) {
   numerics::CellEquation<D> equation{{}, 0};
@@ -54,7 +54,7 @@ numerics::CellEquation<D> equationWith(const Index<D>& cell, double weight) {
   return equation;
 }
 
-/// Adds weight (d - d_n) to the left-hand side, d_n the change in the cell `next`; it is 0 beyond the grid.
+/// Adds weight (d - d_n) to the left-hand side, where d_n is the change in the cell `next`; 0 beyond the grid.
 template <int D>
 void couple(const FaceFlow<D>& flow, const Index<D>& next, double weight, numerics::Balance<D>& left) {
   left.weights[0] += weight;
@@ -91,11 +91,11 @@ numerics::CellEquation<D> pressureEquation(const Level& level, const FaceFlow<D>
   return equation;
 }
 
-/// The equation in a gas with a law of its own, from dp/dt + v . grad p = -rho c² div v, over rho c²:
+/// The equation in a gas with its own equation of state, from dp/dt + v . grad p = -rho c² div v, over rho c²:
 ///
 ///   d / (rho c²) - dt div(loss_f (d_R - d_L)) = -dt div u_f - dt v . grad p / (rho c²),
 ///
-/// symmetric and positive definite, too.
+/// also symmetric and positive definite.
 template <int D>
 numerics::CellEquation<D> equationByLaw(const Level& level, const FaceFlow<D>& flow, const Index<D>& cell, double dt) {
   const double rho = flow.old().number(cell, euler::kDensity);

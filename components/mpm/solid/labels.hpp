@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Particle variables, including those that the gas methods have, too.
+/// Particle variables, including those that the gas methods also have.
 namespace p {
 using namespace mpm::p;
 inline constexpr ParticleLabel<Matrix3> stress{"p.stress", "Pa", "Cauchy stress"};

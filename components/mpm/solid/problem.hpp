@@ -16,7 +16,7 @@ struct Problem {
   std::vector<Material> materials;
   std::vector<Contact> contacts;
   Start start;
-  std::shared_ptr<const PrescribedDeformation> motion = nullptr;  ///< of all bodies; null: by forces
+  std::shared_ptr<const PrescribedDeformation> motion = nullptr;  ///< of all bodies; null: forces move them
   std::shared_ptr<const Surroundings> surroundings = nullptr;     ///< null: nothing surrounds them
   std::vector<InputProblem> notes = {};                           ///< notes on bodies without particles
 };

@@ -6,10 +6,10 @@
 
 namespace tushar::mpmice {
 
-/// How far, in cells, a cell that bodies fill in part looks for a gas where its middle has none.
+/// How far away, in cells, gas is sought for a partly filled cell that has none at its centre.
 inline constexpr int gasNearby = 3;
 
-/// The gas of a cell with some room: that at its centre or, as scenes leave out the bodies' shapes, at the nearest
+/// The gas of a cell with some room: that at its centre or, as scenes cut out the bodies' shapes, at the nearest
 /// centre of a cell that has one. Throws InputError if there is none.
 template <int D>
 euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const Index<D>& cell) {
@@ -48,7 +48,7 @@ void initialize(const Patch& patch, const Settings& settings, CellView<const dou
   });
 }
 
-/// Several gases at the centre of a cell or, as scenes leave out the bodies' shapes, at the nearest centre that has
+/// Several gases at the centre of a cell or, as scenes cut out the bodies' shapes, at the nearest centre that has
 /// some. Throws InputError where there are none, or they do not fill the cell.
 template <int D>
 ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settings>& gases, const Index<D>& cell) {

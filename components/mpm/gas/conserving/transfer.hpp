@@ -105,7 +105,7 @@ void gatherOnGrid(const Patch& patch, const ParticlesToGrid<D>& t, Visit&& visit
   stopAtSymmetryPlanes<D>(patch, t.nodeVelocity);
 }
 
-/// gatherOnGrid alone.
+/// gatherOnGrid, and nothing else.
 template <int D>
 void interpolateParticlesToGrid(const Patch& patch, const Gas&, const ParticlesToGrid<D>& transfer) {
   gatherOnGrid<D>(patch, transfer, [](const Index<D>&, double) {});
@@ -288,7 +288,7 @@ Lanes workOn(const Footprint<D>& footprint, const Reader<D>& read) {
   return footprint.sumOverParts([&](const Index<D>& k, const Lanes& part) { return part * read(Motion<D>::work, k); });
 }
 
-/// Demands a smaller time step where a box would shrink to less than .4 of its length or become longer than `most`.
+/// Requires a smaller time step where a box would shrink below 0.4 of its length or become longer than `most`.
 template <int D>
 void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after, double most, Minimum& factor) {
   if (all((after > 0.4 * before) & (after < most), batch.count)) return;
@@ -299,7 +299,7 @@ void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after, 
   }
 }
 
-/// Demands a smaller time step where work would take more than .8 of the internal energy, or make it negative.
+/// Requires a smaller time step where work would take over 0.8 of the internal energy, or make it negative.
 template <int D>
 void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy, Minimum& factor) {
   if (all((work > -0.8) & (energy >= 0), batch.count)) return;

@@ -13,9 +13,9 @@
 
 namespace tushar::mpm::solid {
 
-/// Linear elasticity with the yield surface of Drucker and Prager, J2^(1/2) + alpha I1 = k with I1 = tr sigma, flow by
-/// the same with alpha_p, and a strength k that changes with the plastic strain at the point and around it; Burghardt,
-/// Brannon & Guilkey, Comput. Methods Appl. Mech. Engrg. 225 (2012) 55. With the plastic strain rate l' M, |M| = 1,
+/// Linear elasticity with the yield surface of Drucker and Prager, J2^(1/2) + alpha I1 = k with I1 = tr sigma, plastic
+/// flow by the same function with alpha_p, and a strength k that changes with plastic strain there and nearby;
+/// Burghardt et al., Comput. Methods Appl. Mech. Engrg. 225 (2012) 55. For a plastic strain rate l' M, |M| = 1,
 /// k = k_o + eta + eta_n, d eta/dt = h_local l', d eta_n/dt = h_nonlocal times the mean of l' within l_nonlocal. The
 /// mean is that of the step before, so that a step is explicit in it.
 struct NonlocalDruckerPrager {

@@ -10,7 +10,7 @@ namespace tushar::mpm::solid {
 /// The `contact` tags among the children of `parent`; those of type null are left out.
 std::vector<Contact> readContacts(const input::Element& parent, input::Diagnostics& diagnostics);
 
-/// The manual, indented by that many blanks.
+/// Prints the manual of these tags, indented by `indent` blanks.
 void describeContacts(std::ostream& out, int indent);
 /// The allowed content of such a tag, for the schemas of editors.
 input::TagForm contactForm();

@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// The solid has the velocity of a face, and does not cross a symmetry plane.
+/// Gives the solid the velocity prescribed at a face, and keeps it from crossing a symmetry plane.
 template <int D>
 void prescribeFaces(ImplicitSystem<D>& system, double dt) {
   const Level& level = system.nodes().level();

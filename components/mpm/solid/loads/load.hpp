@@ -45,7 +45,7 @@ struct SurfaceLoad {
   int material = -1;          ///< -1: all
   Location where;             ///< in the scene
   double particles = 0;       ///< sum of the weights of the particles at the surface, set by countParticles
-  bool outwardNormal = true;  ///< a pressure on faces of particles: on those towards normalAt; false: on the opposite
+  bool outwardNormal = true;  ///< pressure on faces of particles: on the one towards normalAt; false: the opposite one
 
   /// Whether a particle of a body is loaded: it lies along the surface of the load and at that of the body.
   bool acts(const grid::Level& level, const Body& body, const Vec3& point) const;

@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid {
 
-/// f_i = f_i + the force of what surrounds the body, N.
+/// Adds the force that the surroundings of a body exert on its nodes, N.
 template <int D>
 void addSurroundingForce(const Patch&, const Material&, NodeView<const Vec<D>> force, NodeView<NodeRecord> record) {
   forEach<D>(record.box(), [&](const Index<D>& node) {
@@ -15,7 +15,7 @@ void addSurroundingForce(const Patch&, const Material&, NodeView<const Vec<D>> f
   });
 }
 
-/// T_p as it was, for what surrounds the body to change.
+/// Copies the old T_p, which the surroundings of the body then change.
 inline void keepTemperature(const Patch&, const Material&, ParticleView<const double> old,
                             ParticleView<double> temperature) {
   std::copy_n(old.values(), old.owned(), temperature.values());

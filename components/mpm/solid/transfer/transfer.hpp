@@ -86,7 +86,7 @@ class CellRecords {
   [[gnu::always_inline]] explicit CellRecords(const NodeWindow<NodeRecord, D>& nodes) : nodes_(nodes) {
     forEachNode([](Octet& sum, NodeRecord& record) { sum = Octet(record); });
   }
-  /// As scatter does.
+  /// Does the same as scatter.
   template <class Stencil>
   [[gnu::always_inline]] void add(const Stencil& stencil, const NodeRecord& value, const std::array<Quad, D>& slope,
                                   const Quad& hoop) {
@@ -164,8 +164,8 @@ struct Gathered {
   Quad hoop{};
 };
 
-/// Sets the value and the gradient of `sums`, and where axisymmetric its hoop. Whoever goes on with the sums in lanes
-/// has them written once, to where they are loaded from.
+/// Sets the value and the gradient of `sums`, and in axisymmetric scenes its hoop. Code that goes on with the
+/// sums in lanes has them written once, to where it loads them from.
 template <class Stencil, class Sums, int D = Stencil::dimension>
 [[gnu::always_inline]] inline void gatherInto(Sums& sums, const Stencil& stencil,
                                               const NodeWindow<const NodeRecord, D>& nodes) {

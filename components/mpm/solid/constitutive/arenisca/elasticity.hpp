@@ -82,7 +82,7 @@ inline double greatestShear(const Constants& c) {
   return greatest;
 }
 
-/// I1 without the part of the fluid, at the end of the cap, Pa: the crush curve
+/// I1 without the fluid's share, at the end of the cap, Pa: the crush curve
 /// X = p0 + ln(1 + e_p / p3) / p1 for -p3 < e_p <= 0 and X = p0 (1 + e_p)^(1 / (p0 p1 p3)) beyond, times K / K_dry
 /// where a fluid fills the pores. Once all have collapsed, there is no end.
 inline double capEnd(const Constants& c, double plasticStrain) {
@@ -94,7 +94,7 @@ inline double capEnd(const Constants& c, double plasticStrain) {
   return dry * moduli(c, dry / 2, plasticStrain).bulk / dryBulk;
 }
 
-/// Change of zeta, the trace of the stress that the fluid bears, with the volumetric plastic strain, Pa.
+/// Change of zeta, the trace of the stress that the fluid carries, with the volumetric plastic strain, Pa.
 inline double fluidStiffness(const Constants& c, double zeta, double plasticStrain) {
   if (!c.isSaturated(plasticStrain)) return 0;
   const double grains = c.matrixBulk(), fluid = c.fluidBulk, phi = c.porosity(), volume = std::exp(plasticStrain);

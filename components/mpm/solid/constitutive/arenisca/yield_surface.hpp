@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::solid::arenisca {
 
-/// An angle of Lode, rad: pi/6 in triaxial compression, -pi/6 in extension; sin 3 theta = -J3/2 (3/J2)^(3/2).
+/// A Lode angle, rad: pi/6 in triaxial compression, -pi/6 in extension; sin 3 theta = -J3/2 (3/J2)^(3/2).
 using LodeAngle = double;
 
 /// sqrt J2 <= Gamma(theta) F_f(I) f_c(I) with I = I1 - zeta between `end` and the vertex: a limit of strength
@@ -37,7 +37,7 @@ class YieldSurface {
   /// I where the cap begins, Pa.
   double branch() const { return branch_; }
   bool isRound() const { return lode_type_ == 0; }
-  /// Half axes of a tangent ellipse along I1 and sqrt J2, Pa; 0 where there is none.
+  /// Semi-axes of a tangent ellipse along I1 and sqrt J2, Pa; 0 where there is none.
   double capLength() const { return length_; }
   double capHeight() const { return height_; }
 
@@ -78,8 +78,8 @@ class YieldSurface {
   }
 
  private:
-  /// The ellipse from X with half axes in the ratio CR, in the space of z = I1 / sqrt 3 and r = sqrt(3 K/G) sqrt J2,
-  /// that touches the cone, r = B (z_vertex - z). With q = sqrt(1 + (CR/B)^2) its half axis along z is
+  /// The ellipse from X with semi-axes in the ratio CR, in the space of z = I1 / sqrt 3 and r = sqrt(3 K/G) sqrt J2,
+  /// that touches the cone, r = B (z_vertex - z). With q = sqrt(1 + (CR/B)^2) its semi-axis along z is
   /// (z_vertex - z_X) / (1 + q), and it touches at z_X + (z_vertex - z_X) / q.
   void closeByTangent(const Constants& c) {
     const double stretch = std::sqrt(3 * c.b0 / c.g0), steepness = c.vertexSlope * stretch * std::numbers::sqrt3;
@@ -101,7 +101,7 @@ class YieldSurface {
 
   double zeta_, end_, vertex_, branch_;
   double a1_ = 0, a2_ = 0, a3_ = 0, a4_ = 0;
-  double length_ = 0, height_ = 0;  ///< half axes of a tangent ellipse along I1 and sqrt J2, Pa; 0: there is none
+  double length_ = 0, height_ = 0;  ///< semi-axes of a tangent ellipse along I1 and sqrt J2, Pa; 0: there is none
   int lode_type_;
   double lode_ratio_;
 };
