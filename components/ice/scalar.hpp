@@ -34,7 +34,7 @@ struct ScalarSettings {
   std::vector<ScalarRegion> interior;  ///< sources: regions where it rises in each step
 };
 
-/// A scalar and the names of its variables, which keep their place while tasks have them.
+/// A scalar and the names of its variables, which must not move while tasks have them.
 class CarriedScalar {
  public:
   explicit CarriedScalar(ScalarSettings settings)
