@@ -193,7 +193,7 @@ const Schema<GasMaterial>& materialSchema() {
             [](GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
               readViscosityModels(material.varying, element, diagnostics);
             },
-            {"dynamicViscosityModels"}, "in place of <dynamic_viscosity>; of several that hold, the last one counts",
+            {"dynamicViscosityModels"}, "in place of <dynamic_viscosity>; if several apply, the last one counts",
             describeViscosityModels)
         .forms({{.tags = {"dynamicViscosityModels"}, .repeats = false}});
     return tags;
