@@ -83,7 +83,7 @@ const Schema<ImplicitSection>& implicitSchema() {
         .ours();
     for (const char* tag : {"max_outer_iterations", "outer_iteration_tolerance", "iters_before_timestep_restart",
                             "iters_before_timestep_recompute"})
-      tags.ignored(tag, "a step has one solve: mass, momentum and energy are kept whatever the pressure is");
+      tags.ignored(tag, "a step has one solve: mass, momentum and energy are conserved whatever the pressure is");
     return tags;
   }();
   return schema;

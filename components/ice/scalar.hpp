@@ -50,7 +50,7 @@ class CarriedScalar {
   const ReductionLabel<Sum>& total() const { return total_; }
   /// For conditions at sides of the grid.
   const BoundaryLabel<double>& atSides() const { return atSides_; }
-  /// Uintah's name, and the one here.
+  /// Uintah's name, and the one in Tushar.
   std::pair<std::string, std::string> names() const { return {words_[0], words_[1]}; }
 
  private:

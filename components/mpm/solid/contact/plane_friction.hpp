@@ -25,9 +25,9 @@ Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double w
 /// The plane that separates bodies at nodes, from the side of one body.
 template <int D>
 struct SeparatingPlane {
-  /// Out of the body, of length 1, where it has the most mass of those that meet at the node; 0 elsewhere.
+  /// Unit normal out of the body, where it has the most mass of those that meet at the node; 0 elsewhere.
   std::optional<NodeView<const Vec<D>>> normal;
-  /// The extent of its particles along that normal, m: the farthest of the body with most mass, the nearest of others.
+  /// The extent of its particles along that normal, m: the farthest of the heaviest body, the nearest of others.
   std::optional<NodeView<const double>> prominence;
   std::optional<NodeView<const double>> color;  ///< mean of its p.color by mass
 
