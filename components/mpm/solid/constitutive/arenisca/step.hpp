@@ -110,7 +110,7 @@ class Substep {
     }
     return best;
   }
-  /// A share of the plastic strain, and by how much it exceeds that of the return to the surface it moves.
+  /// A share of the plastic strain, and by how much it exceeds that of the return to the surface that it has moved.
   struct Share {
     double at, excess;
     bool isKnown;
