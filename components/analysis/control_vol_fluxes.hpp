@@ -22,7 +22,7 @@ struct BoxFlow {
   std::vector<double> values() const;
 };
 
-/// Adds what a patch has of a box of cells. Through a side flows the density of the cell upwind times the mean velocity
+/// Adds a patch's share of a box of cells. Through a side flows the density of the cell upwind times the mean velocity
 /// of the two cells; where the grid ends, that of the gas inside, nothing through planes of symmetry, and with a given
 /// velocity where the side has one. Density and velocity have a layer of ghosts.
 template <int D>

@@ -58,7 +58,7 @@ class ExtentModule : public SamplingModule {
   std::vector<simulation::OwnFile> files() const override;
 
  protected:
-  /// The boxes of cells that a part has values of, in their order.
+  /// The boxes of cells for which a part has values, in their order.
   std::vector<LevelBox> boxesOf(std::size_t extent, const output::Snapshot& part) const;
 
   std::vector<Extent> extents_;

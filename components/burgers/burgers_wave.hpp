@@ -34,11 +34,11 @@ class BurgersWave {
   double at(double x, double t) const;
   /// Mean of u over [lower, upper], m. Throws as at() does.
   double average(double lower, double upper, double t) const;
-  /// Not before t = 0, nor so early that viscosity has spread less than the table resolves, (2 nu t)^(1/2) < 2 steps.
+  /// False before t = 0, and while viscosity has spread less than the table resolves, (2 nu t)^(1/2) < 2 steps.
   bool holdsAt(double t) const;
 
  private:
-  /// A place y and the value of U(y) + (x-y)²/2t there.
+  /// A place y, and the value of U(y) + (x-y)²/2t there.
   struct Least {
     double place, value;
   };

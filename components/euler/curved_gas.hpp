@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// What a substance holds at a density without heat: pressure [Pa] and energy [J/m³], dE/drho = (E + p) / rho, so that
+/// What a substance has at a density, without heat: pressure [Pa] and energy [J/m³], dE/drho = (E + p) / rho, so that
 /// compressing it without heat costs p dV.
 struct ColdCurve {
   enum class Kind { jwl, murnaghan };

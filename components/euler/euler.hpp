@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// What shows where a gas needs finer cells.
+/// The variables that show where a gas needs finer cells.
 template <int D>
 std::vector<simulation::Criterion> criteria();
 
@@ -37,7 +37,7 @@ class Euler : public Component, public reference::GasSolution {
 
  protected:
   const Settings& settings() const { return settings_; }
-  /// Whether something goes with the mass through faces.
+  /// Whether anything is carried through faces with the mass.
   virtual bool keepsFaceMasses() const { return false; }
 
  private:

@@ -22,7 +22,7 @@ struct FaceMasses {
     if (!areKept) return {};
     return {.below = take(computes(c::massFlux<D>[0])), .above = take(computes(c::massFlux<D>[1]))};
   }
-  /// Takes those of the cells of a block across an axis from the fluxes.
+  /// Takes from the fluxes the masses for the cells of a block across an axis.
   template <int K>
   void keep(const Box& block, int axis, const Rows<D, K>& flux) const {
     if (!below) return;

@@ -134,7 +134,7 @@ struct Gas {
   double shockSlope() const {
     return withLaw([](const auto& of) { return of.shockSlope(); });
   }
-  /// Whether the pressure is that of the density alone.
+  /// Whether the pressure depends on the density alone.
   bool isBarotropic() const {
     return law && std::visit([](const auto& of) { return of.isBarotropic(); }, *law);
   }
@@ -149,7 +149,7 @@ Law lawOf(const Gas& gas) {
     return std::get<Law>(*gas.law);
 }
 
-/// How many gases a law is of.
+/// The number of gases that a law describes.
 template <class G>
 inline constexpr int kGases = 1;
 /// The law that holds in a state: if there is one gas, its own.

@@ -36,7 +36,7 @@ struct MixedGas {
   /// p + p_inf of a stiffened gas that has the same G and S [Pa], which must be above 0.
   double heat(double, double pressure) const { return pressure + leastPressure(); }
   double leastPressure() const { return stiffness / (1 + softness); }
-  /// That stiffened gas; of shares that cannot be its numbers are nan.
+  /// That stiffened gas; its numbers are NaN for impossible shares.
   Gas alike() const {
     Gas gas;
     gas.gamma = softness > 0 ? 1 + 1 / softness : std::nan("");

@@ -56,7 +56,7 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> t
   numerics::CheckedFormula{settings.conductivity, "Heat/thermal_conductivity", "W/(m K)"}.requirePositive<D>(patch);
 }
 
-/// dt = cfl rho c / max(sum over the cell's faces of k / h_d²), for one k everywhere the limit of von Neumann: no cell
+/// dt = cfl rho c / max(sum over the cell's faces of k / h_d²), for a uniform k the limit of von Neumann: no cell
 /// overshoots its neighbours.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum& dt) {
@@ -66,7 +66,7 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum
   });
 }
 
-/// The fluxes are of T, K m/s. T' = T + dt sum_d (k_{i-1/2} (T_{i-1} - T_i) + k_{i+1/2} (T_{i+1} - T_i)) / (rho c
+/// The fluxes are those of T, K m/s. T' = T + dt sum_d (k_{i-1/2} (T_{i-1} - T_i) + k_{i+1/2} (T_{i+1} - T_i)) / (rho c
 /// h_d²), k at faces as in Diffusion.
 template <int D>
 void conduct(const Patch& patch, const Settings& settings, CellView<const double> temperature, double dt,

@@ -135,7 +135,7 @@ class GasBefore {
   euler::Rows<D> old_;
 };
 
-/// The normal velocities at the faces of cells, that follow from the pressure p' at the end of a step:
+/// The normal velocities at the faces of cells that follow from the pressure p' at the end of a step:
 ///
 ///   u_f = u*_f - dt / (rho_f h) (p'_R - p'_L),   u*_f = the mean of v - dt (v . grad) v of both cells + dt g,
 ///

@@ -83,7 +83,7 @@ const Schema<ImplicitSection>& implicitSchema() {
         .ours();
     for (const char* tag : {"max_outer_iterations", "outer_iteration_tolerance", "iters_before_timestep_restart",
                             "iters_before_timestep_recompute"})
-      tags.ignored(tag, "a step has one solve: mass, momentum and energy are kept whatever the pressure is");
+      tags.ignored(tag, "a step has one solve: mass, momentum and energy are conserved whatever the pressure is");
     return tags;
   }();
   return schema;
@@ -193,7 +193,7 @@ const Schema<GasMaterial>& materialSchema() {
             [](GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
               readViscosityModels(material.varying, element, diagnostics);
             },
-            {"dynamicViscosityModels"}, "in place of <dynamic_viscosity>; of several that hold, the last one counts",
+            {"dynamicViscosityModels"}, "in place of <dynamic_viscosity>; if several apply, the last one counts",
             describeViscosityModels)
         .forms({{.tags = {"dynamicViscosityModels"}, .repeats = false}});
     return tags;

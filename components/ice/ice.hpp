@@ -41,7 +41,7 @@ class Ice : public euler::Euler<D> {
   void scheduleScalars(TaskList& tasks) const;
   /// The limits of scalars on the time step.
   void scheduleStepsOfScalars(TaskList& tasks) const;
-  /// Viscosity and conduction, behind the step of the gas, and a force that pushes it.
+  /// Viscosity and conduction, after the step of the gas, and a force that pushes it.
   void scheduleDiffusion(TaskList& tasks) const;
   /// The limit of a viscosity that varies, beside this part of the speed of sound.
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;

@@ -26,7 +26,7 @@ const Schema<ScalarRegion>& startSchema() {
         .value("sinusoidalInitialize", &ScalarRegion::isSine, false, "1",
                "instead the sum over axes of sin(2 pi freq d), d from 0 to 1 through the region")
         .value("freq", &ScalarRegion::waves, Vec3::Zero(), "1", "waves along each axis")
-        .value("linearInitialize", &ScalarRegion::isLinear, false, "1", "slope . d more than that, d as above")
+        .value("linearInitialize", &ScalarRegion::isLinear, false, "1", "adds slope . d, d as above")
         .value("slope", &ScalarRegion::slope, Vec3::Zero(), "1", "rise through the region along each axis")
         .ignored("coeff", "belongs to shapes that a formula can describe")
         .ignoredAttribute("name", "for readers");

@@ -34,7 +34,7 @@ struct ScalarSettings {
   std::vector<ScalarRegion> interior;  ///< sources: regions where it rises in each step
 };
 
-/// A scalar and the names of its variables, which keep their place while tasks have them.
+/// A scalar and the names of its variables, which must not move while tasks have them.
 class CarriedScalar {
  public:
   explicit CarriedScalar(ScalarSettings settings)
@@ -50,7 +50,7 @@ class CarriedScalar {
   const ReductionLabel<Sum>& total() const { return total_; }
   /// For conditions at sides of the grid.
   const BoundaryLabel<double>& atSides() const { return atSides_; }
-  /// Uintah's name, and the one here.
+  /// Uintah's name, and the one in Tushar.
   std::pair<std::string, std::string> names() const { return {words_[0], words_[1]}; }
 
  private:

@@ -59,7 +59,7 @@ struct CustomStart {
   std::optional<Counterflow> counterflow;
   std::optional<Manufactured> manufactured;
 
-  /// Why it cannot be the start of so many gases; empty if it can.
+  /// Why it cannot be the start for this many gases; empty if it can.
   std::string problem(std::size_t gases) const;
   /// Changes the velocity [m/s] and the temperature [K] at a point [m].
   void apply(const Vec3& point, const StartPlace& place, Vec3& velocity, double& temperatureThere) const;

@@ -29,12 +29,12 @@ inline constexpr double leastFreeVolume = offRoundShares;
 inline constexpr double wholeFreeVolume = 1 - offRoundShares;
 /// A cell with a smaller fraction of free volume gives its gas to a neighbour.
 inline constexpr double smallFreeVolume = 0.5 - offRoundShares;
-/// An open face lets out, in a step, up to twice this of what a cell has that gives to no neighbour.
+/// In a step, an open face lets out up to twice this share of a cell that gives to no neighbour.
 inline constexpr double greatestCfl = 0.5;
 /// A smaller closed hole keeps its contents.
 inline constexpr double narrowFreeVolume = 0.2 - offRoundShares;
 
-/// The share of a cell that its gas has, of a free volume: it falls to 0 steadily where the cell counts as full.
+/// The share of a cell that its gas fills, from the free volume: it falls to 0 steadily where the cell counts as full.
 inline double roomOf(double free) {
   return free < 2 * leastFreeVolume ? std::max(0.0, 2 * (free - leastFreeVolume)) : free;
 }

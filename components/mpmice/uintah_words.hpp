@@ -6,7 +6,7 @@
 
 namespace tushar::mpmice {
 
-/// Variables that are here by another name.
+/// Variables that have another name here.
 inline const simulation::OtherNames uintahsNames{{"rho_micro_CC", "c.gasDensity"}, {"vol_frac_CC", "c.freeVolume"}};
 
 }  // namespace tushar::mpmice

@@ -28,7 +28,7 @@ struct Given {
   double work = 0;                  ///< J/m³
 };
 
-/// What a cell keeps at least, of what it gives to others, so that round-off makes nothing negative.
+/// The least that a cell keeps of what it gives to others, so that round-off makes nothing negative.
 inline constexpr double roundOffOfShares = 1e-12;
 
 /// The exchange of the gas with walls in a step.
@@ -144,7 +144,7 @@ class WallExchange {
            step_.swept[above][axis];
   }
 
-  /// Gas follows a wall that draws back, and makes way for one that comes, with all it holds.
+  /// Gas follows a wall that draws back, and makes way for one that approaches, with all it holds.
   void flow(const Index<D>& cell, int axis, int side, double wallVelocity,
             const euler::MixtureViews<D, double>& held) const {
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
@@ -170,7 +170,7 @@ class WallExchange {
     double share = 1;
   };
 
-  /// What a donor has not is paid by the neighbour that it will share with, if one is free for the most part. Elsewhere
+  /// What a donor lacks is paid by the neighbour that it will share with, if one is mostly free. Elsewhere
   /// a donor gives of what it holds, as dense as the gas asked for, and at most all of it.
   std::optional<Gift> givenBy(const Index<D>& donor, const Index<D>& receiver) const {
     const std::optional<Parcel<D>> wanted = stateOf(donor, receiver);
@@ -195,7 +195,7 @@ class WallExchange {
       }
     return (1 + roundOffOfShares) * mass;
   }
-  /// Whether gas is where cells are free for the most part after the step: in this cell, or in one beside it, over a
+  /// Whether gas is where cells are mostly free after the step: in this cell, or in one beside it, over a
   /// corner too, that it shares with.
   bool isBesideRoom(const Index<D>& cell) const {
     bool any = false;

@@ -32,7 +32,7 @@ class Tabulated : public GasReference {
   GasState at(const Vec3& x, double t) const override;
   bool holdsAt(double t) const override;
   bool covers(const Vec3& x, double t) const override;
-  /// Mean of the cells, each as much of it as is in the box: exact for boxes made of whole cells.
+  /// Mean of the cells, each weighted by how much of it is in the box: exact for boxes made of whole cells.
   /// Throws std::invalid_argument where upper < lower or the box leaves the table.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 

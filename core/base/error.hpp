@@ -64,7 +64,7 @@ class TaskError : public std::runtime_error {
 /// A non-finite or unphysical value: which one, where, when, and what the user can try.
 class NumericalError : public std::runtime_error {
  public:
-  /// `what` names the value and where it stands; `advice` says what to try, empty for what the component advises.
+  /// `what` names the value and where it is; `advice` says what to try, empty for what the component advises.
   /// `value` is the name of the value alone, `cell` the number of its cell: if several patches report an
   /// error, the one in the lowest cell is kept, so that the layout does not matter.
   NumericalError(const std::string& what, std::string advice, std::string value = {}, std::uint64_t cell = 0)

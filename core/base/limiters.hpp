@@ -26,7 +26,7 @@ struct VanLeer {
   }
 };
 
-/// The mean, at most twice the smaller difference (monotonised central).
+/// The mean, but at most twice the smaller difference (monotonised central).
 struct Mc {
   static double slope(double a, double b) {
     const double least = 2 * (std::abs(a) < std::abs(b) ? a : b);

@@ -12,7 +12,7 @@ namespace tushar::mpi {
 
 // Collective operations: all ranks call these, in the same order; a single rank needs no MPI for them.
 
-/// Each rank runs an action of its own. Rethrows its exception; throws FailedElsewhere if it succeeds here but fails on
+/// Each rank runs its own action. Rethrows its exception; throws FailedElsewhere if it succeeds here but fails on
 /// another rank.
 void together(const Communicator& ranks, const std::function<void()>& action);
 

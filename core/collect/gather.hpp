@@ -33,7 +33,7 @@ class Gather {
 
   /// The values of a variable of a generation, in memory; none if it is not held. For one rank on its own.
   output::Array array(data::Generation generation, int variable);
-  /// The values of a variable without a copy, on each rank its own: they stay where they are, and are valid until the
+  /// The values of a variable without a copy; each rank has its own: they stay where they are, and are valid until the
   /// state changes. None if no rank holds it.
   output::Array stream(data::Generation generation, int variable);
   /// The values in the given order, without a copy.

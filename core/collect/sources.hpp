@@ -44,7 +44,7 @@ class EntryForm {
   std::size_t bytesOut() const { return axes_ == 0 ? bytes_ : sizeof(rest_); }
   /// Takes consecutive entries.
   void copy(const std::byte* from, std::size_t count, std::byte* to) const;
-  /// Takes the entries at given places of patches.
+  /// Takes the entries at given places in patches.
   void gather(const std::vector<Part>& parts, std::span<const Place> places, std::byte* to) const;
 
  private:

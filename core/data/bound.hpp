@@ -5,7 +5,7 @@
 
 namespace tushar::data {
 
-/// A limit that every number of a variable must keep, whichever task writes it.
+/// A limit that every number of a variable must satisfy, whichever task writes it.
 enum class Bound { none, finite, nonNegative, positive };
 
 /// Whether a number keeps a bound. A number that is not finite keeps only Bound::none.

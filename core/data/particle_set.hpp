@@ -83,13 +83,13 @@ class ParticleSet {
     });
   }
 
-  /// Coordinates of cells along the first axis, from `first` up to but not with `last`.
+  /// Coordinates of cells along the first axis, from `first` up to but excluding `last`.
   struct Span {
     int first, last;
 
     bool empty() const { return first >= last; }
   };
-  /// The cells of the row from `cell` to `end` outside of which none holds particles.
+  /// The part of the row from `cell` to `end` outside which no cell holds particles.
   template <int D>
   Span occupied(const Index<D>& cell, int end) const {
     const Span span = spans_[rowOf(cell)];
@@ -105,14 +105,14 @@ class ParticleSet {
   ParticleRange* row(const Index3& cell) { return &ranges_[offset(cell)]; }
   const ParticleRange* row(const Index3& cell) const { return &ranges_[offset(cell)]; }
 
-  /// All cells of the patch have their particles now, `count` together.
+  /// Notes that all cells of the patch have their particles, `count` in total.
   void setOwned(int count);
-  /// The cells of the patch in the row from `first` on have their particles now.
+  /// Notes that the cells of the patch in the row from `first` on have their particles.
   void closeRow(const Index3& first);
   /// Like setOwned, after closeRow has been called for every row that has particles.
   void setOwnedOfClosedRows(int count) { owned_ = count; }
 
-  /// The ghosts of `box` are the particles that another set has there, which begins `offset` places after this one.
+  /// The ghosts of `box` are the particles that another set has there; it begins `offset` places after this one.
   void addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset);
   /// A ghost cell has copies, from place `to` on: of the particles `there` of cell - shift on `patch`.
   void addCopies(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift, int to);

@@ -37,7 +37,7 @@ class Reason {
   std::array<char, 32> letters_{};
 };
 
-/// The least of all values and, where given, its reason; +infinity of none. If values are equal, the reason that comes
+/// The least of all values and, where given, its reason; +infinity if none. If values are equal, the reason that comes
 /// first in the alphabet is kept, so that the order of the additions does not matter.
 struct Minimum {
   double value = std::numeric_limits<double>::infinity();
@@ -53,7 +53,7 @@ struct Minimum {
   std::vector<double> values() const { return {value}; }
 };
 
-/// The greatest of all values; -infinity of none.
+/// The greatest of all values; -infinity if there are none.
 struct Maximum {
   double value = -std::numeric_limits<double>::infinity();
 

@@ -48,7 +48,7 @@ class BlockTree {
   /// Whether a block is refined. Along periodic axes, images count.
   bool isRefined(const BlockId& block) const { return levelAt(block) > block.level; }
 
-  /// The tree in which all of `wanted` are refined, of those refined now also those in `kept`, and nothing else but
+  /// The tree in which all of `wanted` are refined, and those in `kept` that are refined now, and nothing else but
   /// what follows from that: ancestors, and neighbours of refined blocks, so that leaves that touch differ by one level
   /// at most. Images along periodic axes count as the blocks they are of; blocks of the last level, and blocks outside
   /// the grid along other axes, are passed over. A function of its arguments alone.

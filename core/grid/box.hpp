@@ -7,7 +7,7 @@
 
 namespace tushar::grid {
 
-/// Index of the next coarser cell along an axis, rounded down also below 0.
+/// Index of the next coarser cell along an axis, rounded down even below 0.
 constexpr int coarserCell(int cell) { return cell >= 0 ? cell / 2 : -((1 - cell) / 2); }
 
 /// A half-open box of cells or nodes, [lower, upper) along each axis.

@@ -15,7 +15,7 @@ struct Share {
 /// The distribution of patches to ranks: each rank has consecutive ones.
 class Partition {
  public:
-  /// Shares as equal in cells as whole patches allow. Needs no memory per rank. Rank 0 always has a patch.
+  /// Shares with numbers of cells as equal as whole patches allow. Needs no memory per rank. Rank 0 always has a patch.
   Partition(const Tiling& tiling, int ranks) : tiling_(&tiling), ranks_(ranks) {}
   /// The given shares.
   Partition(const Tiling& tiling, RankOffsets offsets)

@@ -275,7 +275,7 @@ Schema<Reference> referenceSchema(const std::string& attribute) {
 std::vector<Alternative> alternativesOf(const std::string& shape) {
   static const Schema<Reference> byName = referenceSchema("name");
   static const Schema<Reference> byLabel =
-      referenceSchema("label").foreignAttribute("name", "another word for label, which comes first");
+      referenceSchema("label").foreignAttribute("name", "a synonym of label, which takes precedence");
   return {{findKind(shape)->schema, {}}, {&byLabel, {}}, {&byName, {}}};
 }
 

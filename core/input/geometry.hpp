@@ -26,7 +26,7 @@ PiecePtr readGeometry(const Element& parent, Diagnostics& diagnostics);
 /// One shape. Null, with an error in the diagnostics, if it is unknown or wrong.
 PiecePtr readShape(const Element& shape, Diagnostics& diagnostics);
 
-/// The manual of all shapes, indented by that many blanks.
+/// Prints the manual of all shapes, indented by `indent` blanks.
 void describeGeometry(std::ostream& out, int indent = 0);
 
 /// Adds the tags of the shapes to the schema of a body: `shape` becomes their union, and `where` the place of the body.

@@ -76,7 +76,7 @@ class SchemaBase {
   /// The tags that may be given, without those that are declared only to be refused.
   std::vector<std::string> acceptedTagNames() const;
   std::vector<std::string> attributeNames() const;
-  /// Writes the manual of the tag and of all that it may contain, indented by that many blanks.
+  /// Writes the manual of the tag and of all that it may contain, indented by `indent` blanks.
   void describe(std::ostream& out, int indent = 0) const;
   /// As describe(), without the line of the tag itself.
   void describeContents(std::ostream& out, int indent = 0) const;

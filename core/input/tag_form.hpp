@@ -8,7 +8,7 @@ namespace tushar::input {
 
 class SchemaBase;
 
-/// An attribute or a tag that must be there, with one of some words; with any value if there are no words.
+/// A required attribute or tag, whose value is one of some words; any value if there are no words.
 struct Demand {
   std::string name;
   std::vector<std::string> words;

@@ -106,7 +106,7 @@ class Diffusion {
   template <int>
   friend class CompositeDiffusion;
 
-  /// Calls `visit(axis, side, next cell, whether that is of the grid or an image of its cells)`.
+  /// Calls `visit(axis, side, next cell, whether that is on the grid or an image of its cells)`.
   template <class Visit>
   void forEachFace(const Index<D>& cell, Visit&& visit) const {
     for (int d = 0; d < D; ++d)

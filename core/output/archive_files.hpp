@@ -30,7 +30,7 @@ void replaceFile(const std::filesystem::path& file, const std::string& text);
 /// As above, with what `write` puts into the stream.
 void replaceFile(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
-/// The first, and the file is on the disk when it returns.
+/// As the first of these, and the file is on the disk when it returns.
 void replaceFileOnDisk(const std::filesystem::path& file, const std::string& text);
 
 /// A file open for appending, without a buffer. Its functions throw FileError.
@@ -55,7 +55,7 @@ class AppendFile {
 /// throw FileError.
 class Scratch {
  public:
-  /// `file` is the path that it has for a moment, when the first bytes come.
+  /// `file` is the path that it has briefly, when the first bytes come.
   explicit Scratch(std::filesystem::path file) : path_(std::move(file)) {}
   ~Scratch();
   Scratch(const Scratch&) = delete;

@@ -39,7 +39,7 @@ class Chunks {
   std::size_t count_ = 1;
 };
 
-/// What compression took and what it left, on one rank.
+/// The time and the bytes of compression, on one rank.
 struct PackingUse {
   double bytes = 0, packed = 0;     ///< of the values as they are in a file without compression, and with it
   double packing = 0, writing = 0;  ///< s spent on compressing them, and on writing what came of it

@@ -29,7 +29,7 @@ class ArchiveIndex {
   static std::size_t sizeOf(const std::string& text, int step) { return ArchiveIndex("", text, step).outputs_.size(); }
   /// Why an archive cannot be read: an index of a newer format. Empty where it can.
   static std::string refusalOf(const std::string& text);
-  /// The name of a variable by that of its datasets, in which some characters may be others.
+  /// The name of a variable by that of its datasets, in which some characters may be replaced.
   std::string labelOf(const std::string& nameInFile) const;
   /// The steps of the outputs, ascending.
   std::vector<int> steps() const;

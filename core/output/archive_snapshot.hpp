@@ -29,7 +29,7 @@ class SnapshotInFlight {
   /// Waits until the file is complete, and gives it its name. Collective on `ranks`: those of the writers, or the first
   /// alone where it is the only writer.
   void finish(const mpi::Communicator& ranks);
-  /// What compression took and left on this rank, once it is finished.
+  /// The time and the bytes of compression on this rank, once it is finished.
   PackingUse packing() const;
   /// Removes the incomplete file.
   void abandon();
@@ -48,7 +48,7 @@ std::uint64_t bytesInFlight(const Snapshot& snapshot);
 /// A snapshot without its values, but with their numbers.
 Snapshot withoutValues(Snapshot snapshot);
 
-/// Of an array whose values have been moved or left elsewhere: it knows their number alone.
+/// For an array whose values have been moved or left elsewhere: it knows their number alone.
 std::shared_ptr<const Source> valuesElsewhere(std::size_t entries);
 
 /// The path of a particle array in the HDF5 file: `/particles/gas/p.density`.

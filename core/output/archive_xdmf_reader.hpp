@@ -19,7 +19,7 @@ std::string headOfBlock(const std::string& name);
 /// Takes an output of a block of an XDMF file: the name of the block, the step, and the grid that shows it.
 using TakeOutput = std::function<void(const std::string& block, int step, const pugi::xml_node& grid)>;
 
-/// Reads an XDMF file of an archive, of which one output is in memory at a time. False where the file is missing or
+/// Reads an XDMF file of an archive, with one output in memory at a time. False where the file is missing or
 /// torn; some outputs may have been taken then.
 bool readXdmf(const std::filesystem::path& file, const TakeOutput& take);
 

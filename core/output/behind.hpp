@@ -33,7 +33,7 @@ class Behind {
 
   /// Whether all jobs are done, or abandoned.
   bool isDone() const;
-  /// Waits for the job of a number, and those before it.
+  /// Waits for the job with a number, and those before it.
   void waitFor(long job);
   /// Waits for all jobs; rethrows the first exception.
   void wait();

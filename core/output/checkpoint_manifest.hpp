@@ -18,7 +18,7 @@ struct FilePart {
   std::uint64_t sum = 0;  ///< as ByteSum has it, of such that are in a manifest
 };
 
-/// Of manifests; it rises where older readers would go wrong. 1 had hashes of files and of their blocks, 2 sums of
+/// Of manifests; raised whenever older readers would go wrong. 1 had hashes of files and of their blocks, 2 sums of
 /// files and their parts; both are without the number.
 inline constexpr int manifestFormat = 3;
 

@@ -48,7 +48,7 @@ class FileInFlight {
   void finish(const mpi::Communicator& ranks);
   /// Where the values of the datasets that have a source are; none where they are compressed.
   const std::vector<ByteRange>& places() const { return places_; }
-  /// What compression took and left on this rank, once the file is complete.
+  /// The time and the bytes of compression on this rank, once the file is complete.
   PackingUse packing() const;
 
  private:

@@ -46,12 +46,12 @@ struct Rebalancing {
   double before = 1, after = 1;  ///< the largest cost of a rank over the mean, before and after the last change
 };
 
-/// What compressing the values of outputs took and left, summed over ranks.
+/// The time and the bytes of compressing the values of outputs, summed over ranks.
 struct Compression {
   double bytes = 0, packed = 0;     ///< without compression, and with it
   double packing = 0, writing = 0;  ///< s spent on compressing, and on writing what came of it
 
-  /// The time that writing all bytes as fast would have taken longer, less that of compressing, s; negative where
+  /// The extra time that writing all bytes at that speed would take, less that of compressing, s; negative where
   /// compression did not pay off.
   double savedSeconds() const { return packed > 0 ? writing * (bytes / packed - 1) - packing : 0; }
 };

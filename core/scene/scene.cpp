@@ -325,7 +325,7 @@ const std::vector<std::pair<std::string, std::string>>& idleSections() {
       {"ParallelOptions", "does nothing here: patches and tasks are placed without it"},
       {"SimulationController", "does nothing here: sus has options of its own"},
       {"Debug", "does nothing here: see sus --trace and --schedule"},
-      {"ParticlePosition", "does nothing here: particles start by the <res> of their bodies"},
+      {"ParticlePosition", "does nothing here: the <res> of a body says where its particles start"},
       {"InitialConditions", "does nothing here: no component reads it"},
       {"CFD", "does nothing here: no component reads it"}};
   return sections;

@@ -177,12 +177,13 @@ const Schema<RegridderSection>& regridderSchema() {
                   "and c.mach; mpm needs none, as "
                   "the finest level follows its particles")
         .value("regrid_once", &RegridderSection::once, false, "1", "only at the start")
-        .optional("max_levels", &RegridderSection::maxLevels, "1",
-                  "the most levels, the coarsest among them; as many as the Levels of Grid make, where it is adaptive "
-                  "at least 2",
-                  input::between(1, 16))
+        .optional(
+            "max_levels", &RegridderSection::maxLevels, "1",
+            "the most levels, including the coarsest; by default as many as the Levels of Grid make, but at least "
+            "2 if it is adaptive",
+            input::between(1, 16))
         .optional("cell_refinement_ratio", &RegridderSection::ratios, "1",
-                  "from each level to the next; the last one holds for further levels, too. 2, 4, 8 … along all axes "
+                  "from each level to the next; the last one also holds for further levels. 2, 4, 8 … along all axes "
                   "that the "
                   "grid uses; 4 counts as two levels",
                   input::atLeast(1))

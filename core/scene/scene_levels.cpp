@@ -46,7 +46,7 @@ const Schema<LevelSection>& levelSchema() {
       Schema<LevelSection>(
           "Level", "A grid of cells of one size; each further Level has boxes in which the grid is at least as fine.")
           .list("Box", &LevelSection::boxes, boxSchema(),
-                "the box that is divided into cells; of further Levels any number, each grown to whole "
+                "the box that is divided into cells; further Levels may have any number of them, each grown to whole "
                 "blocks (see AMR/Regridder/min_patch_size)",
                 1)
           .optional("spacing", &LevelSection::spacing, "m", "cell widths, in place of the resolution of the Box",

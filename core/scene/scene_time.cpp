@@ -41,7 +41,7 @@ const Schema<TimeSettings>& timeSchema() {
           .value("max_delt_increase", &TimeSettings::maxDeltIncrease, unlimited, "1",
                  "greatest relative growth of the time step from one step to the next; 0 or less is no limit")
           .value("timestep_multiplier", &TimeSettings::timestepMultiplier, 1, "1",
-                 "factor on the time step that the physics allow", input::positive())
+                 "factor on the time step that the physics allows", input::positive())
           .value("max_Timesteps", &TimeSettings::maxTimesteps, std::numeric_limits<int>::max(), "1",
                  "number of steps after which the run ends", input::positive())
           .value("max_wall_time", &TimeSettings::maxWallTime, unlimited, "s",
@@ -166,7 +166,7 @@ const Schema<ArchiveSettings>& archiveSchema() {
   static const Schema<ArchiveSettings> schema =
       Schema<ArchiveSettings>("DataArchiver", "What is saved, where and how often.")
           .required("filebase", &ArchiveSettings::filebase, "1",
-                    "name of the folder, such as sod.uda; of a path from the root its last part")
+                    "name of the folder, such as sod.uda; of an absolute path, only the last part counts")
           .value("outputInterval", &ArchiveSettings::outputInterval, 0, "s", "time between outputs",
                  input::nonNegative())
           .value("outputTimestepInterval", &ArchiveSettings::outputTimestepInterval, 0, "1", "steps between outputs",
@@ -175,8 +175,8 @@ const Schema<ArchiveSettings>& archiveSchema() {
           .flag("outputLastTimestep", &ArchiveSettings::outputLastTimestep, "also save the state at the end")
           .flag("outputDoubleAsFloat", &ArchiveSettings::doubleAsFloat, "save with 7 digits")
           .custom("compression", readCompression, {"compression"},
-                  "level of gzip from 0 for none, the default, to 9; "
-                  "gzip is 1, none, rle and tryall are 0")
+                  "level of gzip, from 0 (none, the default) to 9; "
+                  "gzip means 1; none, rle and tryall mean 0")
           .forms({input::patternForm({"compression"}, R"(.*gzip.*|none|rle|tryall|\+?0*[0-9](\.0*)?)")})
           .ignoredAttribute("type", "there is one kind of archive: HDF5 with an index for ParaView")
           .ignored("save_crack_geometry", "there are no cracks")

@@ -56,7 +56,7 @@ class Analysis {
   virtual std::vector<collect::Layer> layers() const { return {}; }
   /// The parts of the grid in which sample() needs them, likewise.
   virtual std::vector<collect::Window> windows() const { return {}; }
-  /// Over what sample() needs the least values, the greatest and the sums instead: a snapshot of each.
+  /// The parts over which sample() needs the least values, the greatest and the sums instead: a snapshot of each.
   virtual std::optional<collect::SummaryOver> summary() const { return {}; }
   /// Whether sample() is to be called after this step, at the time that is set.
   virtual bool isSampleDue(int /*step*/) const { return false; }

@@ -5,7 +5,7 @@
 
 namespace tushar::simulation {
 
-/// Adds checkpoints every `interval` s of wall time to those of the scene, if there are any: in place of its own
+/// Adds to the checkpoints of the scene one every `interval` s of wall time, if there are any: in place of its own
 /// interval of wall time, beside those of steps and simulated time.
 void addWallTimeInterval(std::optional<CheckpointSettings>& settings, double interval);
 

@@ -19,7 +19,7 @@ class Checkpoints {
 
   /// Sets the function that gets the messages of rank 0 about damaged checkpoints.
   void setWarning(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
-  /// Reads the checkpoint from which the run continues; instead of a damaged one, the one before it. Throws InputError
+  /// Reads the checkpoint from which the run continues; if that is damaged, the one before it. Throws InputError
   /// where there is none, or for one that does not fit the scene.
   void resume();
   /// Writes a checkpoint at the start, if the scene has checkpoints.

@@ -16,7 +16,7 @@ struct ConservedTotal {
   Conserved quantity;
   std::string label;
 
-  /// As reports and checkpoints have it.
+  /// The name in reports and checkpoints.
   std::string name() const { return std::array{"mass", "momentum", "energy"}[static_cast<std::size_t>(quantity)]; }
 };
 

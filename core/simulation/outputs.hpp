@@ -20,7 +20,7 @@ class Outputs {
  public:
   /// A new archive will be made in this folder; empty: the current one.
   Outputs(RunState& run, std::filesystem::path parent);
-  /// If a run ends by an exception, finishes the output on its way if rank 0 can do so alone, or if all ranks come
+  /// If a run ends by an exception, finishes the output in progress if rank 0 can do so alone, or if all ranks come
   /// here.
   ~Outputs();
   Outputs(const Outputs&) = delete;
@@ -61,7 +61,7 @@ class Outputs {
   double seconds() const { return seconds_; }
   /// How much of it was spent waiting for an output on its way, s.
   double waited() const { return behind_.waited(); }
-  /// What compression took and left on this rank.
+  /// The time and the bytes of compression on this rank.
   const output::PackingUse& packing() const { return packing_; }
   /// The increase of this rank's peak memory by collecting and writing, bytes.
   double memory() const { return memory_; }

@@ -31,7 +31,7 @@ struct Restart {
 
 /// Notes a damage of the checkpoint.
 void noteDamage(Restart& restart, const std::string& damage);
-/// Selects the next of the others that is intact, as far as it is read now, and notes the damage of those that are not.
+/// Selects the next intact one of the others, as far as it is read now, and notes the damage of those before it.
 /// False if none is. If a newer version wrote one, throws InputError on rank 0, and FailedElsewhere on the others.
 bool takeNext(Restart& restart, const mpi::Communicator& ranks);
 /// Throws InputError on the first rank, with all that was noted, and FailedElsewhere on the others.

@@ -13,8 +13,8 @@ namespace tushar::simulation {
 /// it.
 output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests);
 
-/// The part of it that an analysis module samples, in the memory of rank 0; particles of the materials of which it
-/// samples variables of particles, and no others. All ranks call it.
+/// The part of it that an analysis module samples, in the memory of rank 0; particles only of materials of which it
+/// samples particle variables. All ranks call it.
 std::vector<output::Snapshot> partsOf(RunState& run, const Analysis& analysis);
 
 }  // namespace tushar::simulation

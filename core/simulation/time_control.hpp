@@ -36,7 +36,7 @@ class TimeControl {
   /// Whether maxTime or max_Timesteps has been reached.
   bool done() const;
 
-  /// The next time step [s] from what the physics allow: timestep_multiplier times `stable`, within max_delt_increase,
+  /// The next time step [s] from what the physics allows: timestep_multiplier times `stable`, within max_delt_increase,
   /// delt_min and delt_max; at the start no longer than delt_init, even if that is below delt_min; and (where the scene
   /// requests it) up to maxTime or the next output exactly. A rest up to maxTime that rounding alone would leave is
   /// part of the step. Throws NumericalError for a step that is not positive or too small to move time on.

@@ -108,7 +108,7 @@ class Balance {
   OwnedVec s_, b_;
 };
 
-/// A vector over numbers in foreign memory: those of the owned unknowns.
+/// A vector over numbers in memory that it does not own: those of the owned unknowns.
 class PetscVector {
  public:
   PetscVector(const Unknowns& unknowns, std::span<double> values);

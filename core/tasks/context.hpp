@@ -57,7 +57,7 @@ class TaskContext {
   data::Variable variable(int access) const;
   /// Where the patch meets other levels.
   const std::vector<grid::RimPiece>& rims() const { return warehouse_->grid().rims(patch_->id()); }
-  /// The cells of the patch that regridding has just made of coarser ones.
+  /// The cells of the patch that regridding has just made from coarser ones.
   const std::vector<grid::Box>& newCells() const { return warehouse_->grid().newCells(patch_->id()); }
   template <class T>
   data::RimFlux<T> flux(int access) const {

@@ -33,7 +33,7 @@ std::byte* valueAt(const Values& values, const Index3& place, std::size_t bytes)
   return values.values + values.stored.offset(place) * bytes;
 }
 
-/// Computes the values of a copy, one after the other, if they are other ones than `copy.from` has: means of finer
+/// Computes the values of a copy, one after the other, if they differ from those that `copy.from` has: means of finer
 /// ones; or coarser ones at a part of their step, old + part (new - old), which real numbers are between old and new.
 /// Whether they are.
 bool computeValues(data::Warehouse& warehouse, const BoundGhostFill& fill, const GhostCopy& copy, double part,
@@ -49,7 +49,7 @@ class Packer {
   void addGrid(const GhostCopy& copy);
   /// For nodes, only rows near particles: how many, and the place, length and values of each.
   void addNear(const GhostCopy& copy, const data::TouchedRows& rows);
-  /// How many particles each cell has that has some: how many cells, and the place and number of each.
+  /// The number of particles of each cell that has any: how many cells, and the place and number of each.
   void addCounts(const GhostCopy& copy);
   void addParticles(const GhostCopy& copy);
 

@@ -47,7 +47,7 @@ struct NewCellsAccess {
   void declare(std::vector<Access>&) {}
   const std::vector<grid::Box>& bind(const TaskContext& context) const { return context.newCells(); }
 };
-/// Passes the body the boxes of the patch's cells that regridding has made of coarser ones, a const std::vector<Box>&.
+/// Passes the body the boxes of the cells that regridding has made from coarser ones: a const std::vector<Box>&.
 /// For tasks of Component::scheduleRefine.
 inline NewCellsAccess newCells() { return {}; }
 

@@ -24,13 +24,13 @@ class NearRows {
     const auto [label, material] = warehouse_->table()[variable];
     return label->counts == data::Counts::nearParticles && material >= 0;
   }
-  /// Finds the rows of all patches for the particles of a material, if that is not done.
+  /// Finds the rows of all patches for the particles of a material, unless that has been done.
   void settle(data::Generation set, int material);
   /// The rows of a patch, once they are settled.
   const data::TouchedRows& of(data::Generation set, int material, int patch) const {
     return *rows_.at({set, material})[patch - warehouse_->grid().firstPatch()];
   }
-  /// To be called when particles are others, or elsewhere.
+  /// To be called when there are other particles, or when they have moved.
   void forget() {
     rows_.clear();
     whole_.clear();

@@ -27,7 +27,7 @@ struct MigratingParticle {
 /// goes farther, which all ranks agree on before, they expect one from every rank.
 class ParticleMigration {
  public:
-  /// Ranks with patches as near as this, in cells, are neighbours: few particles go farther in a step.
+  /// Ranks with patches within this distance, in cells, are neighbours: few particles go farther in a step.
   static constexpr int neighbourhood = 2;
 
   explicit ParticleMigration(data::Warehouse& warehouse) : warehouse_(&warehouse), outbox_(warehouse.ranks()) {}
@@ -40,8 +40,8 @@ class ParticleMigration {
   /// Whether a particle goes to a rank that is no neighbour.
   bool goesFar();
 
-  /// Sends those that leave and takes in those that come, with the values of all that is carried; together with all
-  /// ranks, or where `goFar` is false with the neighbours.
+  /// Sends those that leave and takes in those that come, with all values that are carried; in exchange with all
+  /// ranks or, if `goFar` is false, with the neighbours.
   void run(const std::vector<Carried>& carried, bool goFar);
   /// The particles that have arrived.
   const std::vector<MigratingParticle>& arrived() const { return arrived_; }

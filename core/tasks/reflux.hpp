@@ -6,7 +6,7 @@
 
 namespace tushar::tasks {
 
-/// The list with a task behind the last one that keeps the fluxes of a variable, for each such variable: in a coarse
+/// The list with a task after the last one that keeps the fluxes of a variable, for each such variable: in a coarse
 /// cell beside finer ones, the flux through the face between them becomes the mean of the finer ones,
 ///
 ///     U += ± dt / h (F - mean of the finer F),  + at upper faces,
@@ -21,7 +21,7 @@ inline constexpr data::ReductionLabel<data::Minimum> partOfStep{"partOfStep", "1
 
 /// The lists of a step in which finer levels make several smaller steps.
 struct SteppedByLevel {
-  /// Behind the last task that keeps the fluxes of a variable comes one that adds fluxes times the step to a register,
+  /// After the last task that keeps the fluxes of a variable comes one that adds fluxes times the step to a register,
   /// over all steps of a level within one of the next coarser level.
   TaskList advance;
   /// After those steps, on the coarser level: U += ± 1 / h (dt F - mean of the sums of dt F of the finer level).

@@ -156,7 +156,7 @@ class Relocation {
   /// The error for a particle that went where none can be.
   template <int D>
   NumericalError refusal(int position, const Escape& escape) const;
-  /// Hands particles over to the patches that they come into.
+  /// Hands particles over to the patches that they enter.
   void receiveAll(Moves& moves);
   static void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves);
   void rebuild(const grid::Patch& patch, int material, PatchMoves& moves);

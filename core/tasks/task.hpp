@@ -57,7 +57,7 @@ struct Task {
   bool perRank = false;          ///< the body sees all materials of all patches of the rank at once
 
   bool perMaterial() const { return !materials.empty(); }
-  /// Whether the variable of an access is one of each material.
+  /// Whether each material has its own variable for an access.
   bool perMaterial(const Access& access) const { return perMaterial() && !access.ofNone; }
 };
 

@@ -37,7 +37,7 @@ class TaskList {
         });
   }
 
-  /// Runs `body(patch, materials, arguments...)` on each patch, once for all materials: an access to a label becomes a
+  /// Runs `body(patch, materials, arguments...)` on each patch once, with all materials: an access to a label becomes a
   /// std::vector of views, one for each material.
   template <class Material, class Body, class... Arguments>
   void acrossMaterials(std::string_view name, Body body, const std::vector<Material>& materials,

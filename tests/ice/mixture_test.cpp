@@ -123,7 +123,7 @@ TEST(IceMixture, RefusesGasesThatDoNotFillTheGrid) {
 
 TEST(IceMixture, RefusesASlowExchange) {
   EXPECT_EQ(problemOf(changedScene(tube, "<momentum>[1e15]", "<momentum>[100]")),
-            "100 between gases is not available: they have one velocity, which means 1e9 or more");
+            "100 between gases is not available: they share one velocity, so it must be 1e9 or more");
   EXPECT_EQ(problemOf(changedScene(tube, "<heat>[0]", "<heat>[10]")),
             "10 between gases is not available: it is 1e9 or more, or 0");
   EXPECT_EQ(problemOf(changedScene(tube, "<heat>[0]", "<heat>[0,0]")),

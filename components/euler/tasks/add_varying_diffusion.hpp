@@ -32,7 +32,7 @@ void addVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffus
   diffuse<D>(patch, diffuser, dt, diffusingCells<D>(patch.level(), gas, how, old), newMomentum, newTotalEnergy, rims);
 }
 
-/// dt = cfl over the greatest rate at which cells are crossed and diffuse. `soundSpeedKnob`: how much of the speed of
+/// dt = cfl over the greatest rate of crossing cells and of diffusion. `soundSpeedKnob`: how much of the speed of
 /// sound counts.
 template <int D>
 void limitVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffusion& how, double cfl,

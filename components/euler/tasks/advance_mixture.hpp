@@ -72,7 +72,7 @@ struct ChangedGas {
     return {.mass = take(modifies(c::gasMass)), .share = take(modifies(c::gasShare))};
   }
 };
-/// As mendNewCells for several gases: the numbers of new cells are interpolated each by itself, so the density becomes
+/// As mendNewCells for several gases: the numbers of new cells are interpolated separately, so the density becomes
 /// the sum of the masses again, and the shares are made to add up to 1. Where that makes no gas, all children of a cell
 /// get their means.
 template <int D>

@@ -42,7 +42,7 @@ class Children {
   Index<D> parent_;
 };
 
-/// Density, momentum and energy of new cells are interpolated each by itself, so that beside a jump the pressure of
+/// Density, momentum and energy of new cells are interpolated separately, so that beside a jump the pressure of
 /// one could be below -p_inf, though that of its parent is not. There all children of the parent get their mean, which
 /// is its state: nothing is lost. `newCells`: boxes of whole parents.
 template <int D>

@@ -49,7 +49,7 @@ void addMixtureDiffusion(const Patch& patch, const Gases& gases, const MixtureDi
   euler::diffuse<D>(patch, diffuser, dt, diffusingMixture<D>(gases, how, state, held), momentum, totalEnergy, rims);
 }
 
-/// dt = cfl over the greatest rate at which cells are crossed and diffuse.
+/// dt = cfl over the greatest rate of crossing cells and of diffusion.
 template <int D>
 void limitMixtureDiffusion(const Patch& patch, const Gases& gases, const MixtureDiffusion& how, double cfl,
                            const euler::OldState<D>& state, const std::vector<euler::OldGas>& held, double time,

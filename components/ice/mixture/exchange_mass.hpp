@@ -11,7 +11,7 @@ struct Transfer {
   double startTime = 0;  ///< s
 };
 
-/// Takes the part rate dt of a gas, all of it at the most, to another one, with its volume: Uintah's model "Test". As
+/// Moves the fraction rate dt of a gas, at most all of it, to another one, with its volume: Uintah's model "Test". As
 /// all have one velocity and the total energy stays, mass, momentum and energy are kept; the pressure changes where
 /// the gases' gammas differ.
 template <int D>

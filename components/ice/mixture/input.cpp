@@ -42,7 +42,7 @@ void checkExchange(const GasScene& scene, const Element& root, int solids, Diagn
       if (const double k = given[at_pair]; k < oneForAll && !(mayBeNone && k == 0))
         return diagnostics.error(at, fmt::format("{:g} between gases is not available: {}", k, sentence));
   };
-  check(scene.exchange->momentum, "momentum", false, "they have one velocity, which means 1e9 or more");
+  check(scene.exchange->momentum, "momentum", false, "they share one velocity, so it must be 1e9 or more");
   check(scene.exchange->heat, "heat", true, "it is 1e9 or more, or 0");
 }
 

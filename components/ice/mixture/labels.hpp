@@ -4,7 +4,7 @@
 
 namespace tushar::ice {
 
-/// The name of the total of a gas, which keeps its place while tasks have it.
+/// The name of the total of a gas, whose address must not change while tasks have it.
 class GasTotal {
  public:
   explicit GasTotal(const std::string& gas) : name_("TotalMass-" + gas) {}

@@ -52,7 +52,7 @@ auto sumOverCorners(Term&& term, int k = 0) {
 }
 
 /// Sum over the particles p of a cell; `add(p, sum)` adds the term of p. The terms are added from both ends of the
-/// cell's list inwards, each half by itself: in the mirror image of a line the list is reversed, which only exchanges
+/// cell's list inwards, each half separately: in the mirror image of a line the list is reversed, which only exchanges
 /// the halves.
 template <class Sum, class Add>
 [[gnu::always_inline]] inline Sum sumOverParticles(const data::ParticleRange& particles, Add&& add) {

@@ -39,7 +39,7 @@ struct TensorShape {
     return reaches;
   }
 
-  /// S_i and its gradient (1/m) at every node i that a particle touches; where axisymmetric, S_i / r (1/m), too.
+  /// S_i and its gradient (1/m) at every node i that a particle touches; and, where axisymmetric, S_i / r (1/m).
   struct Stencil {
     static constexpr int dimension = D;
     static constexpr int nodes = Axis::nodes;  ///< along each axis
@@ -117,7 +117,7 @@ struct TensorShape {
     }
   };
 
-  /// The stencils of several particles of a cell, to the bits of Stencil: computed with a lane for each particle, so
+  /// The stencils of several particles of a cell, with the bits of Stencil: computed with a lane for each particle, so
   /// that a particle that then goes through its nodes only loads what it needs.
   class Stencils {
    public:

@@ -71,7 +71,7 @@ struct Material {
   MaterialConstants constants() const { return {density, specificHeat, meltTemperature, roomTemperature}; }
   /// The density of a particle at F = I, kg/m^3; bodies that start under pressure have `density` at the start.
   double undeformedDensity() const { return density * model->initialVolumeRatio(); }
-  /// Whether particles may lose strength and then bear less than the stress of the constitutive model.
+  /// Whether particles may lose strength and then carry less than the stress of the constitutive model.
   bool isDamageable() const { return erosion.acts() || !std::holds_alternative<NoDamage>(damage); }
 };
 

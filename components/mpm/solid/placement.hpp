@@ -33,7 +33,7 @@ Seed partOfCell(const Level& level, const Index3& particlesPerCell) {
   return seed;
 }
 
-/// The extent of a particle along the axes of the kernel, in cells; of one whose edges lie in other directions that of
+/// The extent of a particle along the axes of the kernel, in cells; if its edges lie in other directions, that of
 /// a cube of its volume.
 template <int D>
 Vec<D> extentOf(const Level& level, const Seed& seed) {

@@ -16,7 +16,7 @@ const Schema<PhysicalConstants>& constantsSchema(bool besideGas) {
     Schema<PhysicalConstants> tags("PhysicalConstants", "Physical constants.");
     tags.value("gravity", &PhysicalConstants::gravity, Vec3::Zero(), "m/s^2", "acceleration of gravity");
     for (const char* tag : {"reference_point", "viscosity", "ideal_gas_constant", "pressure"})
-      tags.ignored(tag, "belongs to components of flow");
+      tags.ignored(tag, "belongs to flow components");
     return tags;
   };
   static const Schema<PhysicalConstants> alone = make().ignored("reference_pressure", "nothing here depends on it");

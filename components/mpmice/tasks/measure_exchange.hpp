@@ -87,7 +87,7 @@ class BlockedStrips {
       strips_[axis] |= bits;
     }
   }
-  /// The share of a cell's cross-section that no body is in front of.
+  /// The share of a cell's cross-section that no body blocks.
   double open(int axis) const { return 1 - std::popcount(strips_[axis]) * (1.0 / count); }
 
  private:

@@ -47,7 +47,7 @@ class SmallCells {
   bool isTarget(const Index<D>& cell) const { return choiceOf(cell) == cell; }
   /// Whether a small cell gives its gas to a neighbour that is a target.
   bool gives(const Index<D>& cell, const Index<D>& to) const { return isSmall(cell) && choiceOf(cell) == to; }
-  /// Whether a cell has little room, and something in it.
+  /// Whether a cell has little room, but something in it.
   bool isSmall(const Index<D>& cell) const {
     return state_.free[cell] < smallFreeVolume && state_.held.density[cell] != 0;
   }
@@ -188,7 +188,7 @@ void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, c
 /// What a closed hole has left of a gas that has flown out: less than a number can tell from none. It holds nothing.
 inline constexpr double nothingLeft = 1e-100;
 
-/// Empties a cell that has as good as nothing left.
+/// Empties a cell that has next to nothing left.
 template <int D>
 void emptyIfNothingLeft(const Index<D>& cell, const euler::MixtureViews<D, double>& held) {
   if (!(std::abs(held.density[cell]) < nothingLeft)) return;

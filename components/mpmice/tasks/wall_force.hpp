@@ -110,7 +110,7 @@ double forceAt(const Level& level, const FreeSpace<D>& space, const KnownWalls<D
   return force * level.cellVolume() * level.inverseSpacing(axis);
 }
 
-/// Force of the gas that rubs along the walls at the lower face of a cell, N; from its gas and that of the cell below.
+/// Friction of the gas along the walls at the lower face of a cell, N; from its gas and that of the cell below.
 template <int D>
 Vec<D> frictionAt(const Level& level, const Settings& settings, const FreeSpace<D>& space, const KnownWalls<D>& walls,
                   const GasInCells<D>& cells, const BodiesAtNodes<D>& bodies, const Index<D>& face, int axis) {

@@ -59,7 +59,7 @@ struct Span {
   Lanes upperOf(int k) const { return min(upper, centre() + arm[k + 1]); }
   Lanes middle(int k) const { return 0.5 * (lowerOf(k) + upperOf(k)); }
 
-  /// Sum over the nodes; `add(k, sum)` adds the term of node k. Either side of the middle is summed by itself, from the
+  /// Sum over the nodes; `add(k, sum)` adds the term of node k. Each side of the middle is summed apart, from the
   /// inside out, so that the mirror image has the same sum.
   template <class Sum, class Add>
   [[gnu::always_inline]] Sum sumOverNodes(Add&& add) const {

@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// The part of the places of cells that is the same for all cells of a level, found once.
+/// What the positions of all cells of a level have in common, found once.
 template <int D>
 struct CellPlaces {
   Vec<D> middle;          ///< of the grid, m

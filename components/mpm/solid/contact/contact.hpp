@@ -15,7 +15,7 @@ namespace tushar::mpm::solid {
 template <class T>
 using Profile = std::vector<std::pair<double, T>>;
 
-/// How a master is driven at a moment: it translates, and turns about an axis through a centre.
+/// How a master is driven at a given time: it translates, and turns about an axis through a centre.
 struct Motion {
   Vec3 velocity = Vec3::Zero();         ///< m/s
   Vec3 centre = Vec3::Zero();           ///< m
@@ -108,7 +108,7 @@ bool isExcluded(const Contact& contact, const Records& records, const Index<D>& 
   return contact.excluded >= 0 && records[contact.excluded][node][lane::mass] != 0;
 }
 
-/// The changes of velocity in a step by other causes than stresses and loads.
+/// The changes of velocity in a step that have causes other than stresses and loads.
 struct Acceleration {
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
   double damping = 0;           ///< 1/s

@@ -25,9 +25,9 @@ Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double w
 /// The plane that separates bodies at nodes, from the side of one body.
 template <int D>
 struct SeparatingPlane {
-  /// Out of the body, of length 1, where it has most mass of those that meet at the node; 0 elsewhere.
+  /// Unit normal out of the body, where it has the most mass of those that meet at the node; 0 elsewhere.
   std::optional<NodeView<const Vec<D>>> normal;
-  /// The extent of its particles along that normal, m: the farthest of the body with most mass, the nearest of others.
+  /// The extent of its particles along that normal, m: the farthest of the heaviest body, the nearest of others.
   std::optional<NodeView<const double>> prominence;
   std::optional<NodeView<const double>> color;  ///< mean of its p.color by mass
 
@@ -44,7 +44,7 @@ using SeparatingPlanes = std::vector<SeparatingPlane<D>>;
 /// Prominence of a body that has no particle of its surface near a node.
 inline constexpr double noProminence = -std::numeric_limits<double>::max();
 
-/// The body with most mass and each other one that overlaps it beyond the plane and approaches the centre of mass
+/// The body with the most mass and each other one that overlaps it beyond the plane and approaches the centre of mass
 /// exchange the impulse that stops the approach and, by Coulomb's friction, slows the slip; momentum is kept.
 template <int D>
 void slideAlongPlanes(const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes);

@@ -21,7 +21,7 @@ struct ParticleBox {
   Vec3 middle;
   Matrix3 startEdges, edges;
 
-  /// The face towards a normal, whose edge differs from it by less than an angle with the cosine 0.9, if there is one.
+  /// The face towards a normal, if there is one whose edge is at an angle to it with a cosine above 0.9.
   std::optional<LoadedFace> face(const Vec3& normal) const;
 };
 

@@ -23,7 +23,7 @@ class PrescribedDeformation {
   /// At least two points, in the order of time.
   explicit PrescribedDeformation(std::vector<Point> points);
 
-  /// F = Q Q_0 F_s at a time, with F_s from the points, Q the rotation since the point before and Q_0 all others.
+  /// F = Q Q_0 F_s at a time: F_s from the points, Q the rotation since the previous point, Q_0 all earlier ones.
   Matrix3 deformation(double time) const;
   /// L = dF/dt F^-1 at a time, 1/s.
   Matrix3 velocityGradient(double time) const;

@@ -45,7 +45,7 @@ class StateViewOf : public StateView {
   ParticleLabel<T> label_;
 };
 
-/// The state variables of all materials, each once, and Uintah's that are always 0 here.
+/// The state variables of all materials, each once, and those of Uintah that are always 0 here.
 inline std::vector<std::shared_ptr<const StateView>> stateViews(const std::vector<Material>& materials) {
   std::vector<std::shared_ptr<const StateView>> views;
   std::set<std::string_view> known;

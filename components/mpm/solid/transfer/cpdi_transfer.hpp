@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// How many records lie from that of the first node of a stencil to the lower one of each corner's cell.
+/// The distance, in records, from the first node of a stencil to the lowest one of each corner's cell.
 template <class Stencil, std::size_t D>
 [[gnu::always_inline]] inline std::array<std::ptrdiff_t, Stencil::corners> offsetsOfCells(
     const Stencil& stencil, const std::array<std::ptrdiff_t, D>& stride) {

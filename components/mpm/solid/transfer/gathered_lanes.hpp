@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The velocities that several particles of a cell interpolate from the nodes, one particle in each lane, to the bits
+/// The velocities that several particles of a cell interpolate from the nodes, one particle in each lane, with the bits
 /// of Gathered.
 template <int D>
 struct GatheredLanes {
@@ -14,7 +14,7 @@ struct GatheredLanes {
   std::array<std::array<Lanes, D>, D> gradient;  ///< of v*, by axis and component, 1/s
 };
 
-/// Of particles that all touch the nodes of their cell: each number of a node is loaded once for all of them.
+/// For particles that all touch just the nodes of their cell: each number of a node is loaded once for all of them.
 template <class Stencils, int D = Stencils::dimension>
 [[gnu::always_inline]] inline GatheredLanes<D> gatherOfCell(const Stencils& stencils,
                                                             const NodeWindow<const NodeRecord, D>& nodes) {
@@ -43,7 +43,7 @@ struct GatheredAlone {
   std::array<Quad, D> gradient;
 };
 
-/// Of `count` particles, each of which gathered on its own.
+/// For `count` particles, each of which was gathered separately.
 template <int D>
 [[gnu::always_inline]] inline GatheredLanes<D> lanesOf(const std::array<GatheredAlone<D>, Lanes::count>& gathered,
                                                        int count) {

@@ -59,7 +59,7 @@ double least(double low, double high, const F& f) {
   return 0.5 * (low + high);
 }
 
-/// The point of a yield surface next to a stress outside it, in the space of z = I1 / sqrt 3 and
+/// The point of a yield surface nearest to a stress outside it, in the space of z = I1 / sqrt 3 and
 /// r = beta sqrt(3/2 K/G) sqrt(2 J2): for beta = 1 the return of associated plasticity with the moduli K and G. Homel,
 /// Guilkey & Brannon, Comput. Mech. 56 (2015) 565. They search from within by bisection and rotation; here the distance
 /// to the sections across the axis, which is convex along it as the surface is, has its least value found by bisection
@@ -120,7 +120,7 @@ class ClosestPoint {
     const double factor = surface_.lodeFactor(theta);
     return (trialRadius * std::cos(theta - trialTheta) - radius * factor) * factor;
   }
-  /// Lode's angle of the point of a section next to the trial.
+  /// The Lode angle of the point of a section that is nearest to the trial.
   LodeAngle nearestAngle(double radius, double trialRadius, LodeAngle trialTheta) const {
     if (surface_.isRound() || radius == 0) return trialTheta;
     constexpr double sixth = std::numbers::pi / 6;

@@ -85,7 +85,7 @@ class Substep {
     return best;
   }
 
-  /// The result of `consistent`, by false position as the Illinois algorithm corrects it where both ends are known, and
+  /// The result of `consistent`, by the Illinois variant of false position where both ends are known, and
   /// by bisection where the surface at the upper one lies beyond the return.
   Return falsePosition(const Return& atRest) const {
     const double whole = std::abs(atRest.plasticStrain.trace());
@@ -110,7 +110,7 @@ class Substep {
     }
     return best;
   }
-  /// A share of the plastic strain, and by how much it exceeds that of the return to the surface it moves.
+  /// A share of the plastic strain, and by how much it exceeds that of the return to the surface that it has moved.
   struct Share {
     double at, excess;
     bool isKnown;

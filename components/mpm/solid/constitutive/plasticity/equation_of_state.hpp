@@ -58,7 +58,7 @@ struct MieGruneisen {
 
   static const input::Schema<MieGruneisen>& schema() {
     static const input::Schema<MieGruneisen> schema =
-        input::Schema<MieGruneisen>("equation_of_state", "Mie and Grüneisen's, with the heat by the temperature.")
+        input::Schema<MieGruneisen>("equation_of_state", "Mie and Grüneisen's, with the heat given by the temperature.")
             .required("C_0", &MieGruneisen::soundSpeed, "m/s", "speed of a weak shock", input::positive())
             .required("Gamma_0", &MieGruneisen::gruneisen, "1", "Grüneisen's constant", input::nonNegative())
             .required("S_alpha", &MieGruneisen::slope, "1", "dU/du of a shock", input::nonNegative());

@@ -57,7 +57,7 @@ struct Precedence {
     }
   }
 
-  /// The material with most mass of those that meet at a node, or the rigid one; -1 if fewer than two meet.
+  /// The material with the most mass of those that meet at a node, or the rigid one; -1 if fewer than two meet.
   template <int D>
   int leader(const std::vector<NodeView<const NodeRecord>>& records, const Index<D>& node) const {
     double total = 0, most = 0, mostOfRigid = 1e-90;

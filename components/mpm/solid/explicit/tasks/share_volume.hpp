@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The change of volume from which the stress of a particle follows.
+/// The change of volume that determines the stress of a particle.
 enum class Volumes {
   own,    ///< its own
   shared  ///< that of all sound particles of its material in the cell

@@ -35,7 +35,7 @@ inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt,
   rows.copyTo(result);
 }
 
-/// (I + L dt) F of `count` particles in a row, to the same bits.
+/// (I + L dt) F of `count` particles in a row, with the same bits.
 [[gnu::always_inline]] inline void deform(const Matrix3* f, const TensorOf<Lanes>& velocityGradient, double dt,
                                           int count, Matrix3* result) {
   const TensorOf<Lanes> before = lanesOf(f, count);
@@ -83,7 +83,7 @@ template <int D>
   storeVectors<D>(v, count, newVelocity);
 }
 
-/// F of a particle at the end of the step by its velocity gradient, the sum of whose squares is `square`, 1/s^2.
+/// F of a particle at the end of the step from its velocity gradient, the sum of whose squares is `square`, 1/s^2.
 template <int D>
 void deformBy(const Method& method, double dt, double square, const StateUpdate<D>& u, int p,
               const Matrix3& velocityGradient) {
@@ -263,7 +263,7 @@ NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, con
       "", "p.deformationMeasure", level.cellNumber<D>(cell)};
 }
 
-/// Whether particles are updated several at once: their cells hold enough of them in three dimensions only.
+/// Whether several particles are updated at once: their cells hold enough of them in three dimensions only.
 template <class Shape>
 inline constexpr bool updatesTogether = Shape::dimension == 3;
 
@@ -303,7 +303,7 @@ struct MovedParticles {
   std::vector<Matrix3> velocityGradient;  ///< at least of those of the cells
   std::vector<double> waveSpeed;          ///< of as many
 
-  /// L of the particles of a cell that joins, 1/s.
+  /// L of the particles of a cell that joins the run, 1/s.
   Matrix3* add(const Index<D>& cell, const data::ParticleRange& range) {
     cells.add(cell, range);
     if (velocityGradient.size() < static_cast<std::size_t>(cells.count())) {
