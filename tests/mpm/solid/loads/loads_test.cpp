@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "components/mpm/solid/explicit/tasks/corner_loads.hpp"
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
 #include "tests/support/levels.hpp"
