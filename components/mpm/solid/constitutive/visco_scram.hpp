@@ -215,6 +215,8 @@ struct ViscoScram {
         .ignored("DCp_DTemperature", "Uintah does not use it either")
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
         .ignored("useObjectiveRate", "stresses always rotate with the material");
+    for (const char* tag : {"Chi", "delH", "Z", "EoverR", "dynamic_coeff_friction", "volfracHE"})
+      tags.ignored(tag, "belongs to the hot spots of Uintah's visco_scram_hs");
     refuseSwitch(tags, "randomize_parameters", "all particles have the given moduli");
     refuseSwitch(tags, "CoeffThermalExpansion", "heat does not strain the material");
     for (const char* tag : {"useMurnahanEOS", "useBirchMurnaghanEOS", "useJWLEOS", "useJWLCEOS", "gamma", "P0",
