@@ -110,6 +110,8 @@ std::shared_ptr<const Model> modelFrom(const M& model, const Material& material)
   if constexpr (std::is_same_v<M, ElasticPlasticHp>)
     if (std::holds_alternative<GursonYield>(model.yieldCondition))
       return std::make_shared<ModelOf<GursonPlastic>>(GursonPlastic{model});
+  if constexpr (std::is_same_v<M, ViscoScram>)
+    if (model.thermalExpansion > 0) return std::make_shared<ModelOf<ExpandingViscoScram>>(ExpandingViscoScram{model});
   if constexpr (expands<M>)
     return expandingIfAsked(model, model.bulkModulus, material);
   else

@@ -178,6 +178,20 @@ std::string crackingTags(const std::string& more) {
   return tags + more;
 }
 
+TEST(MaterialInput, KeepsATemperatureOnlyWhereViscoScramExpands) {
+  const auto modelOf = [](const std::string& more) {
+    return materialsOf(sceneOf("visco_scram", crackingTags(more), "<specific_heat>5</specific_heat>"))[0].model;
+  };
+  const auto plain = modelOf(""), still = modelOf("<CoeffThermalExpansion>0</CoeffThermalExpansion>");
+  const auto grows = modelOf("<CoeffThermalExpansion>1e-4</CoeffThermalExpansion>");
+  EXPECT_EQ(still->stateSize(), plain->stateSize());
+  EXPECT_EQ(grows->stateSize(), plain->stateSize() + 1);
+  EXPECT_EQ(grows->stateVariables().back().label, "p.temperatureOfStrain");
+  const ViscoScram& scram = dynamic_cast<const ModelOf<ExpandingViscoScram>&>(*grows).model().scram;
+  EXPECT_EQ(scram.thermalExpansion, 1e-4);
+  EXPECT_EQ(scram.material.specificHeat, 5);
+}
+
 TEST(MaterialInput, PassesOverWordsThatUintahDoesNotReadEither) {
   const std::string hotSpots =
       "<Chi>0.8</Chi><delH>5e6</delH><Z>5e19</Z><EoverR>26500</EoverR>"
