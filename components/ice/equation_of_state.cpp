@@ -17,6 +17,7 @@ const Schema<EquationOfState>& idealSchema() {
     Schema<EquationOfState> tags("EOS", "p = (gamma - 1) c_v rho T.");
     tags.foreignAttribute("type", "ideal_gas");
     for (const char* tag : {"A", "B", "C", "R1", "R2", "om", "rho0"}) tags.ignored(tag, "belongs to explosives");
+    tags.ignored("gas_constant", "it is (gamma - 1) c_v");
     return tags;
   }();
   return schema;

@@ -50,6 +50,12 @@ struct FoundFile {
   bool hasMoved = false;  ///< it was found elsewhere
 };
 
+/// Whether there is a file or, as a surface of triangles is named, a pair of files of that name, NAME.pts and NAME.tri.
+bool isThere(const std::filesystem::path& path) {
+  std::error_code unreadable;
+  return std::filesystem::exists(path, unreadable) || std::filesystem::exists(path.string() + ".pts", unreadable);
+}
+
 /// Finds a file that a tag of the scene `scene` names: beside the scene, in a folder above it, where the run is started
 /// or, finally, beside the scene without the folders that the tag names.
 FoundFile findFile(const std::string& path, const std::string& scene) {
@@ -57,11 +63,11 @@ FoundFile findFile(const std::string& path, const std::string& scene) {
   const auto at = [&](const std::filesystem::path& folder) { return (folder / path).lexically_normal(); };
   std::error_code unreadable;
   for (std::filesystem::path folder = beside; folder.has_relative_path(); folder = folder.parent_path())
-    if (std::filesystem::exists(at(folder), unreadable)) return {at(folder).string()};
+    if (isThere(at(folder))) return {at(folder).string()};
   const std::filesystem::path here = at(std::filesystem::current_path(unreadable));
-  if (std::filesystem::exists(here, unreadable)) return {here.string()};
+  if (isThere(here)) return {here.string()};
   const std::filesystem::path moved = beside / std::filesystem::path(path).filename();
-  if (std::filesystem::is_regular_file(moved, unreadable)) return {moved.string(), true};
+  if (std::filesystem::is_regular_file(moved, unreadable) || isThere(moved)) return {moved.string(), true};
   return {at(beside).string()};
 }
 

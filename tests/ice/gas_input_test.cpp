@@ -43,6 +43,17 @@ const std::string scene = R"(<Uintah_specification>
 
 }  // namespace
 
+TEST(GasScene, TakesNoConstantOfTheGas) {
+  std::string given = scene;
+  given.replace(given.find(R"(<EOS type="ideal_gas"/>)"), 23,
+                R"(<EOS type="ideal_gas"><gas_constant>999</gas_constant></EOS>)");
+  input::Diagnostics diagnostics;
+  const input::Document document = input::Document::parse(given, "gas.ups", diagnostics);
+  const GasScene gas = readGas(document.root(), 1, diagnostics);
+  EXPECT_FALSE(diagnostics.any()) << "as Uintah does not: it is (gamma - 1) c_v";
+  EXPECT_EQ(gas.specificHeat, 716);
+}
+
 TEST(GasScene, HasWhatTheSceneSays) {
   input::Diagnostics diagnostics;
   const input::Document document = input::Document::parse(scene, "gas.ups", diagnostics);

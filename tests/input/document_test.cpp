@@ -77,6 +77,27 @@ TEST(Document, SaysThatAFolderIsNoFile) {
   EXPECT_EQ(problemsOfFile(folder), Lines{folder + ": this is a folder, expected a file"});
 }
 
+/// A surface of triangles is named without the ends of its two files, NAME.pts and NAME.tri.
+TEST(Document, FindsTheFilesOfASurfaceAboveAndBesideTheScene) {
+  const std::filesystem::path above = test::newFolder("surfaces"), beside = above / "scenes" / "hearts";
+  std::filesystem::create_directories(beside);
+  std::filesystem::create_directories(above / "parts");
+  for (const std::filesystem::path& points : {above / "parts" / "heart.pts", beside / "moved.pts"})
+    std::ofstream(points) << "0 0 0\n";
+  Diagnostics diagnostics;
+  const auto found = [&](const std::string& name) {
+    const Document document =
+        Document::parse("<Uintah_specification><tri><name>" + name + "</name></tri></Uintah_specification>",
+                        (beside / "s.ups").string(), diagnostics);
+    return std::string(document.root().child("tri")->child("name")->text());
+  };
+
+  EXPECT_EQ(found("parts/heart"), (above / "parts" / "heart").string());
+  EXPECT_FALSE(diagnostics.any());
+  EXPECT_EQ(found("elsewhere/moved"), (beside / "moved").string());
+  EXPECT_EQ(found("parts/none"), (beside / "parts" / "none").string());
+}
+
 TEST(Document, SaysThatAFileIsEmpty) {
   const std::string path = temporaryFile("empty.ups", " \n");
 

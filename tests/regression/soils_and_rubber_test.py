@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Arenisca, Arenisca3 and ArrudaBoyce8 give the same bits on patches, threads and ranks, and after a restart."""
+"""Arenisca, Arenisca3, ArrudaBoyce8 and visco_scram that heat expands give the same bits on patches, threads and ranks,
+and after a restart."""
 import pathlib
 import sys
 import tempfile
@@ -20,10 +21,16 @@ MODELS = {
 <kinematic_hardening_constant>0</kinematic_hardening_constant>""",
     "Arenisca3": SOIL + """<STREN>2e8</STREN><YSLOPE>0.05</YSLOPE><BETA_nonassociativity>1</BETA_nonassociativity>
 <B1>0</B1><B2>0</B2><B3>0</B3><B4>0</B4><G1>0</G1><G2>0</G2><G3>0</G3><G4>0</G4><p2_crush_curve>0</p2_crush_curve>""",
-    "ArrudaBoyce8": "<bulk_modulus>2e7</bulk_modulus><shear_modulus>2e6</shear_modulus><beta>3</beta>"}
+    "ArrudaBoyce8": "<bulk_modulus>2e7</bulk_modulus><shear_modulus>2e6</shear_modulus><beta>3</beta>",
+    "visco_scram": """<PR>0.3</PR><CrackParameterA>1e-3</CrackParameterA><CrackPowerValue>10</CrackPowerValue>
+<CrackMaxGrowthRate>300</CrackMaxGrowthRate><StressIntensityF>5e4</StressIntensityF><CrackFriction>0.35</CrackFriction>
+<InitialCrackRadius>3e-5</InitialCrackRadius><CrackGrowthRate>1</CrackGrowthRate><Gamma>1</Gamma>
+<CoeffThermalExpansion>1e-4</CoeffThermalExpansion><G1>2e6</G1><RTau1>0</RTau1><G2>2e6</G2><RTau2>1e3</RTau2>
+<G3>0</G3><RTau3>0</RTau3><G4>0</G4><RTau4>0</RTau4><G5>0</G5><RTau5>0</RTau5>"""}
+CAPACITIES = {"visco_scram": 1000}  # J/(kg K): cracks heat it
 BODY = """<material name="{name}"><density>2000</density>
 <constitutive_model type="{model}">{tags}</constitutive_model>
-<specific_heat>1</specific_heat><thermal_conductivity>0</thermal_conductivity>
+<specific_heat>{capacity}</specific_heat><thermal_conductivity>0</thermal_conductivity>
 <geom_object><cylinder label="{name}"><bottom>[{x},{y},0]</bottom><top>[{x},{y},0.1]</top>
 <radius>0.2</radius></cylinder>
 <res>[2,2,1]</res><velocity>[{speed},{speed},0]</velocity><temperature>300</temperature></geom_object></material>
@@ -47,7 +54,8 @@ SCENE = """<Uintah_specification><Meta><title>A disc of {model} meets another</t
 
 
 def scene_of(model, folder):
-    bodies = [BODY.format(name=f"body{k}", model=model, tags=MODELS[model], x=x, y=y, speed=speed)
+    capacity = CAPACITIES.get(model, 1)
+    bodies = [BODY.format(name=f"body{k}", model=model, tags=MODELS[model], x=x, y=y, speed=speed, capacity=capacity)
               for k, (x, y, speed) in enumerate([(.36, .36, 4), (.64, .64, -4)])]
     path = pathlib.Path(folder, model + ".ups")
     path.write_text(SCENE.format(model=model, bodies="".join(bodies)))
@@ -55,23 +63,25 @@ def scene_of(model, folder):
 
 
 class SoilsAndRubber(unittest.TestCase):
-    def on_all_layouts(self, model):
+    def on_all_layouts(self, model, *changes):
+        """Checks that all runs of a scene, with the changes, give the same bits; returns its fingerprint."""
         with tempfile.TemporaryDirectory() as folder:
             scene = scene_of(model, folder)
-            expected = run(scene)
+            expected = run(scene, *changes)
             self.assertEqual((expected.code, expected.err), (0, ""))
             for change in ({"sets": ["Grid/Level/Box/patches=[3,2,1]"]},
                            {"sets": ["Grid/Level/Box/patches=[2,2,1]"], "ranks": 2},
                            {"sets": ["Grid/Level/Box/patches=[2,2,1]"],
                             "options": ("--quiet", "--nthreads", "2")}):
-                result = run(scene, *change.pop("sets"), **change)
+                result = run(scene, *changes, *change.pop("sets"), **change)
                 self.assertEqual(result.report["fingerprint"], expected.report["fingerprint"], change)
             archive = Folder()
             self.addCleanup(archive.cleanup)
-            archive.run(scene, "DataArchiver/checkpoint/@timestepInterval=30", "Time/max_Timesteps=40")
+            archive.run(scene, *changes, "DataArchiver/checkpoint/@timestepInterval=30", "Time/max_Timesteps=40")
             code, errors, report = archive.restart("Time/max_Timesteps=60", "Grid/Level/Box/patches=[2,3,1]", step=30)
             self.assertEqual((code, errors), (0, ""))
             self.assertEqual(report["fingerprint"], expected.report["fingerprint"])
+            return expected.report["fingerprint"]
 
     def test_arenisca(self):
         self.on_all_layouts("Arenisca")
@@ -81,6 +91,18 @@ class SoilsAndRubber(unittest.TestCase):
 
     def test_arruda_boyce(self):
         self.on_all_layouts("ArrudaBoyce8")
+
+    def test_visco_scram_that_heat_expands(self):
+        coefficient = "MaterialProperties/MPM/material[1]/constitutive_model/CoeffThermalExpansion=0"
+        with tempfile.TemporaryDirectory() as folder:
+            stiff = run(scene_of("visco_scram", folder), coefficient)
+        self.assertEqual(stiff.code, 0, stiff.err)
+        self.assertNotEqual(self.on_all_layouts("visco_scram"), stiff.report["fingerprint"])
+
+    def test_a_normal_of_each_body(self):
+        with tempfile.TemporaryDirectory() as folder:
+            shared = run(scene_of("ArrudaBoyce8", folder)).report["fingerprint"]
+        self.assertNotEqual(self.on_all_layouts("ArrudaBoyce8", "MPM/computeColinearNormals=false"), shared)
 
 
 if __name__ == "__main__":

@@ -90,7 +90,8 @@ TEST(Regridder, NotesWhatOfUintahsDoesNothing) {
       read(square,
            "<AMR type=\"Dynamic\"><useLockStep>true</useLockStep><Regridder type=\"BNR\">"
            "<max_timestep_interval>50</max_timestep_interval><min_boundary_cells>[1,1,0]</min_boundary_cells>"
-           "</Regridder><ICE><orderOfInterpolation>1</orderOfInterpolation></ICE></AMR>");
+           "</Regridder><ICE><orderOfInterpolation>1</orderOfInterpolation><ClampSpecificVolume>true</"
+           "ClampSpecificVolume></ICE></AMR>");
 
   EXPECT_EQ(found.problems, Strings{});
   EXPECT_EQ(

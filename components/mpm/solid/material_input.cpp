@@ -110,6 +110,8 @@ std::shared_ptr<const Model> modelFrom(const M& model, const Material& material)
   if constexpr (std::is_same_v<M, ElasticPlasticHp>)
     if (std::holds_alternative<GursonYield>(model.yieldCondition))
       return std::make_shared<ModelOf<GursonPlastic>>(GursonPlastic{model});
+  if constexpr (std::is_same_v<M, ViscoScram>)
+    if (model.thermalExpansion > 0) return std::make_shared<ModelOf<ExpandingViscoScram>>(ExpandingViscoScram{model});
   if constexpr (expands<M>)
     return expandingIfAsked(model, model.bulkModulus, material);
   else
@@ -202,6 +204,7 @@ void acceptUintahsTags(Schema<Material>& tags) {
   for (const char* tag : {"water_density", "porosity", "permeability", "initial_pore_pressure"})
     tags.ignored(tag, "belongs to coupled_flow_analysis");
   tags.ignored("heat_transfer_coefficient", "with <thermal_contact> materials share one temperature at a node");
+  tags.ignored("gamma", "belongs to a gas; Uintah does not read it of a body either");
   tags.ignored("C_p", "the <specific_heat> is used").ignored("do_conc_reduction", "belongs to do_scalar_diffusion");
   for (const char* tag : {"D1", "D2", "D3", "D4", "D5"})
     tags.ignored(tag, "outside <damage_model type=\"johnson_cook\"> it damages nothing, as in Uintah");

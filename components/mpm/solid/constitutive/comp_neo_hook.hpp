@@ -37,6 +37,7 @@ struct CompNeoHook {
       for (const char* tag :
            {"yield_stress", "hardening_modulus", "alpha", "yield_distrib", "yield_range", "yield_seed"})
         tags.ignored(tag, "it does not yield unless <usePlasticity> is true");
+      for (const char* tag : {"strain_limit", "reduction_factor"}) tags.ignored(tag, "of older versions of Uintah");
       tags.ignored("useModifiedEOS", "only Uintah's coupled fluid reads it");
       addInitialPressure(tags);
       refuseSwitch(tags, "usePlasticity", "true makes it a UCNH");

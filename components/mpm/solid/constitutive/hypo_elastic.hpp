@@ -25,7 +25,8 @@ struct HypoElastic : IsotropicModuli {
             .required("G", input::memberOf<HypoElastic>(&HypoElastic::shearModulus), "Pa", "shear modulus",
                       input::nonNegative())
             .required("K", input::memberOf<HypoElastic>(&HypoElastic::bulkModulus), "Pa", "bulk modulus",
-                      input::positive());
+                      input::positive())
+            .ignored("useModifiedEOS", "Uintah does not read it either");
     return schema;
   }
   State initialState() const { return {}; }

@@ -56,6 +56,7 @@ struct ViscoScram {
   double shiftTemperature = 298;  ///< T_0 of Williams, Landel & Ferry, K
   double shift1 = 6.5;            ///< C_1, 1
   double shift2 = 120;            ///< C_2, K
+  double thermalExpansion = 0;    ///< of lengths, 1/K; where it is not 0, the model is ExpandingViscoScram
 
   static const input::Schema<ViscoScram>& schema() {
     static const input::Schema<ViscoScram> schema = makeSchema();
@@ -64,7 +65,12 @@ struct ViscoScram {
   State initialState() const { return {initialCrackRadius, 0, 0, 0, {}}; }
 
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
-    const Corotated step(d, oldStress);
+    return updateStress(d, oldStress, state, 0);
+  }
+  /// The same, where `free` of the strain along each axis makes no stress, 1.
+  Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state, double free) const {
+    Corotated step(d, oldStress);
+    step.strain.diagonal().array() -= free;
     const double mean = step.stress.trace() / 3;
     const CrackLoad load = crackLoadOf(step, d.timeStep);
     const double before = cracked(state.crackRadius);
@@ -211,12 +217,15 @@ struct ViscoScram {
         .value("T0", &Self::shiftTemperature, 298, "K", "temperature of the given rates of relaxation")
         .value("C1", &Self::shift1, 6.5, "1", "first constant of Williams, Landel & Ferry")
         .value("C2", &Self::shift2, 120, "K", "second constant of Williams, Landel & Ferry", input::positive())
+        .value("CoeffThermalExpansion", &Self::thermalExpansion, 0, "1/K",
+               "growth of lengths with the temperature; heat strains the material", input::nonNegative())
         .ignored("Beta", "Uintah does not use it either")
         .ignored("DCp_DTemperature", "Uintah does not use it either")
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
         .ignored("useObjectiveRate", "stresses always rotate with the material");
+    for (const char* tag : {"Chi", "delH", "Z", "EoverR", "dynamic_coeff_friction", "volfracHE"})
+      tags.ignored(tag, "belongs to the hot spots of Uintah's visco_scram_hs");
     refuseSwitch(tags, "randomize_parameters", "all particles have the given moduli");
-    refuseSwitch(tags, "CoeffThermalExpansion", "heat does not strain the material");
     for (const char* tag : {"useMurnahanEOS", "useBirchMurnaghanEOS", "useJWLEOS", "useJWLCEOS", "gamma", "P0",
                             "bulkPrime", "A", "B", "C", "R1", "R2", "om", "Cv"})
       tags.ignored(tag, "only Uintah's coupled fluid reads it");
@@ -240,5 +249,52 @@ struct ViscoScram {
   }
 };
 static_assert(ConstitutiveModel<ViscoScram>);
+
+/// The same of a material that heat expands: the rate of strain that makes stress is D - alpha dT/dt I, as in Uintah
+/// with T at the start of a step and of the one before.
+struct ExpandingViscoScram {
+  struct State {
+    ViscoScram::State scram;
+    double temperature;  ///< at the start of the last step, K; -1 before the first one
+  };
+  using Capabilities =
+      CapabilityList<capability::BulkSpeed, capability::InitialWaveSpeed, capability::TemperatureChange>;
+  static constexpr auto stateVariables = [] {
+    std::array<StateVariable, ViscoScram::stateVariables.size() + 1> all;
+    std::copy(ViscoScram::stateVariables.begin(), ViscoScram::stateVariables.end(), all.begin());
+    all.back() = {"p.temperatureOfStrain", "K", "temperature to which the material has expanded"};
+    return all;
+  }();
+  static constexpr std::string_view name = ViscoScram::name;
+  static constexpr bool strainEnergyIsRate = ViscoScram::strainEnergyIsRate;
+
+  ViscoScram scram;
+
+  static const input::Schema<ExpandingViscoScram>& schema() {
+    static const input::Schema<ExpandingViscoScram> schema{name, "Read as visco_scram."};
+    return schema;
+  }
+  State initialState() const { return {scram.initialState(), -1}; }
+  Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
+    const double rise = state.temperature >= 0 ? d.temperature - state.temperature : 0;
+    state.temperature = d.temperature;
+    return scram.updateStress(d, oldStress, state.scram, scram.thermalExpansion * rise);
+  }
+  double initialWaveSpeed(double initialDensity) const { return scram.initialWaveSpeed(initialDensity); }
+  double waveSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State& state) const {
+    return scram.waveSpeed(initialDensity, d, stress, state.scram);
+  }
+  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State& state) const {
+    return scram.bulkSpeed(initialDensity, d, stress, state.scram);
+  }
+  double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress,
+                             const State& state) const {
+    return scram.strainEnergyDensity(d, oldStress, stress, state.scram);
+  }
+  double temperatureChange(const Deformation& d, const Matrix3& stress, const State& state) const {
+    return scram.temperatureChange(d, stress, state.scram);
+  }
+};
+static_assert(ConstitutiveModel<ExpandingViscoScram>);
 
 }  // namespace tushar::mpm::solid

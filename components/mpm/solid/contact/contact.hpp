@@ -53,7 +53,8 @@ struct Contact {
   Profile<double> frictionOfColor;  ///< mu over p.color of the master instead of time; empty: mu is `friction`
   bool onlyOnApproach = false;      ///< friction: bodies that the stress presses together may separate
   bool normalsInCells =
-      false;  ///< friction: mass gradients are taken per cell, not per m, as axisymmetric ones in Uintah
+      false;              ///< friction: mass gradients are taken per cell, not per m, as axisymmetric ones in Uintah
+  bool oneNormal = true;  ///< friction: bodies that meet share their normal; otherwise each has its own
   bool keepsMomentum = false;   ///< friction: one normal for all, which are pressed if the stresses of all press
   double separationFactor = 0;  ///< friction: bodies farther apart than this many cells do not touch
   double volumeConstraint =

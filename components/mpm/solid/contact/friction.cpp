@@ -62,13 +62,13 @@ bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) 
   return traction < -leastTraction;
 }
 
-/// The normal out of a body at a node; 0 if its mass has no gradient.
+/// The normal out of a body at a node, shared with the others there or its own; 0 if its mass has no gradient.
 template <int D>
 Vec<D> normalOf(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
                 std::size_t m, const Index<D>& node) {
   Vec<D> others = Vec<D>::Zero();
   double mass = 0;
-  for (std::size_t n = 0; n < records.size(); ++n) {
+  for (std::size_t n = 0; n < records.size() && contact.oneNormal; ++n) {
     if (n == m) continue;
     others += records[n][node][lane::mass] * surfaces[n].massGradient[node];
     mass += records[n][node][lane::mass];

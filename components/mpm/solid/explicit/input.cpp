@@ -33,7 +33,7 @@ struct MpmSection {
   Interpolator interpolator = Interpolator::linear;
   bool artificialViscosity = false, withColor = false, axisymmetric = false, useLoadCurves = false;
   bool conductsHeat = true, loadsAtCorners = false, xpic = false, affine = false, projectsGradient = false,
-       contactHeats = false, sharesVolume = false, turnsPressures = false;
+       contactHeats = false, sharesVolume = false, turnsPressures = false, oneNormal = true;
   std::optional<bool> viscosityHeats;
   double picFraction = 0;
   StressUpdate stressUpdate = StressUpdate::last;
@@ -113,6 +113,9 @@ void addSurroundings(Schema<MpmSection>& mpm) {
           "DoPressureStabilization", &MpmSection::sharesVolume, false, "1",
           "the particles of a cell change their volume as one, so that a nearly incompressible body can bend and shear")
       .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
+      .value("computeColinearNormals", &MpmSection::oneNormal, true, "1",
+             "contacts of type friction, friction_bard and approach: the bodies that meet at a node share one normal; "
+             "false: each slides along its own surface")
       .value("use_CBDI_boundary_condition", &MpmSection::loadsAtCorners, false, "1",
              "pressures act at the corners of the faces of particles, and grow with these (Sadeghirad, Brannon & "
              "Guilkey 2013). As in Uintah a particle without a face within 26 degrees of the surface bears none, and a "
@@ -194,7 +197,6 @@ void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& d
 void addForeign(Schema<MpmSection>& mpm) {
   addForeignTags(mpm);
   for (const char* tag : implicitOnly) mpm.ignored(tag, "belongs to the implicit method");
-  requireSwitch(mpm, "computeColinearNormals", "both sides of a contact have one normal");
   requireSwitch(mpm, "do_grid_reset", "the grid returns to its place after each step");
   mpm.custom("cpdi_lcrit", refuseShortDomains, {"cpdi_lcrit"},
              "at least 3^(1/2): no domain of cpdi reaches farther than a cell from its middle along an axis")
@@ -327,6 +329,7 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
   for (Contact& contact : problem.contacts) {
     contact.actsTwice = contact.actsTwice || (read.xpic && contact.type != Contact::Type::planeFriction);
     contact.normalsInCells = read.axisymmetric;
+    contact.oneNormal = read.oneNormal;
     if (contact.hasMaster()) problem.materials[contact.master].isRigid = true;  // as in Uintah
   }
   problem.method.thermalContact = properties.mpm.thermalContact.has_value();

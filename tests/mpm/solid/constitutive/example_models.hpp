@@ -115,6 +115,12 @@ inline ViscoScram explosive() {
   model.material = {2, 0.5, 2000, 294};
   return model;
 }
+/// The same that grows by a part in 1000 with each K: K = 6.5 Pa.
+inline ExpandingViscoScram hotExplosive() {
+  ExpandingViscoScram model{explosive()};
+  model.scram.thermalExpansion = 1e-3;
+  return model;
+}
 /// Ice of the scene that Uintah ships, suvic_10minus4.ups.
 inline ViscoPlastic ice() {
   ViscoPlastic model;

@@ -166,6 +166,44 @@ TEST(MaterialInput, NotesWhatDoesNotExpand) {
   EXPECT_NE(diagnostics.notes()[0].sentence.find("as in Uintah, only comp_neo_hook"), std::string::npos);
 }
 
+/// Tags of visco_scram with one Maxwell element, and further ones.
+std::string crackingTags(const std::string& more) {
+  std::string tags =
+      "<PR>0.3</PR><CrackParameterA>1e-3</CrackParameterA><CrackPowerValue>10</CrackPowerValue>"
+      "<CrackMaxGrowthRate>300</CrackMaxGrowthRate><StressIntensityF>1e5</StressIntensityF>"
+      "<CrackFriction>0.35</CrackFriction><InitialCrackRadius>3e-5</InitialCrackRadius>"
+      "<CrackGrowthRate>1</CrackGrowthRate><Gamma>1</Gamma>";
+  for (const std::string n : {"1", "2", "3", "4", "5"})
+    tags += "<G" + n + ">1</G" + n + "><RTau" + n + ">0</RTau" + n + ">";
+  return tags + more;
+}
+
+TEST(MaterialInput, KeepsATemperatureOnlyWhereViscoScramExpands) {
+  const auto modelOf = [](const std::string& more) {
+    return materialsOf(sceneOf("visco_scram", crackingTags(more), "<specific_heat>5</specific_heat>"))[0].model;
+  };
+  const auto plain = modelOf(""), still = modelOf("<CoeffThermalExpansion>0</CoeffThermalExpansion>");
+  const auto grows = modelOf("<CoeffThermalExpansion>1e-4</CoeffThermalExpansion>");
+  EXPECT_EQ(still->stateSize(), plain->stateSize());
+  EXPECT_EQ(grows->stateSize(), plain->stateSize() + 1);
+  EXPECT_EQ(grows->stateVariables().back().label, "p.temperatureOfStrain");
+  const ViscoScram& scram = dynamic_cast<const ModelOf<ExpandingViscoScram>&>(*grows).model().scram;
+  EXPECT_EQ(scram.thermalExpansion, 1e-4);
+  EXPECT_EQ(scram.material.specificHeat, 5);
+}
+
+TEST(MaterialInput, PassesOverWordsThatUintahDoesNotReadEither) {
+  const std::string hotSpots =
+      "<Chi>0.8</Chi><delH>5e6</delH><Z>5e19</Z><EoverR>26500</EoverR>"
+      "<dynamic_coeff_friction>0.25</dynamic_coeff_friction><volfracHE>0.95</volfracHE>";
+  materialsOf(sceneOf("visco_scram", crackingTags(hotSpots)));
+  materialsOf(sceneOf("comp_neo_hook",
+                      moduli + std::string("<strain_limit>3</strain_limit>"
+                                           "<reduction_factor>1</reduction_factor>"),
+                      "<gamma>1.4</gamma>"));
+  materialsOf(sceneOf("hypo_elastic", "<K>7</K><G>3</G><useModifiedEOS>true</useModifiedEOS>"));
+}
+
 TEST(MaterialInput, SaysWhatThereIsInsteadOfAModelOfUintah) {
   expectProblem(sceneOf("camclay", ""), "the model 'camclay' of Uintah is not available; the nearest is MohrCoulomb");
   expectProblem(sceneOf("comp_neo_hok", ""), "did you mean 'comp_neo_hook'");

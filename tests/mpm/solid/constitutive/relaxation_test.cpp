@@ -182,6 +182,52 @@ TEST(ViscoScram, GrowsCracksAtTheGreatestSpeedUnderALargeStressAndMoreSlowlyUnde
   EXPECT_GT(growth(100), 0);
 }
 
+TEST(ExpandingViscoScram, BearsNoStressWhereItGrowsFreely) {
+  MaterialPoint<ExpandingViscoScram> point{hotExplosive()};
+  point.advance(Matrix3::Identity());
+  for (const double rise : {3.0, 7.0, -20.0}) {
+    point.temperature += rise;
+    point.advance((1 + 1e-3 * rise) * point.oldDeformation);
+    EXPECT_LT(point.oldStress.norm(), roundOff) << point.temperature;
+  }
+  EXPECT_EQ(point.oldState.temperature, 290);
+  EXPECT_EQ(point.oldState.scram.crackRadius, 1e-3) << "nothing opens the cracks";
+}
+
+TEST(ExpandingViscoScram, IsPressedByHeatWhereItCannotGrow) {
+  MaterialPoint<ExpandingViscoScram> point{hotExplosive()};
+  for (const double temperature : {300.0, 310.0, 305.0}) {
+    point.temperature = temperature;
+    point.advance(Matrix3::Identity());
+    const Matrix3 expected = -3 * 6.5 * 1e-3 * (temperature - 300) * Matrix3::Identity();
+    EXPECT_LT((point.oldStress - expected).norm(), roundOff) << temperature;
+  }
+}
+
+/// The temperature of the first step is the one at which it has no strain, also at 0 K.
+TEST(ExpandingViscoScram, StartsWithoutStrainAtAnyTemperature) {
+  for (const double start : {0.0, 300.0}) {
+    MaterialPoint<ExpandingViscoScram> point{hotExplosive()};
+    point.temperature = start;
+    point.advance(Matrix3::Identity());
+    EXPECT_EQ(point.oldStress.norm(), 0);
+    point.temperature = start + 10;
+    point.advance(Matrix3::Identity());
+    EXPECT_NEAR(point.oldStress.trace() / 3, -3 * 6.5 * 1e-2, roundOff);
+  }
+}
+
+TEST(ExpandingViscoScram, IsViscoScramAtOneTemperature) {
+  MaterialPoint<ExpandingViscoScram> point{hotExplosive()};
+  MaterialPoint<ViscoScram> other{explosive()};
+  for (const double size : {0.01, 0.02, 0.03}) {
+    point.advance(generalDeformation(size));
+    other.advance(generalDeformation(size));
+    EXPECT_EQ(point.oldStress, other.oldStress);
+    EXPECT_EQ(point.oldState.scram.crackRadius, other.oldState.crackRadius);
+  }
+}
+
 TEST(ViscoPlastic, CreepsUnderTheStressAtWhichItsInternalStressesSaturate) {
   MaterialPoint<ViscoPlastic> point{ice()};
   const double rate = 1e-4;

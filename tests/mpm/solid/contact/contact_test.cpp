@@ -141,6 +141,16 @@ TEST(Friction, TakesHalfTheDifferenceOfMassGradientsForANormal) {
   EXPECT_LT((bodies.velocity(1) - Vec<2>(-0.2, -0.4)).norm(), roundOff);
 }
 
+TEST(Friction, TakesTheOwnNormalOfEachBodyIfItSaysSo) {
+  TwoBodies bodies;
+  bodies.contact.oneNormal = false;
+  bodies.at(bodies.massGradient[1]) = Vec<2>(2, 2);  // beside (0, -2): the bodies slide along different planes
+  bodies.move(0, {0, -1});
+  bodies.slide();
+  EXPECT_LT((bodies.velocity(0) - Vec<2>(0, -0.5)).norm(), roundOff);
+  EXPECT_LT((bodies.velocity(1) - Vec<2>(-0.25, -0.25)).norm(), roundOff);
+}
+
 TEST(Friction, TakesNormalsPerCellIfItSaysSo) {
   grid::Domain domain = test::unitCells(2, 2);
   domain.upper = {2, 6, 0};  // cells of 1 by 3 m
