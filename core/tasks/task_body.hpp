@@ -16,7 +16,8 @@ class TaskBody {
   TaskBody() = default;
   template <class Function>
   requires(!std::is_same_v<Function, TaskBody>) TaskBody(Function function)
-      : function_(keep(new Function(std::move(function)), destroyerOf<Function>())), call_(call<Function>) {}
+      : function_(keep(std::make_unique<Function>(std::move(function)).release(), destroyerOf<Function>())),
+        call_(call<Function>) {}
 
   void operator()(const TaskContext& context) const { call_(function_.get(), context); }
   explicit operator bool() const { return call_ != nullptr; }
