@@ -4,6 +4,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
@@ -151,9 +152,12 @@ struct Line {
 
 constexpr std::string_view formatWord = "format ";
 
-/// The format of a manifest with these lines; 0 where it has no number.
+/// The format of a manifest with these lines; 0 if it has no number.
 int formatOf(const std::string& lines) {
-  return lines.starts_with(formatWord) ? std::atoi(lines.c_str() + formatWord.size()) : 0;
+  int format = 0;
+  if (lines.starts_with(formatWord))
+    std::from_chars(lines.data() + formatWord.size(), lines.data() + lines.size(), format);
+  return format;
 }
 
 std::vector<Line> linesOf(const std::string& text) {
