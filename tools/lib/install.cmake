@@ -12,8 +12,8 @@ install(FILES LICENSE DESTINATION share/doc/tushar RENAME copyright)
 
 # Headers: all but those that read headers of MPI, HDF5 and PETSc, which no component does, and that of all components.
 install(DIRECTORY core components DESTINATION include/tushar FILES_MATCHING PATTERN *.hpp
-        PATTERN core/base/mpi_native.hpp EXCLUDE PATTERN core/output/archive_hdf5* EXCLUDE
-        PATTERN core/output/archive_vtkhdf_* EXCLUDE PATTERN core/output/shared_hdf5.hpp EXCLUDE
+        PATTERN core/base/mpi_native.hpp EXCLUDE PATTERN core/output/archive_hdf5_handles.hpp EXCLUDE
+        PATTERN core/output/shared_hdf5.hpp EXCLUDE
         PATTERN core/collect/stored_state.hpp EXCLUDE PATTERN core/solvers/petsc* EXCLUDE
         PATTERN components/components.hpp EXCLUDE)
 install(FILES tests/support/levels.hpp tests/support/particles.hpp tests/support/run.hpp
