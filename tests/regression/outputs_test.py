@@ -11,7 +11,6 @@ from sus import ROOT, run
 
 FEW, MANY = 300, 900  # outputs: HDF5 takes most of its memory by the 256th
 GROWTH = 3e6  # bytes of memory more for MANY
-SLOWER = 2  # times as long for each output, on a busy machine
 CLAMPED = "Time/clamp_time_to_output=true"
 
 
@@ -45,7 +44,7 @@ class Outputs(unittest.TestCase):
         result = run("ups/heat/sine.ups", "DataArchiver/outputInterval=1e-12", "Time/max_Timesteps=3", outputs=True)
         self.assertEqual(len([name for name in result.files if name.endswith(".h5")]), 4)
 
-    def test_many_outputs_take_as_much_memory_and_time_for_each_as_few(self):
+    def test_many_outputs_need_no_more_memory_than_few(self):
         """The lists of outputs, XDMF and VTKHDF, are on the disk."""
         for scene in ("ups/mpm/sod.ups", "ups/euler/sod_levels.ups"):
             reports = []
@@ -57,7 +56,6 @@ class Outputs(unittest.TestCase):
                 reports.append(result.report)
             few, many = reports
             self.assertLess(many["memory"]["peak"] - few["memory"]["peak"], GROWTH, scene)
-            self.assertLess(many["wall"]["output"] / MANY, SLOWER * few["wall"]["output"] / FEW, scene)
 
     def test_the_fingerprint_of_a_scene_without_state_covers_what_is_saved(self):
         """No step of Poisson's equation needs one before."""
