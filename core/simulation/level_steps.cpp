@@ -25,25 +25,35 @@ int LevelSteps::levelsWithCells() const {
 }
 
 data::Minimum LevelSteps::stable() {
-  levels_ = levelsWithCells();
-  stable_.assign(static_cast<std::size_t>(levels_), std::nullopt);
+  const grid::BlockTree& tree = run_.problem.grid->tree();
+  if (tree_ != tree) {
+    tree_ = tree;
+    levels_ = levelsWithCells();
+    stable_.assign(static_cast<std::size_t>(levels_), std::nullopt);
+  }
+  findStableOfAll({.step = run_.time.step() + 1, .time = run_.time.time()});
   data::Minimum least;
   for (int level = 0; level < levels_; ++level) {
-    data::Minimum ofLevel = stableOf({.step = run_.time.step() + 1, .time = run_.time.time(), .level = level});
+    data::Minimum ofLevel = *stable_[static_cast<std::size_t>(level)];
     ofLevel.value = std::ldexp(ofLevel.value, level);
     least.merge(ofLevel);
   }
   return least;
 }
 
-const data::Minimum& LevelSteps::stableOf(const tasks::StepInfo& at) {
+std::optional<data::Minimum> LevelSteps::findStable(const tasks::StepInfo& at) {
   std::optional<data::Minimum>& known = stable_[static_cast<std::size_t>(at.level)];
-  if (!known) {
-    run_.warehouse.resetReduction(number(data::delT));
-    run_.scheduler.run(run_.phases.stableTimeStep, at);
-    known = run_.warehouse.reduction<data::Minimum>(number(data::delT));
-  }
-  return *known;
+  if (known) return std::nullopt;
+  run_.warehouse.resetReduction(number(data::delT));
+  if (auto asked = run_.scheduler.run(run_.phases.stableTimeStep, at)) return asked;
+  known = run_.warehouse.reduction<data::Minimum>(number(data::delT));
+  return std::nullopt;
+}
+
+std::optional<data::Minimum> LevelSteps::findStableOfAll(tasks::StepInfo at) {
+  for (at.level = 0; at.level < levels_; ++at.level)
+    if (auto asked = findStable(at)) return asked;
+  return std::nullopt;
 }
 
 std::optional<data::Minimum> LevelSteps::advance(const tasks::StepInfo& whole) {
@@ -56,8 +66,11 @@ std::optional<data::Minimum> LevelSteps::advance(const tasks::StepInfo& whole) {
   std::optional<data::Minimum> asked;
   try {
     asked = advanceLevel(coarsest);
+    coarsest.time += whole.delT;
+    if (!asked) asked = findStableOfAll(coarsest);  // what leaves no stable step is repeated, or refused, with its step
   } catch (const NumericalError&) {
     before.restore();
+    stable_ = stableBefore;
     throw;
   }
   run_.scheduler.forgetNew(graph);
@@ -89,6 +102,7 @@ std::optional<data::Minimum> LevelSteps::advanceFiner(const tasks::StepInfo& coa
     const double rest = coarser.delT - done;
     at.time = coarser.time + done;
     at.part = done / coarser.delT;
+    if (auto asked = findStable(at)) return asked;
     const int steps = stepsThatFill(rest, longestStep(rest, at), at.part == 0);
     at.delT = rest / steps;
     if (auto asked = advanceLevel(at)) return asked;
@@ -97,9 +111,9 @@ std::optional<data::Minimum> LevelSteps::advanceFiner(const tasks::StepInfo& coa
   return std::nullopt;
 }
 
-double LevelSteps::longestStep(double rest, const tasks::StepInfo& next) {
+double LevelSteps::longestStep(double rest, const tasks::StepInfo& next) const {
   constexpr double most = 1000;  // steps in one of the coarser level: signals do not get so much faster
-  const double stable = run_.problem.time.timestepMultiplier * stableOf(next).value;
+  const double stable = run_.problem.time.timestepMultiplier * stable_[static_cast<std::size_t>(next.level)]->value;
   if (!(stable * most > rest))
     throw NumericalError(fmt::format("the time step of level {} fell to {:.6g} s within one of {:.6g} s (step {}, time "
                                      "{:.6g} s)",

@@ -24,8 +24,9 @@ class LevelSteps {
   /// The longest step of the coarsest level [s] with which two steps of each level in one of the next coarser are
   /// stable, and what limits it.
   data::Minimum stable();
-  /// Advances the old state of all levels by the step of the coarsest, `whole.delT`. If a task requests a smaller one,
-  /// returns its factor and reason; then, and if a NumericalError comes out, the old state is as it was.
+  /// Advances the old state of all levels by the step of the coarsest, `whole.delT`; the new state has stable steps. If
+  /// a task requests a smaller one, returns its factor and reason; then, and if a NumericalError comes out, the old
+  /// state is as it was.
   std::optional<data::Minimum> advance(const tasks::StepInfo& whole);
 
   /// Steps of each level in the last step of the coarsest; 0 for those that have no cells.
@@ -35,17 +36,19 @@ class LevelSteps {
   /// Makes a step of a level, and those of the finer ones within it.
   std::optional<data::Minimum> advanceLevel(const tasks::StepInfo& at);
   std::optional<data::Minimum> advanceFiner(const tasks::StepInfo& coarser);
-  /// What the state of a level allows, s.
-  const data::Minimum& stableOf(const tasks::StepInfo& at);
+  /// Computes what the state of a level allows, unless that is known.
+  std::optional<data::Minimum> findStable(const tasks::StepInfo& at);
+  std::optional<data::Minimum> findStableOfAll(tasks::StepInfo at);
   /// The longest step of a level [s] with the scene's multiplier. Throws NumericalError if it is far below the rest of
   /// the coarser one.
-  double longestStep(double rest, const tasks::StepInfo& next);
+  double longestStep(double rest, const tasks::StepInfo& next) const;
   int levelsWithCells() const;
   int number(const data::Label& label) { return run_.table.number(label, -1); }
 
   RunState& run_;
+  std::optional<grid::BlockTree> tree_;               ///< of the state that `stable_` is of
   int levels_ = 1;                                    ///< that have cells
-  std::vector<std::optional<data::Minimum>> stable_;  ///< by level: of its state as it is now, where that is known
+  std::vector<std::optional<data::Minimum>> stable_;  ///< by level, s: of its state as it is now, where that is known
   std::vector<int> steps_;
 };
 
