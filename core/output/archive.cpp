@@ -121,10 +121,8 @@ void Archive::flush() {
   if (state_->vtkhdf_pace.isBehind()) state_->writeVtkHdfFiles();
 }
 
-/// The VTKHDF files are not brought up to date for it: a run that continues from here writes them again.
+/// The lists keep their pace: a run that continues from here takes that of the checkpoint, and writes the others again.
 ArchivePoint Archive::sync(int step, double time) {
-  if (state_->pace.isBehind()) state_->writeLists();
-  keepUp();
   state_->globals.sync();
   syncToDisk(state_->folder);
   return {step, time, state_->index.text()};

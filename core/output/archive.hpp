@@ -71,8 +71,8 @@ class Archive {
   void keepUp();
   /// Writes them if they are out of date.
   void flush();
-  /// Writes them, and waits until the lines of globals are on the disk. Returns the extent of the archive then: kept in
-  /// a checkpoint, it replaces lists that a power cut destroys. Outputs may go with it, except for those of the last
+  /// Waits until the lines of globals are on the disk. Returns the extent of the archive then: kept in a checkpoint, it
+  /// replaces lists that are out of date, or that a power cut destroys. Outputs may go with it, except for those of the last
   /// seconds only.
   ArchivePoint sync(int step, double time);
 
