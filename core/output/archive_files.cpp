@@ -25,6 +25,19 @@ namespace {
 
 std::error_code lastError() { return {errno ? errno : EIO, std::generic_category()}; }
 
+/// Whether all of `size` bytes pass: `call(done)` passes some of those after `done`, as read and write do.
+template <class Call>
+bool isWhole(std::size_t size, const Call& call) {
+  for (std::size_t done = 0; done < size;) {
+    errno = 0;
+    const ssize_t now = call(done);
+    if (now < 0 && errno == EINTR) continue;
+    if (now <= 0) return false;
+    done += static_cast<std::size_t>(now);
+  }
+  return true;
+}
+
 /// A folder with a greater number was made by another run.
 constexpr int greatestNumber = 999'999'999;
 
@@ -100,9 +113,7 @@ void pointLink(const fs::path& filebase, const fs::path& folder) {
 }
 
 void replaceFile(const fs::path& file, const std::string& text) {
-  const fs::path temporary = temporaryOf(file);
-  writeText(temporary, text);
-  moveInto(temporary, file);
+  replaceFile(file, [&](std::ostream& out) { out << text; });
 }
 
 void replaceFile(const fs::path& file, const std::function<void(std::ostream&)>& write) {
@@ -129,13 +140,8 @@ AppendFile::~AppendFile() {
 }
 
 void AppendFile::append(std::string_view text) {
-  while (!text.empty()) {
-    errno = 0;
-    const ssize_t done = ::write(descriptor_, text.data(), text.size());
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) fail("write", path_, lastError());
-    text.remove_prefix(static_cast<std::size_t>(done));
-  }
+  const auto write = [&](std::size_t done) { return ::write(descriptor_, text.data() + done, text.size() - done); };
+  if (!isWhole(text.size(), write)) fail("write", path_, lastError());
 }
 
 void AppendFile::sync() const {
@@ -153,26 +159,19 @@ std::uint64_t Scratch::append(std::span<const std::byte> bytes) {
     ::unlink(path_.c_str());
   }
   const std::uint64_t first = size_;
-  while (!bytes.empty()) {
-    errno = 0;
-    const ssize_t done = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(size_));
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) fail("write", path_, lastError());
-    size_ += static_cast<std::uint64_t>(done);
-    bytes = bytes.subspan(static_cast<std::size_t>(done));
-  }
+  const auto write = [&](std::size_t done) {
+    return ::pwrite(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(first + done));
+  };
+  if (!isWhole(bytes.size(), write)) fail("write", path_, lastError());
+  size_ += bytes.size();
   return first;
 }
 
 void Scratch::read(std::uint64_t first, std::span<std::byte> to) const {
-  while (!to.empty()) {
-    errno = 0;
-    const ssize_t done = ::pread(descriptor_, to.data(), to.size(), static_cast<off_t>(first));
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) fail("read", path_, lastError());
-    first += static_cast<std::uint64_t>(done);
-    to = to.subspan(static_cast<std::size_t>(done));
-  }
+  const auto read = [&](std::size_t done) {
+    return ::pread(descriptor_, to.data() + done, to.size() - done, static_cast<off_t>(first + done));
+  };
+  if (!isWhole(to.size(), read)) fail("read", path_, lastError());
 }
 
 void moveInto(const fs::path& temporary, const fs::path& file) {

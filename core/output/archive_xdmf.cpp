@@ -199,11 +199,13 @@ void XdmfIndex::resume(const ArchiveIndex& index) {
   }
   for (const int step : index.steps()) {
     if (shown.contains(step)) continue;
+    std::optional<Snapshot> head;
     try {
-      add(readHead(file_.parent_path() / outputName(step), index));
+      head = readHead(file_.parent_path() / outputName(step), index);
     } catch (const FileError&) {
       // It cannot be shown then, and has been removed or damaged by others.
     }
+    if (head) add(*head);
   }
 }
 
