@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -154,9 +155,9 @@ constexpr std::string_view formatWord = "format ";
 
 /// The format of a manifest with these lines; 0 if it has no number.
 int formatOf(const std::string& lines) {
-  int format = 0;
-  if (lines.starts_with(formatWord))
-    std::from_chars(lines.data() + formatWord.size(), lines.data() + lines.size(), format);
+  if (!lines.starts_with(formatWord)) return 0;
+  int format = std::numeric_limits<int>::max();  // of a number beyond it, or of another word
+  std::from_chars(lines.data() + formatWord.size(), lines.data() + lines.size(), format);
   return format;
 }
 
@@ -175,8 +176,10 @@ Inspection inspectList(const fs::path& folder, std::string& lines) {
   lines = text->substr(0, end == std::string::npos ? 0 : end + 1);
   if (lines.empty() || *text != lines + lastLine(lines))
     return {fmt::format("the content of {} has changed", manifestName)};
-  if (const int found = formatOf(lines); found > manifestFormat)
-    return {fmt::format("manifest has format {}, but this sus reads formats up to {}", found, manifestFormat), true};
+  if (formatOf(lines) > manifestFormat)
+    return {fmt::format("manifest has {}, but this sus reads formats up to {}", lines.substr(0, lines.find('\n')),
+                        manifestFormat),
+            true};
   for (const Line& line : linesOf(lines)) {
     if (line.isOfPart()) continue;
     std::error_code error;

@@ -50,10 +50,11 @@ std::string textOf(const Json& runs) { return runs.dump(1, ' ', false, Json::err
 
 std::string RunLog::refusalOf(const std::string& text) {
   const Json found = Json::parse(text, nullptr, false);
-  if (!found.is_object() || !found.contains("format") || !found["format"].is_number_integer()) return "";
-  const auto number = found["format"].get<long>();
-  if (number <= format) return "";
-  return fmt::format("the archive has format {} of run.json, but this sus reads formats up to {}", number, format);
+  if (!found.is_object() || !found.contains("format")) return "";
+  const Json& number = found["format"];
+  if (number.is_number_integer() && number.get<double>() <= format) return "";
+  return fmt::format("the archive has format {} of run.json, but this sus reads formats up to {}", number.dump(),
+                     format);
 }
 
 RunLog::RunLog(const fs::path& folder, const RunRecord& record) : file_(folder / "run.json") {

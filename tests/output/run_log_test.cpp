@@ -91,6 +91,8 @@ TEST(RunLog, RefusesAFileOfANewerVersion) {
   EXPECT_EQ(RunLog::refusalOf(R"({"format": 1, "runs": []})"), "");
   EXPECT_EQ(RunLog::refusalOf(R"({"format": 3, "runs": []})"), "");
   EXPECT_EQ(RunLog::refusalOf("{"), "");
+  for (const std::string other : {"4.5", "\"4\"", "99999999999999999999"})
+    EXPECT_NE(RunLog::refusalOf("{\"format\": " + other + ", \"runs\": []}"), "") << other;
 }
 
 }  // namespace tushar::output
