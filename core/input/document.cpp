@@ -50,10 +50,19 @@ struct FoundFile {
   bool hasMoved = false;  ///< it was found elsewhere
 };
 
-/// Whether there is a file or, as a surface of triangles is named, a pair of files of that name, NAME.pts and NAME.tri.
+bool isFile(const std::filesystem::path& path) {
+  std::error_code unreadable;
+  return std::filesystem::is_regular_file(path, unreadable);
+}
+
+/// Whether there is a pair of files of that name, as a surface of triangles is named: NAME.pts and NAME.tri.
+bool isPair(const std::filesystem::path& path) {
+  return isFile(path.string() + ".pts") && isFile(path.string() + ".tri");
+}
+
 bool isThere(const std::filesystem::path& path) {
   std::error_code unreadable;
-  return std::filesystem::exists(path, unreadable) || std::filesystem::exists(path.string() + ".pts", unreadable);
+  return std::filesystem::exists(path, unreadable) || isPair(path);
 }
 
 /// Finds a file that a tag of the scene `scene` names: beside the scene, in a folder above it, where the run is started
@@ -67,7 +76,7 @@ FoundFile findFile(const std::string& path, const std::string& scene) {
   const std::filesystem::path here = at(std::filesystem::current_path(unreadable));
   if (isThere(here)) return {here.string()};
   const std::filesystem::path moved = beside / std::filesystem::path(path).filename();
-  if (std::filesystem::is_regular_file(moved, unreadable) || isThere(moved)) return {moved.string(), true};
+  if (isFile(moved) || isPair(moved)) return {moved.string(), true};
   return {at(beside).string()};
 }
 

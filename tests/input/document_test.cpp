@@ -82,8 +82,9 @@ TEST(Document, FindsTheFilesOfASurfaceAboveAndBesideTheScene) {
   const std::filesystem::path above = test::newFolder("surfaces"), beside = above / "scenes" / "hearts";
   std::filesystem::create_directories(beside);
   std::filesystem::create_directories(above / "parts");
-  for (const std::filesystem::path& points : {above / "parts" / "heart.pts", beside / "moved.pts"})
-    std::ofstream(points) << "0 0 0\n";
+  for (const std::filesystem::path& surface : {above / "parts" / "heart", beside / "moved"})
+    for (const char* end : {".pts", ".tri"}) std::ofstream(surface.string() + end) << "0 0 0\n";
+  std::filesystem::create_directories(beside / "folder");
   Diagnostics diagnostics;
   const auto found = [&](const std::string& name) {
     const Document document =
@@ -96,6 +97,7 @@ TEST(Document, FindsTheFilesOfASurfaceAboveAndBesideTheScene) {
   EXPECT_FALSE(diagnostics.any());
   EXPECT_EQ(found("elsewhere/moved"), (beside / "moved").string());
   EXPECT_EQ(found("parts/none"), (beside / "parts" / "none").string());
+  EXPECT_EQ(found("parts/folder"), (beside / "parts" / "folder").string());  // beside the scene, but not a file
 }
 
 TEST(Document, SaysThatAFileIsEmpty) {
