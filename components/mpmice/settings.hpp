@@ -29,7 +29,7 @@ inline constexpr double leastFreeVolume = offRoundShares;
 inline constexpr double wholeFreeVolume = 1 - offRoundShares;
 /// A cell with a smaller fraction of free volume gives its gas to a neighbour.
 inline constexpr double smallFreeVolume = 0.5 - offRoundShares;
-/// In a step, an open face lets out up to twice this share of a cell that gives to no neighbour.
+/// The greatest cfl: with it an open face lets out at most all that a half-full cell holds.
 inline constexpr double greatestCfl = 0.5;
 /// A smaller closed hole keeps its contents.
 inline constexpr double narrowFreeVolume = 0.2 - offRoundShares;

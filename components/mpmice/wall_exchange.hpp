@@ -180,7 +180,8 @@ class WallExchange {
     if (!(mass > 0)) return std::nullopt;
     return Gift{cells_.contentOf(donor, wanted->u[euler::kDensity] / mass), mass / std::max(mass, massAskedOf(donor))};
   }
-  /// The mass that a donor would give through all its faces, kg/m³, and a little more.
+  /// The mass that a donor would give through all its faces, kg/m³, and a little more: closed pores count, though they
+  /// get none.
   double massAskedOf(const Index<D>& donor) const {
     double mass = 0;
     for (int d = 0; d < D; ++d)
@@ -198,9 +199,11 @@ class WallExchange {
   /// Whether gas is where cells are mostly free after the step: in this cell, or in one beside it, over a
   /// corner too, that it shares with.
   bool isBesideRoom(const Index<D>& cell) const {
-    bool any = false;
-    forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)),
-               [&](const Index<D>& at) { any |= step_.newFree[at] >= smallFreeVolume && cells_.held.density[at] > 0; });
+    const auto hasRoom = [&](const Index<D>& at) {
+      return step_.newFree[at] >= smallFreeVolume && cells_.held.density[at] > 0;
+    };
+    bool any = hasRoom(cell);
+    if (!any) forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) { any |= hasRoom(at); });
     return any;
   }
 

@@ -54,8 +54,8 @@ class ImplicitSteps(SceneTest):
 
     def test_let_a_slow_piston_press_without_heat(self):
         errors = fsi.slow_piston(55)
-        self.assertLess(errors["ahead"], 1.5 * 1.6e-3)
-        self.assertLess(errors["behind"], 1.5 * 7.2e-4)
+        self.assertLess(errors["ahead"], 1.5 * 6.1e-4)
+        self.assertLess(errors["behind"], 1.5 * 2.9e-4)
         self.assertLess(errors["steps"], 400)
 
     def test_drive_a_piston(self):

@@ -185,7 +185,7 @@ void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, c
   refuseGas<D>(level, gas, cell, free, density, last);
 }
 
-/// What a closed hole has left of a gas that has flown out: less than a number can tell from none. It holds nothing.
+/// A density in a cell's content that counts as none, kg/m³: halving what a hole has left would go on for ever.
 inline constexpr double nothingLeft = 1e-100;
 
 /// Empties a cell that has next to nothing left.
