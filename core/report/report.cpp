@@ -206,7 +206,8 @@ std::string rebalancingLine(const Report& report) {
 std::string compressionLine(const Compression& use) {
   if (use.bytes <= 0) return "";
   return fmt::format(
-      "  compression: {:.4g} MB became {:.4g}; packing took {:.2f} ms, and writing about {:.2f} ms less\n",
+      "  compression: {:.4g} MB became {:.4g}; packing took {:.2f} ms on all ranks together, and writing about {:.2f} "
+      "ms less\n",
       1e-6 * use.bytes, 1e-6 * use.packed, 1e3 * use.packing, 1e3 * (use.savedSeconds() + use.packing));
 }
 
