@@ -47,7 +47,7 @@ class Lanes {
   void copyTo(double* to) const { std::memcpy(to, &values_, sizeof(values_)); }
 
   double operator[](int lane) const { return values_[lane]; }
-  const Register& all() const { return values_; }
+  const Register& values() const { return values_; }
 
   Lanes operator-() const { return -values_; }
   Lanes& operator+=(Lanes b) { return *this = *this + b; }
@@ -216,9 +216,9 @@ using LaneIntegers [[gnu::vector_size(Lanes::count * sizeof(int))]] = int;
 /// a b + c, rounded once where the processor can.
 [[gnu::always_inline]] inline Lanes multiplyAdd(Lanes a, Lanes b, Lanes c) {
 #if defined(__FMA__) && defined(__AVX512F__)
-  return Lanes((Lanes::Register)_mm512_fmadd_pd((__m512d)a.all(), (__m512d)b.all(), (__m512d)c.all()));
+  return Lanes((Lanes::Register)_mm512_fmadd_pd((__m512d)a.values(), (__m512d)b.values(), (__m512d)c.values()));
 #elif defined(__FMA__)
-  return Lanes((Lanes::Register)_mm256_fmadd_pd((__m256d)a.all(), (__m256d)b.all(), (__m256d)c.all()));
+  return Lanes((Lanes::Register)_mm256_fmadd_pd((__m256d)a.values(), (__m256d)b.values(), (__m256d)c.values()));
 #else
   return a * b + c;
 #endif

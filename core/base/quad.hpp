@@ -30,15 +30,6 @@ using QuadOfIntegers = int __attribute__((vector_size(16)));
 #endif
 }
 
-/// One number in all four lanes.
-[[gnu::always_inline]] inline Quad quadOf(double number) { return Quad{number, number, number, number}; }
-
-/// Lane `Which` four times.
-template <int Which>
-[[gnu::always_inline]] inline Quad broadcast(const Quad& a) {
-  return __builtin_shufflevector(a, a, Which, Which, Which, Which);
-}
-
 /// The components of a vector, padded with zeros, and a number in the last lane.
 template <int D>
 [[gnu::always_inline]] inline Quad quadOf(const Vec<D>& v, double number = 0) {

@@ -153,7 +153,7 @@ struct TensorShape {
       for (std::size_t d = 0; d < D; ++d) {
         const double origin = frame.origin[static_cast<int>(d)], inverse = frame.inverseSpacing[static_cast<int>(d)];
         if (!(Axisymmetric && d == 0))
-          first_[d] = Axis::fill(((x[d] - origin) * inverse).all(), size[d].all(), s_[d], ds_[d]);
+          first_[d] = Axis::fill(((x[d] - origin) * inverse).values(), size[d].values(), s_[d], ds_[d]);
         else if constexpr (Axisymmetric)
           fillRadially(origin, inverse, x[0], size[0]);
         for (Real& slope : ds_[d]) slope *= inverse;

@@ -133,21 +133,16 @@ struct OnFace {
   ReductionLabel<VectorSum> force;
   ReductionLabel<Sum> area;
 };
+/// `force` and `area` are the names of both.
+constexpr OnFace onFace(std::string_view force, std::string_view area) {
+  return {{force, "N", "force of the body on that face of the grid"},
+          {area, "m^2", "area of the body on that face of the grid"}};
+}
 /// The faces of the grid in the order x-, x+, y-, y+, z-, z+.
-inline constexpr std::array<OnFace, 6> onFaces{{
-    {{"BndyForce_xminus", "N", "force of the body on the face x-"},
-     {"BndyContactArea_xminus", "m^2", "area of the body on the face x-"}},
-    {{"BndyForce_xplus", "N", "force of the body on the face x+"},
-     {"BndyContactArea_xplus", "m^2", "area of the body on the face x+"}},
-    {{"BndyForce_yminus", "N", "force of the body on the face y-"},
-     {"BndyContactArea_yminus", "m^2", "area of the body on the face y-"}},
-    {{"BndyForce_yplus", "N", "force of the body on the face y+"},
-     {"BndyContactArea_yplus", "m^2", "area of the body on the face y+"}},
-    {{"BndyForce_zminus", "N", "force of the body on the face z-"},
-     {"BndyContactArea_zminus", "m^2", "area of the body on the face z-"}},
-    {{"BndyForce_zplus", "N", "force of the body on the face z+"},
-     {"BndyContactArea_zplus", "m^2", "area of the body on the face z+"}},
-}};
+inline constexpr std::array<OnFace, 6> onFaces{
+    onFace("BndyForce_xminus", "BndyContactArea_xminus"), onFace("BndyForce_xplus", "BndyContactArea_xplus"),
+    onFace("BndyForce_yminus", "BndyContactArea_yminus"), onFace("BndyForce_yplus", "BndyContactArea_yplus"),
+    onFace("BndyForce_zminus", "BndyContactArea_zminus"), onFace("BndyForce_zplus", "BndyContactArea_zplus")};
 }  // namespace total
 
 }  // namespace tushar::mpm::solid

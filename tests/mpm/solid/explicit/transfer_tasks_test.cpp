@@ -271,6 +271,25 @@ TEST(LimitVelocity, SlowsDownWhatHasBecomeFasterAndLeavesWhatWasFastBefore) {
   EXPECT_EQ(after[2][0], 9);
 }
 
+/// Speeds are looked at as many at a time as a register holds.
+TEST(CrossingRate, IsOfTheGreatestSpeedWhereverItStands) {
+  const Cloud<LinearShape<1>> cloud;
+  for (int count = 1; count <= 2 * Lanes::count + 1; ++count)
+    for (int place = 0; place < count; ++place) {
+      std::vector<double> speeds(count, 1);
+      const std::vector<Vec<1>> still(count, Vec<1>(0));
+      CrossingRate<1> alone(cloud.level), rate(cloud.level), unknown(cloud.level);
+      speeds[place] = 3;
+      rate.add(speeds.data(), still.data(), count);
+      alone.add(3, Vec<1>(0));
+      EXPECT_EQ(rate.time(), alone.time()) << place << " of " << count;
+      speeds[place] = std::nan("");
+      unknown.add(speeds.data(), still.data(), count);
+      EXPECT_FALSE(unknown.isKnown()) << place << " of " << count;
+      EXPECT_TRUE(std::isnan(unknown.time()));
+    }
+}
+
 TEST(CrossingRate, KnowsThatASpeedIsNoNumberWhateverFollows) {
   const Cloud<LinearShape<1>> cloud;
   CrossingRate<1> rate(cloud.level);

@@ -26,8 +26,8 @@ void interpolateToParticlesAndUpdate(const Patch& patch, const Material& materia
       patch, material, method, time, dt, u.state, [&](int p, int count, const auto& sums) {
         prefetch(u.newX.values(), p + count, count);
         prefetch(u.newVelocity.values(), p + count, count);
-        moveParticles<D>(dt, sums, count, u.state.x.values() + p, u.state.velocity.values() + p, u.newX.values() + p,
-                         u.newVelocity.values() + p);
+        moveGroup<D>(dt, sums, count, u.state.x.values() + p, u.state.velocity.values() + p, u.newX.values() + p,
+                     u.newVelocity.values() + p);
       });
 }
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include <limits>
+
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
@@ -29,22 +31,17 @@ class CrossingRate {
                                                : Lanes::of([&](int lane) { return c[k + std::min(lane, left - 1)]; });
       rates_ = greater(rates_, speed * inverse_width_);
       for (std::size_t d = 0; d < D; ++d)
-        rates_ = greater(rates_, (speed + max(velocity[d], -velocity[d])) * inverse_spacing_[static_cast<int>(d)]);
+        rates_ = greater(rates_, (speed + abs(velocity[d])) * inverse_spacing_[static_cast<int>(d)]);
     }
   }
-  /// Time in which the fastest crosses a cell, s; infinite without waves.
-  double time() const { return 1 / rate(); }
-  bool isKnown() const { return rate() == rate(); }
+  /// Time in which the fastest crosses a cell, s; infinite without waves, NaN if a speed is.
+  double time() const { return isKnown() ? 1 / greatest(rates_) : std::numeric_limits<double>::quiet_NaN(); }
+  bool isKnown() const { return all(rates_ >= rates_); }
 
  private:
+  /// A NaN stays.
   static Lanes greater(const Lanes& so_far, const Lanes& other) {
     return select(so_far > other, so_far, select(isNaN(so_far), so_far, other));
-  }
-  double rate() const {
-    Lanes rates = rates_;
-    if constexpr (Lanes::count > 4) rates = greater(rates, window<4>(rates, rates));
-    if constexpr (Lanes::count > 2) rates = greater(rates, window<2>(rates, rates));
-    return greater(rates, window<1>(rates, rates))[0];
   }
 
   double inverse_width_ = 0;

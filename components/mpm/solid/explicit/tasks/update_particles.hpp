@@ -66,14 +66,14 @@ template <int D>
 }
 
 template <int D>
-[[gnu::always_inline]] inline void moveParticles(double dt, const Gathered<D>& sums, int, const Vec<D>* x,
-                                                 const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
+[[gnu::always_inline]] inline void moveGroup(double dt, const Gathered<D>& sums, int, const Vec<D>* x,
+                                             const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
   moveParticle<D>(dt, sums, *x, *velocity, *newX, *newVelocity);
 }
 /// The same for `count` particles in a row.
 template <int D>
-[[gnu::always_inline]] inline void moveParticles(double dt, const GatheredLanes<D>& sums, int count, const Vec<D>* x,
-                                                 const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
+[[gnu::always_inline]] inline void moveGroup(double dt, const GatheredLanes<D>& sums, int count, const Vec<D>* x,
+                                             const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
   std::array<Lanes, D> at = vectorsOf<D>(x, count), v = vectorsOf<D>(velocity, count);
   for (std::size_t d = 0; d < D; ++d) {
     at[d] += dt * sums.after[d];
