@@ -72,8 +72,8 @@ class Archive {
   /// Writes them if they are out of date.
   void flush();
   /// Waits until the lines of globals are on the disk. Returns the extent of the archive then: kept in a checkpoint, it
-  /// replaces lists that are out of date, or that a power cut destroys. Outputs may go with it, except for those of the last
-  /// seconds only.
+  /// replaces lists that are out of date, or that a power cut destroys. Outputs may go with it, except for those of the
+  /// last seconds only.
   ArchivePoint sync(int step, double time);
 
   /// The folder of this run, `sod.uda.001`.

@@ -124,7 +124,7 @@ class LevelSteps(FolderTest):
         self.assertEqual(len(found), 1, found)
 
     def test_a_step_that_leaves_no_stable_step_is_undone(self):
-        """The fluxes of four levels leave a cell of Noh's shock no pressure, after all of them have made their steps."""
+        """The fluxes of four levels leave a cell of Noh's shock no pressure, when all of them have made their steps."""
         scene, sets = "ups/euler/noh_levels.ups", [OWN, REGRIDDER + "max_levels=4"]
         here = self.folder()
         code, err, report = here.finish([scene, "--output", here.path], sets)
