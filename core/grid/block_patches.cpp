@@ -38,7 +38,8 @@ class PatchMaker {
   }
 
   bool isFreeLeaf(const BlockId& block) const {
-    return tree_.levelAt(block) == block.level && !hasPatch_[placeOf(block)];
+    const int place = tree_.placeIfLeaf(block);
+    return place >= 0 && !hasPatch_[static_cast<std::size_t>(place)];
   }
 
   const BlockTree& tree_;

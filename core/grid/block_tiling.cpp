@@ -35,7 +35,8 @@ Tile BlockTiling::tile(int id) const {
 }
 
 int BlockTiling::patchOf(const BlockId& block) const {
-  return tree_.levelAt(block) == block.level ? patch_of_leaf_[tree_.placeOf(block)] : -1;
+  const int place = tree_.placeIfLeaf(block);
+  return place < 0 ? -1 : patch_of_leaf_[static_cast<std::size_t>(place)];
 }
 
 Tile BlockTiling::tileOf(int level, const Index3& cell) const {

@@ -131,7 +131,12 @@ int BlockTree::placeOf(const BlockId& leaf) const {
   return static_cast<int>(std::lower_bound(keys_.begin(), keys_.end(), keyOf(leaf)) - keys_.begin());
 }
 
-BlockTree BlockTree::regridded(const std::set<BlockId>& wanted, const std::set<BlockId>& kept) const {
+int BlockTree::placeIfLeaf(const BlockId& block) const {
+  const std::size_t place = static_cast<std::size_t>(placeOf(block));
+  return place < leaves_.size() && leaves_[place] == block ? static_cast<int>(place) : -1;
+}
+
+BlockTree BlockTree::regridded(const std::vector<BlockId>& wanted, const std::vector<BlockId>& kept) const {
   std::vector<Keys> refined(levels_);
   const auto add = [&](const BlockId& block) {
     if (block.level >= levels_ - 1) return;

@@ -3,7 +3,6 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "core/base/vec.hpp"
@@ -45,14 +44,16 @@ class BlockTree {
   int levelAt(const BlockId& block) const;
   /// Place of a leaf on the curve, from 0; the block must be a leaf, not the image of one.
   int placeOf(const BlockId& leaf) const;
+  /// The same of a block of the grid, -1 if it is no leaf.
+  int placeIfLeaf(const BlockId& block) const;
   /// Whether a block is refined. Along periodic axes, images count.
   bool isRefined(const BlockId& block) const { return levelAt(block) > block.level; }
 
   /// The tree in which all of `wanted` are refined, and those in `kept` that are refined now, and nothing else but
   /// what follows from that: ancestors, and neighbours of refined blocks, so that leaves that touch differ by one level
   /// at most. Images along periodic axes count as the blocks they are of; blocks of the last level, and blocks outside
-  /// the grid along other axes, are passed over. A function of its arguments alone.
-  BlockTree regridded(const std::set<BlockId>& wanted, const std::set<BlockId>& kept) const;
+  /// the grid along other axes, are passed over. Their order, and how often each is there, are of no consequence.
+  BlockTree regridded(const std::vector<BlockId>& wanted, const std::vector<BlockId>& kept) const;
 
   /// Leaves as numbers, sorted along the curve, for checkpoints and messages: the bits of the block's lower corner in
   /// blocks of the finest level, interleaved, z above y above x; below them four bits of level.

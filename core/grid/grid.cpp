@@ -61,7 +61,7 @@ void Grid::cutIntoBlocks() {
     for (int number = 0; number < region.level; ++number) {
       const Box cells = cellsWith(level(number), region);
       if (cells.empty()) continue;
-      forEach<3>(blocksOver(cells, blockCells), [&](const Index3& block) { fixed_blocks_.insert({number, block}); });
+      forEach<3>(blocksOver(cells, blockCells), [&](const Index3& block) { fixed_blocks_.push_back({number, block}); });
     }
   auto tiling =
       std::make_unique<BlockTiling>(BlockTree(dimension(), roots, periodic, levels()).regridded(fixed_blocks_, {}),

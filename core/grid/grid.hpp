@@ -3,7 +3,6 @@
 #include <deque>
 #include <memory>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "core/grid/block_tiling.hpp"
@@ -44,8 +43,8 @@ class Grid {
   /// Cells of a block along the kernel axes.
   const Index3& blockCells() const { return blocks_->blockCells(); }
   const BlockTiling& tiling() const { return *blocks_; }
-  /// Blocks that stay refined, as the regions of the scene say.
-  const std::set<BlockId>& fixedBlocks() const { return fixed_blocks_; }
+  /// Blocks that stay refined, as the regions of the scene say; some may be there twice.
+  const std::vector<BlockId>& fixedBlocks() const { return fixed_blocks_; }
   /// The patches of another tree.
   std::unique_ptr<BlockTiling> cut(BlockTree tree) const;
   /// Replaces the patches; returns the previous ones. Without given shares, ranks get as equal numbers of cells as the
@@ -105,7 +104,7 @@ class Grid {
   Share share_;
   std::unique_ptr<Tiling> tiling_;
   const BlockTiling* blocks_ = nullptr;  ///< the tiling, if there are several levels
-  std::set<BlockId> fixed_blocks_;
+  std::vector<BlockId> fixed_blocks_;
   std::optional<Partition> partition_;
   int first_patch_ = 0;
   std::vector<Patch> patches_;

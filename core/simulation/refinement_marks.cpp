@@ -36,7 +36,7 @@ double halfJump(const Neighbours& near, int components) {
 /// Half the difference of the outer two over the least size of the three: infinite beside 0.
 double relativeJump(double below, double middle, double above) {
   const double jump = 0.5 * std::abs(above - below);
-  return jump == 0 ? 0 : jump / std::min({std::abs(below), std::abs(middle), std::abs(above)});
+  return jump == 0 ? 0 : jump / std::min(std::min(std::abs(below), std::abs(middle)), std::abs(above));
 }
 
 double relativeJump(const Neighbours& near, int components) {
@@ -75,24 +75,43 @@ int markOf(const Criterion& criterion, std::span<const Neighbours> axes, std::sp
   return isBeyond(criterion.refine) ? 2 : isBeyond(criterion.coarsen) ? 1 : 0;
 }
 
-/// The same as raiseMarks for jumps of one number, in rows along the first axis: most criteria are of this kind.
+/// A jump from the `N` numbers of a cell and of the cells on both sides.
+template <int N>
+double jumpOf(const double* below, const double* middle, const double* above) {
+  if constexpr (N == 1) return relativeJump(*below, *middle, *above);
+  double sum = 0;
+  for (int k = 0; k < N; ++k) sum += (above[k] - below[k]) * (above[k] - below[k]);
+  return 0.5 * std::sqrt(sum);
+}
+
+/// The same as raiseMarks for jumps of `N` numbers, in rows along the first axis: most criteria are of this kind.
+template <int N>
 void raiseMarksOfJumps(const grid::Patch& patch, const Criterion& criterion, const data::Variable& values,
                        const data::Variable& marks) {
   const int dimension = patch.level().dimension();
   const grid::Box& stored = values.stored;
   const auto* numbers = reinterpret_cast<const double*>(values.values);
+  const double refine = criterion.refine, coarsen = criterion.coarsen;
   grid::forEachRow<3>(patch.cells(), [&](const Index3& first, int count) {
-    const double* row = numbers + stored.offset(first);
+    const double* row = numbers + stored.offset(first) * N;
     int* mark = reinterpret_cast<int*>(marks.values) + marks.stored.offset(first);
-    std::ptrdiff_t stride = 1;
-    for (int d = 0; d < dimension; stride *= stored.extent(d), ++d)
-      for (int k = 0; k < count; ++k) {
-        const int at = first[d] + (d == 0 ? k : 0);
-        const double middle = row[k], below = at > stored.lower[d] ? row[k - stride] : middle,
-                     above = at + 1 < stored.upper[d] ? row[k + stride] : middle;
-        const double value = relativeJump(below, middle, above);
-        mark[k] = std::max(mark[k], value > criterion.refine ? 2 : value > criterion.coarsen ? 1 : 0);
+    std::ptrdiff_t stride = N;
+    // Cells from one place in the row to another, with or without cells on both sides.
+    const auto raise = [&](int from, int to, bool hasBelow, bool hasAbove) {
+      const double *below = hasBelow ? row - stride : row, *above = hasAbove ? row + stride : row;
+      for (std::ptrdiff_t k = from; k < to; ++k) {
+        const double jump = jumpOf<N>(below + k * N, row + k * N, above + k * N);
+        mark[k] = std::max(mark[k], jump > refine ? 2 : jump > coarsen ? 1 : 0);
       }
+    };
+    const bool hasLower = first[0] > stored.lower[0], hasUpper = first[0] + count < stored.upper[0];
+    raise(0, 1, hasLower, hasUpper || count > 1);
+    raise(1, count - 1, true, true);
+    if (count > 1) raise(count - 1, count, true, hasUpper);
+    for (int d = 1; d < dimension; ++d) {
+      stride *= stored.extent(d - 1);
+      raise(0, count, first[d] > stored.lower[d], first[d] + 1 < stored.upper[d]);
+    }
   });
 }
 
@@ -103,8 +122,11 @@ void raiseMarks(const grid::Patch& patch, const BoundCriterion& bound, const dat
   const grid::Level& level = patch.level();
   const std::size_t dimension = level.dimension();
   const int components = bound.label->components;
-  if (components == 1 && bound.criterion.indicator == Indicator::jump)
-    return raiseMarksOfJumps(patch, bound.criterion, values, marks);
+  if (bound.criterion.indicator == Indicator::jump) {
+    if (components == 1) return raiseMarksOfJumps<1>(patch, bound.criterion, values, marks);
+    if (components == 2) return raiseMarksOfJumps<2>(patch, bound.criterion, values, marks);
+    if (components == 3) return raiseMarksOfJumps<3>(patch, bound.criterion, values, marks);
+  }
   std::array<Neighbours, 3> axes{};
   std::array<double, 3> spacing{};
   std::array<std::ptrdiff_t, 3> stride{components, 0, 0};

@@ -23,33 +23,49 @@ BlockId parentOf(BlockId block, int dimension) {
   return block;
 }
 
-/// Blocks as text, to be sent.
-std::string textOf(const std::set<BlockId>& blocks) {
-  std::string text;
-  for (const BlockId& block : blocks) text.append(reinterpret_cast<const char*>(&block), sizeof(block));
-  return text;
+/// Blocks as text, each once, to be sent.
+std::string textOf(std::vector<BlockId> blocks) {
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  return {reinterpret_cast<const char*>(blocks.data()), blocks.size() * sizeof(BlockId)};
 }
 
-void addBlocks(const std::string& text, std::set<BlockId>& blocks) {
-  for (std::size_t at = 0; at + sizeof(BlockId) <= text.size(); at += sizeof(BlockId)) {
-    BlockId block;
-    std::memcpy(&block, text.data() + at, sizeof(block));
-    blocks.insert(block);
+void addBlocks(const std::string& text, std::vector<BlockId>& blocks) {
+  const std::size_t before = blocks.size(), count = text.size() / sizeof(BlockId);
+  blocks.resize(before + count);
+  std::memcpy(blocks.data() + before, text.data(), count * sizeof(BlockId));
+}
+
+/// Cells of a patch along an axis that are as near to the same blocks.
+struct CellRun {
+  int first, last;             ///< places in the patch, [first, last)
+  std::pair<int, int> blocks;  ///< [lower, upper)
+};
+
+/// Raises marks of blocks, from `origin` on, to those of a row of cells; returns whether there are any.
+bool raiseMarksOfBlocks(const int* cells, const std::vector<CellRun>& runs, int origin, std::vector<int>& blocks) {
+  std::fill(blocks.begin(), blocks.end(), 0);
+  int any = 0;
+  for (const CellRun& run : runs) {
+    int most = 0;
+    for (int k = run.first; k < run.last; ++k) most = std::max(most, cells[k]);
+    any = std::max(any, most);
+    for (int at = run.blocks.first; most > 0 && at < run.blocks.second; ++at)
+      blocks[at - origin] = std::max(blocks[at - origin], most);
   }
+  return any > 0;
 }
 
 }  // namespace
 
-std::pair<int, int> MarkedBlocks::blocksAlong(const grid::Level& level, int axis, int cell, int distance) const {
+MarkedBlocks::Range MarkedBlocks::blocksAlong(const grid::Level& level, int axis, int cell, int distance) const {
   if (axis >= level.dimension()) return {0, 1};
-  const long cells = grid_.blockCells()[axis];
+  const long cells = grid_.blockCells()[axis], all = level.cells().extent(axis);
+  const bool isPeriodic = level.isPeriodic(axis);
+  if (isPeriodic && 2L * distance + 1 >= all) return {0, static_cast<int>(all / cells)};  // once around is enough
+  const long lower = isPeriodic ? long{cell} - distance : std::max(long{cell} - distance, 0L);
+  const long upper = isPeriodic ? long{cell} + distance : std::min(long{cell} + distance, all - 1);
   const auto blockOf = [&](long at) { return static_cast<int>(at >= 0 ? at / cells : -((cells - 1 - at) / cells)); };
-  distance = std::min(distance, level.cells().extent(axis));  // once around is enough
-  long lower = long{cell} - distance, upper = long{cell} + distance;
-  if (!level.isPeriodic(axis)) {
-    lower = std::max(lower, 0L);
-    upper = std::min(upper, level.cells().upper[axis] - 1L);
-  }
   return {blockOf(lower), blockOf(upper) + 1};
 }
 
@@ -59,68 +75,76 @@ Box MarkedBlocks::blocksNear(const grid::Level& level, const Index3& cell, int d
   return blocks;
 }
 
-template <class Visit>
-void MarkedBlocks::forEachNear(const grid::Level& level, const Box& blocks, int mark, Visit&& visit) {
-  const Seen now{level.number(),  mark,           blocks.lower[0], blocks.lower[1], blocks.lower[2], blocks.upper[0],
-                 blocks.upper[1], blocks.upper[2]};
-  if (!seen_.insert(now).second) return;
-  const Index3 count = grid_.tree().blocksOf(level.number());
-  grid::forEach<3>(blocks, [&](Index3 at) {
-    for (int d = 0; d < level.dimension(); ++d) at[d] = (at[d] % count[d] + count[d]) % count[d];
-    visit(BlockId{level.number(), at});
-  });
+BlockId MarkedBlocks::wrapped(BlockId image) const {
+  const Index3 count = grid_.tree().blocksOf(image.level);
+  for (int d = 0; d < grid_.dimension(); ++d) image.at[d] = (image.at[d] % count[d] + count[d]) % count[d];
+  return image;
 }
 
 void MarkedBlocks::add(const grid::Level& level, const Index3& cell, int mark) {
-  if (mark > 0) ask(level, blocksNear(level, cell, crossed(level) + dilation_), mark);
+  if (mark > 0)
+    grid::forEach<3>(blocksNear(level, cell, crossed(level) + dilation_), [&](const Index3& at) {
+      ask({level.number(), at}, mark);
+    });
 }
 
+/// Cells of a row mark blocks along the first axis, which then count for all rows of blocks near that row of cells: so
+/// each block is marked once, however many cells are near it.
 void MarkedBlocks::add(const grid::Patch& patch, const int* marks, const Box& stored) {
   const grid::Level& level = patch.level();
   const Box& cells = patch.cells();
-  std::array<std::vector<std::pair<int, int>>, 3> along;
-  for (int d = 0; d < 3; ++d)
-    for (int at = cells.lower[d]; at < cells.upper[d]; ++at)
-      along[d].push_back(blocksAlong(level, d, at, crossed(level) + dilation_));
-  const auto rangeOf = [&](int axis, int at) { return along[axis][at - cells.lower[axis]]; };
-  grid::forEachRow<3>(cells, [&](const Index3& first, int count) {
-    const int* row = marks + stored.offset(first);
-    Box blocks;
-    for (const int d : {1, 2}) std::tie(blocks.lower[d], blocks.upper[d]) = rangeOf(d, first[d]);
-    std::pair<int, int> last;
-    int lastMark = 0;
-    for (int k = 0; k < count; ++k) {
-      const std::pair<int, int> now = along[0][k];
-      if (row[k] == 0 || (row[k] == lastMark && now == last)) continue;
-      last = now;
-      lastMark = row[k];
-      std::tie(blocks.lower[0], blocks.upper[0]) = now;
-      ask(level, blocks, lastMark);
-    }
+  const auto blocksOf = [&](int d, int at) { return blocksAlong(level, d, at, crossed(level) + dilation_); };
+  std::vector<CellRun> runs;
+  for (int at = cells.lower[0]; at < cells.upper[0]; ++at) {
+    const int place = at - cells.lower[0];
+    if (const Range blocks = blocksOf(0, at); runs.empty() || runs.back().blocks != blocks)
+      runs.push_back({place, place, blocks});
+    runs.back().last = place + 1;
+  }
+  Box reached;
+  for (int d = 0; d < 3; ++d) {
+    reached.lower[d] = blocksOf(d, cells.lower[d]).first;
+    reached.upper[d] = blocksOf(d, cells.upper[d] - 1).second;
+  }
+  std::vector<int> found(reached.size(), 0), row(static_cast<std::size_t>(reached.extent(0)));
+  grid::forEachRow<3>(cells, [&](const Index3& first, int) {
+    if (!raiseMarksOfBlocks(marks + stored.offset(first), runs, reached.lower[0], row)) return;
+    Box rows = reached;
+    for (const int d : {1, 2}) std::tie(rows.lower[d], rows.upper[d]) = blocksOf(d, first[d]);
+    grid::forEachRow<3>(rows, [&](const Index3& start, int count) {
+      int* to = found.data() + reached.offset(start);
+      for (int k = 0; k < count; ++k) to[k] = std::max(to[k], row[static_cast<std::size_t>(k)]);
+    });
+  });
+  grid::forEach<3>(reached, [&](const Index3& at) {
+    if (const int mark = found[reached.offset(at)]; mark > 0) ask({level.number(), at}, mark);
   });
 }
 
-void MarkedBlocks::ask(const grid::Level& level, const Box& blocks, int mark) {
-  const int number = level.number();
-  forEachNear(level, blocks, mark, [&](const BlockId& block) {
-    if (number > 0) kept_.insert(parentOf(block, level.dimension()));
-    if (mark < 2 || number == grid_.levels() - 1) return;
-    // Of a block that is not there yet, the leaf that it lies in is refined: no cell becomes two levels finer at once.
-    BlockId leaf = block;
-    for (const int there = grid_.tree().levelAt(block); leaf.level > there;) leaf = parentOf(leaf, level.dimension());
-    wanted_.insert(leaf);
-  });
+void MarkedBlocks::ask(const BlockId& image, int mark) {
+  const int dimension = grid_.dimension();
+  BlockId block = wrapped(image);
+  if (block.level > 0)
+    if (const BlockId parent = parentOf(block, dimension); kept_.empty() || kept_.back() != parent)
+      kept_.push_back(parent);
+  if (mark < 2 || block.level == grid_.levels() - 1) return;
+  // Of a block that is not there yet, the leaf that it lies in is refined: no cell becomes two levels finer at once.
+  for (const int there = grid_.tree().levelAt(block); block.level > there;) block = parentOf(block, dimension);
+  wanted_.push_back(block);
 }
 
 void MarkedBlocks::addParticles(const grid::Level& level, const Index3& cell, int margin) {
   const int finest = grid_.levels() - 1, dimension = level.dimension();
   if (level.number() < finest) return add(level, cell, 2);
-  constexpr int particles = 3;  // unlike any mark
-  forEachNear(level, blocksNear(level, cell, crossed(level) + margin), particles, [&](BlockId block) {
-    kept_.insert(parentOf(block, dimension));
+  const Box blocks = blocksNear(level, cell, crossed(level) + margin);
+  const auto& [lower, upper] = blocks;
+  if (!near_particles_.insert({lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]}).second) return;
+  grid::forEach<3>(blocks, [&](const Index3& at) {
+    BlockId block = wrapped({finest, at});
+    ask(block, 1);
     const int there = grid_.tree().levelAt(block);
     while (block.level > there) block = parentOf(block, dimension);
-    if (there < finest) wanted_.insert(block);
+    if (there < finest) wanted_.push_back(block);
   });
 }
 
@@ -131,11 +155,13 @@ void MarkedBlocks::unite(const mpi::Communicator& ranks) {
 }
 
 grid::BlockTree MarkedBlocks::tree() const {
-  std::set<BlockId> kept = kept_, wanted = wanted_;
-  wanted.insert(grid_.fixedBlocks().begin(), grid_.fixedBlocks().end());
+  std::vector<BlockId> kept = kept_, wanted = wanted_;
+  wanted.insert(wanted.end(), grid_.fixedBlocks().begin(), grid_.fixedBlocks().end());
   const int dimension = grid_.dimension();
   for (const BlockId& leaf : grid_.tree().leaves())
-    if (leaf.level > 1) kept.insert(parentOf(parentOf(leaf, dimension), dimension));
+    if (leaf.level > 1)
+      if (const BlockId block = parentOf(parentOf(leaf, dimension), dimension); kept.empty() || kept.back() != block)
+        kept.push_back(block);
   return grid_.tree().regridded(wanted, kept);
 }
 

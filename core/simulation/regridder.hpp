@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "core/grid/block_tree.hpp"
 #include "core/simulation/run_state.hpp"
@@ -35,24 +36,23 @@ class MarkedBlocks {
  private:
   static constexpr int farthest = 1 << 28;  // cells: beyond any grid, and two of them are still a number
 
-  const grid::Grid& grid_;
-  int interval_, dilation_;
-  /// Marks the blocks of a level that are near a marked cell.
-  void ask(const grid::Level& level, const grid::Box& blocks, int mark);
-  /// The blocks along an axis, [lower, upper), within a distance of a cell of a level, on the grid or its images.
-  std::pair<int, int> blocksAlong(const grid::Level& level, int axis, int cell, int distance) const;
+  /// Blocks along an axis, [lower, upper).
+  using Range = std::pair<int, int>;
+
+  /// Marks a block, or the one of which it is a periodic image.
+  void ask(const grid::BlockId& image, int mark);
+  grid::BlockId wrapped(grid::BlockId image) const;
+  /// The blocks along an axis within a distance of a cell of a level, on the grid or its images.
+  Range blocksAlong(const grid::Level& level, int axis, int cell, int distance) const;
   /// Blocks of a level within a distance of a cell of it, on the grid or its images.
   grid::Box blocksNear(const grid::Level& level, const Index3& cell, int distance) const;
-  /// Calls `visit(block)` for each of a box of them, once for each mark: cells of a row often have the same box.
-  template <class Visit>
-  void forEachNear(const grid::Level& level, const grid::Box& blocks, int mark, Visit&& visit);
   /// The cells of a level that signals can cross until the next regridding.
   int crossed(const grid::Level& level) const { return ((interval_ - 1) >> (grid_.levels() - 1 - level.number())) + 1; }
 
-  using Seen = std::array<int, 8>;  ///< level, mark, and corners of a box of blocks
-
-  std::set<Seen> seen_;
-  std::set<grid::BlockId> wanted_, kept_;
+  const grid::Grid& grid_;
+  int interval_, dilation_;
+  std::set<std::array<int, 6>> near_particles_;  ///< corners of boxes of blocks of the finest level
+  std::vector<grid::BlockId> wanted_, kept_;     ///< some may be there twice
 };
 
 /// Refines the grid of a run by its criteria. All ranks make the same calls.

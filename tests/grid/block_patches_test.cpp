@@ -15,12 +15,12 @@ constexpr int everything = 1 << 20;
 BlockTree refinedByChance(int dimension, const Index3& roots, const Index3& periodic, unsigned seed) {
   std::mt19937 random(seed);
   const BlockTree tree(dimension, roots, periodic, 4);
-  std::set<BlockId> wanted;
+  std::vector<BlockId> wanted;
   for (const int level : {0, 1, 2}) {
     BlockId block{level, {}};
     for (int d = 0; d < 3; ++d)
       block.at[d] = static_cast<int>(random() % static_cast<unsigned>(tree.blocksOf(level)[d]));
-    wanted.insert(block);
+    wanted.push_back(block);
   }
   return tree.regridded(wanted, {});
 }

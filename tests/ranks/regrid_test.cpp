@@ -65,7 +65,7 @@ int particlesAfter(const mpi::Communicator& ranks, const PatchCosts& costs) {
   list.newParticles("create", create, body, creates(x));
   TaskGraph graph = run.compile(list, {"p.x", std::string(data::particleId.name)});
   run.step(graph);
-  const std::set<grid::BlockId> kept{{0, {{0, 0, 0}}}, {0, {{1, 0, 0}}}, {0, {{2, 0, 0}}}, {0, {{3, 0, 0}}}};
+  const std::vector<grid::BlockId> kept{{0, {{0, 0, 0}}}, {0, {{1, 0, 0}}}, {0, {{2, 0, 0}}}, {0, {{3, 0, 0}}}};
   regrid(run.grid, run.grid.tree().regridded({}, kept), run.warehouse,
          {1, {run.table.find("p.x", 0), run.table.find(data::particleId.name, 0)}}, costs);
   EXPECT_EQ(run.grid.cellCount(), 64U + 32U);

@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <random>
+#include <vector>
 
 #include "core/simulation/refinement_marks.hpp"
 #include "core/simulation/regridder.hpp"
@@ -134,6 +138,52 @@ TEST(MarkedBlocks, NeverMakeACellTwoLevelsFinerAtOnceHoweverFarSignalsReach) {
   EXPECT_EQ(levelsOfLeaves(grid.tree()), (std::vector<int>{0, 1, 2, 2, 1, 1, 0}));
   // 17 cells before the first of level 2 is a cell of level 0, beyond the block of level 1 between them.
   EXPECT_EQ(refinedOnce(grid, 32, 2, 48), (std::vector<int>{1, 1, 2, 2, 3, 3, 3, 3, 2, 2, 1, 0}));
+}
+
+namespace {
+
+/// 4 x 3 x 2 blocks of 8 cells in the first axes, up to 3 levels, some of them refined by chance.
+std::unique_ptr<grid::Grid> refinedByChance(int dimension, bool isPeriodic, std::mt19937& random) {
+  grid::Domain domain;
+  const std::array<int, 3> cells{32, 24, 16};
+  for (int d = 0; d < 3; ++d) {
+    domain.upper[d] = d < dimension ? 1 : 0;
+    domain.resolution[d] = d < dimension ? cells[static_cast<std::size_t>(d)] : 1;
+    domain.periodic[d] = d < dimension && isPeriodic;
+  }
+  domain.refinement.levels = 3;
+  auto grid = std::make_unique<grid::Grid>(domain);
+  for (int level = 0; level < 2; ++level) {
+    MarkedBlocks marked(*grid, 1, 0);
+    for (const grid::Patch& patch : grid->patches())
+      if (random() % 2 == 0) marked.add(patch.level(), patch.cells().lower, 2);
+    grid->refine(grid->cut(marked.tree()));
+  }
+  return grid;
+}
+
+}  // namespace
+
+TEST(MarkedBlocks, OfPatchesAreThoseOfTheirCells) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 60; ++trial) {
+    const auto grid = refinedByChance(1 + trial % 3, trial % 2 == 0, random);
+    const std::array<int, 3> intervals{1, 8, 40};
+    const int interval = intervals[static_cast<std::size_t>(trial / 6) % 3];
+    MarkedBlocks byPatch(*grid, interval, 1), byCell(*grid, interval, 1);
+    for (const grid::Patch& patch : grid->patches()) {
+      const grid::Box stored = patch.cells().grown(1, grid->dimension());
+      std::vector<int> marks(stored.size(), 2);  // those beyond the patch count for other patches
+      grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
+        const int mark = random() % 50 == 0 ? 1 + static_cast<int>(random() % 2) : 0;
+        marks[stored.offset(cell)] = mark;
+        byCell.add(patch.level(), cell, mark);
+      });
+      byPatch.add(patch, marks.data(), stored);
+    }
+    EXPECT_EQ(byPatch.tree(), byCell.tree()) << trial;
+    EXPECT_NE(byPatch.tree(), MarkedBlocks(*grid, interval, 1).tree()) << trial;
+  }
 }
 
 namespace {

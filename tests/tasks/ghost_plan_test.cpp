@@ -31,10 +31,10 @@ grid::Domain blocks(int dimension, int blockCells, bool isPeriodic) {
 /// Refines some leaves, drawn by chance.
 void refineSome(Grid& grid, std::mt19937& random) {
   for (int level = 0; level + 1 < grid.levels(); ++level) {
-    std::set<BlockId> wanted;
+    std::vector<BlockId> wanted;
     for (const BlockId& leaf : grid.tree().leaves()) {
-      if (leaf.level > 0) wanted.insert({leaf.level - 1, {{leaf.at[0] / 2, leaf.at[1] / 2, leaf.at[2] / 2}}});
-      if (leaf.level == level && random() % 4 == 0) wanted.insert(leaf);
+      if (leaf.level > 0) wanted.push_back({leaf.level - 1, {{leaf.at[0] / 2, leaf.at[1] / 2, leaf.at[2] / 2}}});
+      if (leaf.level == level && random() % 4 == 0) wanted.push_back(leaf);
     }
     grid.refine(grid.cut(grid.tree().regridded(wanted, {})));
   }

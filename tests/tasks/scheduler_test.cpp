@@ -251,8 +251,8 @@ TEST(Scheduler, UsesAsManyThreadsAsTheCellsAreWorthAlsoWhenTheseBecomeMore) {
   EXPECT_EQ(given.threads().count(), 4);
   EXPECT_EQ(asPay.threads().count(), 2);
 
-  std::set<grid::BlockId> all;
-  for (int block = 0; block < 4; ++block) all.insert({0, {{block, 0, 0}}});
+  std::vector<grid::BlockId> all;
+  for (int block = 0; block < 4; ++block) all.push_back({0, {{block, 0, 0}}});
   grid.refine(grid.cut(grid.tree().regridded(all, {})));
   asPay.forgetLayout();
 
