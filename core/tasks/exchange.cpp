@@ -185,6 +185,9 @@ CellValues Exchange::valuesAt(const BoundGhostFill& fill, const GhostCopy& copy)
 void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, const CellValues& to) {
   const data::Label& label = *warehouse_->table()[fill.variable].label;
   const Variable from = warehouse_->variable(fill.generation, fill.variable, copy.from);
+  if (copy.isMean && copy.rim < 0)
+    return restrictTo(label, warehouse_->grid().dimension(), copy.box.shifted(Index3{} - copy.shift),
+                      {from.values, from.stored}, {to.values, to.stored.shifted(Index3{} - copy.shift)});
   Bytes values;
   if (!computeValues(*warehouse_, fill, copy, part_, values))
     return forEachRowOf(copy.box, label.bytes, [&](const Index3& first, std::size_t length) {

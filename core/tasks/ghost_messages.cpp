@@ -23,7 +23,8 @@ void writeMeans(const grid::Grid& grid, const data::Label& label, const GhostCop
   if (copy.rim >= 0)
     return meanFluxes(grid, copy, label.components, reinterpret_cast<const double*>(from.values),
                       reinterpret_cast<double*>(to));
-  restrictTo(label, grid.dimension(), copy.box.shifted(Index3{} - copy.shift), {from.values, from.stored}, to);
+  const grid::Box box = copy.box.shifted(Index3{} - copy.shift);
+  restrictTo(label, grid.dimension(), box, {from.values, from.stored}, {to, box});
 }
 
 /// Writes old + part (new - old) of the cells of a copy; both generations have the same ghosts.

@@ -83,7 +83,7 @@ Bytes meansOf(const data::Label& label, int dimension, const Piece& piece, const
     Box box = piece.box;
     for (int k = 0; k < level; ++k) box = box.refined(dimension);
     Bytes coarse(box.size() * label.bytes);
-    restrictTo(label, dimension, box, fine, coarse.data());
+    restrictTo(label, dimension, box, fine, {coarse.data(), box});
     means = std::move(coarse);
     fine = {means.data(), box};
   }

@@ -24,26 +24,40 @@ const grid::RimPiece& pieceOf(const std::vector<grid::RimPiece>& pieces, const G
   });
 }
 
+/// The faces of a box of coarse cells, of one axis: the fluxes behind the first, and how far apart neighbours of the
+/// finer faces are along each axis.
+struct FinerFaces {
+  const double* first;
+  std::array<std::ptrdiff_t, 3> strides;
+};
+
+template <int D>
+void meansOf(const GhostCopy& copy, int components, const FinerFaces& finer, double* to) {
+  const std::ptrdiff_t one = finer.strides[copy.axis == 0 ? 1 : 0],
+                       other = finer.strides[copy.axis == 2 ? 1 : 2];  // along the face
+  grid::forEach<3>(copy.box, [&](const Index3& cell) {
+    const double* face = finer.first;
+    for (int d = 0; d < D; ++d) face += 2 * (cell[d] - copy.box.lower[d]) * finer.strides[static_cast<std::size_t>(d)];
+    for (int k = 0; k < components; ++k, ++face) {
+      const auto pair = [&](std::ptrdiff_t beside) { return face[beside] + face[beside + one]; };
+      if constexpr (D == 1) *to++ = *face;
+      if constexpr (D == 2) *to++ = 0.5 * pair(0);
+      if constexpr (D == 3) *to++ = 0.25 * (pair(0) + pair(other));
+    }
+  });
+}
+
 }  // namespace
 
 void meanFluxes(const grid::Grid& grid, const GhostCopy& copy, int components, const double* fluxes, double* to) {
   const int dimension = grid.dimension();
-  const grid::RimPiece& piece = pieceOf(grid.rims(copy.from), copy, firstBehind(copy.box.lower, copy, dimension));
-  const std::array<std::ptrdiff_t, 3> strides{
-      components, piece.cells.extent(0) * std::ptrdiff_t{components},
-      piece.cells.extent(0) * std::ptrdiff_t{piece.cells.extent(1)} * components};
-  const std::ptrdiff_t first = strides[copy.axis == 0 ? 1 : 0],
-                       second = strides[copy.axis == 2 ? 1 : 2];  // of the face
-  grid::forEach<3>(copy.box, [&](const Index3& cell) {
-    const std::size_t place = piece.first + piece.cells.offset(firstBehind(cell, copy, dimension));
-    const double* face = fluxes + place * static_cast<std::size_t>(components);
-    for (int k = 0; k < components; ++k, ++face) {
-      const auto pair = [&](std::ptrdiff_t beside) { return face[beside] + face[beside + first]; };
-      if (dimension == 1) *to++ = *face;
-      if (dimension == 2) *to++ = 0.5 * pair(0);
-      if (dimension == 3) *to++ = 0.25 * (pair(0) + pair(second));
-    }
-  });
+  const Index3 behind = firstBehind(copy.box.lower, copy, dimension);
+  const grid::RimPiece& piece = pieceOf(grid.rims(copy.from), copy, behind);
+  const std::ptrdiff_t row = piece.cells.extent(0) * std::ptrdiff_t{components};
+  const std::size_t place = (piece.first + piece.cells.offset(behind)) * static_cast<std::size_t>(components);
+  const FinerFaces finer{fluxes + place, {components, row, row * piece.cells.extent(1)}};
+  if (dimension == 1) return meansOf<1>(copy, components, finer, to);
+  dimension == 2 ? meansOf<2>(copy, components, finer, to) : meansOf<3>(copy, components, finer, to);
 }
 
 }  // namespace tushar::tasks

@@ -37,10 +37,12 @@ class Cells {
 };
 
 template <int D>
-void meansOf(const Box& box, const CellValues& values, int components, double* to) {
-  const Cells<const double> fine(values, components);
+void meansOf(const Box& box, const CellValues& from, const CellValues& means, int components) {
+  const Cells<const double> fine(from, components);
+  const Cells<double> coarse(means, components);
   const std::ptrdiff_t x = fine.stride(0), y = fine.stride(1), z = fine.stride(2);
   grid::forEachRow<3>(box, [&](Index3 first, int count) {
+    double* to = coarse.at(first);
     for (int d = 0; d < D; ++d) first[d] *= 2;
     const double* child = fine.at(first);
     for (int cell = 0; cell < count; ++cell, child += x)  // the second one along x
@@ -53,60 +55,59 @@ void meansOf(const Box& box, const CellValues& values, int components, double* t
   });
 }
 
-/// A finer cell: its numbers, and on which side of its parent's middle it is along each axis, -1 or 1.
-struct Child {
-  double* numbers;
-  std::array<double, 3> side;
-};
-
-/// The children of a coarse cell that are in a box.
+/// The children of a coarse cell, by one bit for each axis, that are in a box.
 template <int D>
-class Children {
- public:
-  Children(const Cells<double>& fine, const Box& box, const Index3& parent) {
-    const Box all = Box{parent, parent + Index3::filled(1)}.refined(D);
-    grid::forEach<3>(all.intersect(box), [&](const Index3& cell) {
-      Child& child = children_[count_++];
-      child.numbers = fine.at(cell);
-      for (int d = 0; d < D; ++d) child.side[static_cast<std::size_t>(d)] = cell[d] == all.lower[d] ? -1 : 1;
-    });
+unsigned childrenIn(const Box& box, const Index3& first) {
+  unsigned inside = 0;
+  for (unsigned child = 0; child < 1u << D; ++child) {
+    bool isInside = true;
+    for (int d = 0; d < D; ++d) {
+      const int at = first[d] + static_cast<int>(child >> d & 1);
+      isInside = isInside && at >= box.lower[d] && at < box.upper[d];
+    }
+    inside |= static_cast<unsigned>(isInside) << child;
   }
-  const Child* begin() const { return children_.data(); }
-  const Child* end() const { return begin() + count_; }
-
- private:
-  std::array<Child, 1 << D> children_;
-  std::size_t count_ = 0;
-};
+  return inside;
+}
 
 template <int D>
 void interpolate(const CellValues& from, const Box& box, const CellValues& to, int components) {
   const Cells<const double> coarse(from, components);
   const Cells<double> fine(to, components);
+  std::array<std::ptrdiff_t, 1 << D> beside{};  // of each child, from the first
+  for (unsigned child = 0; child < beside.size(); ++child)
+    for (int d = 0; d < D; ++d) beside[child] += (child >> d & 1) * fine.stride(d);
   grid::forEach<3>(box.coarsened(D), [&](const Index3& parent) {
-    const Children<D> children(fine, box, parent);
+    Index3 first = parent;
     std::array<std::ptrdiff_t, D> stride{};
-    for (int d = 0; d < D; ++d) stride[static_cast<std::size_t>(d)] = coarse.hasBoth(parent, d) ? coarse.stride(d) : 0;
+    for (int d = 0; d < D; ++d) {
+      first[d] *= 2;
+      stride[static_cast<std::size_t>(d)] = coarse.hasBoth(parent, d) ? coarse.stride(d) : 0;
+    }
+    const unsigned inside = childrenIn<D>(box, first);
     const double* middle = coarse.at(parent);
-    for (int k = 0; k < components; ++k, ++middle) {
+    double* child0 = fine.at(first);
+    for (int k = 0; k < components; ++k, ++middle, ++child0) {
       std::array<double, D> quarter{};
       for (std::size_t d = 0; d < D; ++d)
         quarter[d] = 0.25 * Mc::slope(*middle - middle[-stride[d]], middle[stride[d]] - *middle);
-      for (const Child& child : children) {
+      for (unsigned child = 0; child < beside.size(); ++child) {
+        if (!(inside >> child & 1)) continue;
         double value = *middle;
-        for (std::size_t d = 0; d < D; ++d) value += child.side[d] * quarter[d];
-        child.numbers[k] = value;
+        for (unsigned d = 0; d < D; ++d) value += child >> d & 1 ? quarter[d] : -quarter[d];
+        child0[beside[child]] = value;
       }
     }
   });
 }
 
-void copyFirstChildren(const Label& label, int dimension, const Box& box, const CellValues& fine, std::byte* to) {
+void copyFirstChildren(const Label& label, int dimension, const Box& box, const CellValues& fine,
+                       const CellValues& coarse) {
   grid::forEach<3>(box, [&](const Index3& cell) {
     Index3 child = cell;
     for (int d = 0; d < dimension; ++d) child[d] *= 2;
-    std::memcpy(to, fine.values + fine.stored.offset(child) * label.bytes, label.bytes);
-    to += label.bytes;
+    std::memcpy(coarse.values + coarse.stored.offset(cell) * label.bytes,
+                fine.values + fine.stored.offset(child) * label.bytes, label.bytes);
   });
 }
 
@@ -121,11 +122,10 @@ void copyParents(const Label& label, int dimension, const CellValues& coarse, co
 
 }  // namespace
 
-void restrictTo(const Label& label, int dimension, const Box& box, const CellValues& fine, std::byte* to) {
-  if (label.number != data::Number::real) return copyFirstChildren(label, dimension, box, fine, to);
-  auto* means = reinterpret_cast<double*>(to);
-  if (dimension == 1) return meansOf<1>(box, fine, label.components, means);
-  dimension == 2 ? meansOf<2>(box, fine, label.components, means) : meansOf<3>(box, fine, label.components, means);
+void restrictTo(const Label& label, int dimension, const Box& box, const CellValues& fine, const CellValues& coarse) {
+  if (label.number != data::Number::real) return copyFirstChildren(label, dimension, box, fine, coarse);
+  if (dimension == 1) return meansOf<1>(box, fine, coarse, label.components);
+  dimension == 2 ? meansOf<2>(box, fine, coarse, label.components) : meansOf<3>(box, fine, coarse, label.components);
 }
 
 void prolong(const Label& label, int dimension, const CellValues& coarse, const Box& box, const CellValues& fine) {

@@ -12,8 +12,9 @@ struct CellValues {
 };
 
 /// The values of coarse cells from those of the finer cells in them: the mean, in pairs along x, then y, then z; of
-/// whole numbers that of the first. Writes the cells `box` one after the other.
-void restrictTo(const data::Label& label, int dimension, const grid::Box& box, const CellValues& fine, std::byte* to);
+/// whole numbers that of the first. `coarse` has at least the cells `box`.
+void restrictTo(const data::Label& label, int dimension, const grid::Box& box, const CellValues& fine,
+                const CellValues& coarse);
 
 /// The values of fine cells `box` from those of the coarser cells: U + sum_d ± s_d / 4 with monotonised central slopes
 /// s of each number separately; 0 along an axis where `coarse` has no cell on one side. So the mean of the children is
