@@ -1,5 +1,8 @@
 #pragma once
 
+#include <memory>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "components/euler/gas.hpp"
@@ -44,6 +47,22 @@ void forEachBlock(const Box& box, Visit&& visit) {
   });
 }
 
+/// Memory that a vector does not fill: for numbers that are all written before they are read.
+template <class T>
+struct Unfilled : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = Unfilled<U>;
+  };
+  template <class U, class... From>
+  void construct(U* at, From&&... from) {
+    if constexpr (sizeof...(From) > 0)
+      ::new (static_cast<void*>(at)) U(std::forward<From>(from)...);
+    else
+      ::new (static_cast<void*>(at)) U;
+  }
+};
+
 /// One State of K gases per cell of a box, each number in an array of its own, the first axis fastest.
 template <int D, int K = 1>
 class Rows {
@@ -51,8 +70,9 @@ class Rows {
   static constexpr std::size_t numbers = std::tuple_size_v<State<D, K>>;
   using Pointers = std::array<double*, numbers>;
 
-  /// Room for boxes of up to `cells` cells.
-  explicit Rows(std::size_t cells) : cells_(cells), values_(cells * numbers) {}
+  /// Room for boxes of up to `cells` cells, whose values are 0 at first, or anything.
+  explicit Rows(std::size_t cells) : cells_(cells), values_(cells * numbers, 0.0) {}
+  static Rows unfilled(std::size_t cells) { return Rows(cells, Values(cells * numbers)); }
 
   /// The box that the rows hold from now on.
   void hold(const Box& box) {
@@ -79,6 +99,9 @@ class Rows {
   }
 
  private:
+  using Values = std::vector<double, Unfilled<double>>;
+
+  Rows(std::size_t cells, Values values) : cells_(cells), values_(std::move(values)) {}
   std::ptrdiff_t offsetOf(const Index<D>& cell) const {
     std::ptrdiff_t offset = 0;
     for (int d = 0; d < D; ++d) offset += (cell[d] - box_.lower[d]) * stride(d);
@@ -86,7 +109,7 @@ class Rows {
   }
 
   std::size_t cells_;
-  std::vector<double> values_;
+  Values values_;
   Box box_;
   std::array<std::ptrdiff_t, 3> stride_{};
 };

@@ -21,11 +21,12 @@ struct Sloped {
 /// Work arrays for a block of cells and the cells around it.
 template <int D, int K = 1>
 struct Work {
-  /// Room for blocks of a patch.
-  Work(const Box& cells, int reach) : w(largestBlock<D>(cells).grown(reach, D).size()), flux(w) {
-    for (int d = 0; d < D && reach > 1; ++d) {
-      lower.push_back(w);
-      upper.push_back(w);
+  /// Room for blocks of a patch. Cells over edges of the grid stay 0; all else is written before it is read.
+  Work(const Box& cells, int reach) : Work(largestBlock<D>(cells).grown(reach, D).size(), reach > 1) {}
+  Work(std::size_t cells, bool hasSlopes) : w(cells), flux(Rows<D, K>::unfilled(cells)) {
+    for (int d = 0; d < D && hasSlopes; ++d) {
+      lower.push_back(Rows<D, K>::unfilled(cells));
+      upper.push_back(Rows<D, K>::unfilled(cells));
     }
   }
   void hold(const Box& box) {
