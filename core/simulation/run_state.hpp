@@ -37,6 +37,9 @@ struct RunState {
   /// The totals of the state as it is now, by a graph that computes them.
   Totals measureTotals(tasks::TaskGraph& graph);
 
+  /// Where finer levels take smaller steps: those of each level that one of the coarsest will have, as many as in the
+  /// last one, and twice those of the next coarser level where a level had no cells. Else none.
+  std::vector<int> expectedLevelSteps() const;
   /// The variables that outlive a step.
   tasks::MigratedVariables migratedVariables() const;
 
@@ -52,7 +55,8 @@ struct RunState {
   TimeControl time;
   RunClock clock;
   Progress progress;
-  Totals totalsAtStart;  ///< of the run, or of the one that it goes on from
+  std::vector<int> levelSteps;  ///< where finer levels take smaller steps: of each level in the last of the coarsest
+  Totals totalsAtStart;         ///< of the run, or of the one that it goes on from
 };
 
 }  // namespace tushar::simulation
