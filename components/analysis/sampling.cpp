@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "core/input/refuse.hpp"
 #include "core/output/archive_files.hpp"
 
 namespace tushar::analysis {
@@ -25,7 +26,10 @@ Schema<Analyzed> variableSchema() {
       .location(&Analyzed::whereOfMaterial, "matl")
       .requiredAttribute("label", &Analyzed::label, "1", "its name, such as press_CC or c.pressure")
       .attributeValue("matl", &Analyzed::material, "", "1", "number of its material; that of the module")
-      .ignoredAttribute("level", "the module samples the whole grid");
+      .ignoredAttribute("level", "the module samples the whole grid")
+      .check([](const Analyzed&, const Element& given, Diagnostics& diagnostics) {
+        input::noteAttribute(given, "level", "the module samples the whole grid", diagnostics);
+      });
 }
 
 Schema<AnalyzedList> listSchema(const Schema<Analyzed>& variable) {

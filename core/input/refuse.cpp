@@ -1,5 +1,7 @@
 #include "core/input/refuse.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/input/text.hpp"
@@ -69,6 +71,13 @@ void noteTag(SchemaBase& schema, const std::string& tag, const std::string& why)
       },
       {tag}, "does nothing: " + why);
   schema.setFormsOfLast({anyForm({tag})});
+}
+
+void noteAttribute(const Element& given, const std::string& attribute, const std::string& why,
+                   Diagnostics& diagnostics) {
+  if (given.attribute(attribute))
+    diagnostics.note(given.whereOf(attribute), given.path(),
+                     fmt::format("attribute '{}' does nothing: {}", attribute, why));
 }
 
 void refuseTypes(SchemaBase& schema, const std::string& tag, const std::vector<std::string>& available,

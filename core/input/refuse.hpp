@@ -21,6 +21,10 @@ void refuseOtherValues(SchemaBase& schema, const std::string& tag, const std::ve
 void refuseTag(SchemaBase& schema, const std::string& tag, const std::string& instead);
 /// Accepts a tag of Uintah's that has no effect here, with a note that says `why`.
 void noteTag(SchemaBase& schema, const std::string& tag, const std::string& why);
+/// Notes an attribute of Uintah's, declared as Schema::ignoredAttribute, that has no effect here, if it is given:
+/// `why`.
+void noteAttribute(const Element& given, const std::string& attribute, const std::string& why,
+                   Diagnostics& diagnostics);
 /// Accepts only the `available` options of a choice of Uintah's; the tag may be left out.
 void refuseTypes(SchemaBase& schema, const std::string& tag, const std::vector<std::string>& available,
                  const std::string& sentence);

@@ -106,17 +106,25 @@ DryRun dryRun(const std::string& scene, const std::vector<std::string>& override
   result.ranks = grid.share().ranks;
   result.patches = static_cast<int>(grid.patches().size());
   result.patchesOfAll = grid.patchCount();
+  result.isAdaptive = problem.regrid.adaptive;
+  result.hasSmallerSteps = problem.smallerSteps.has_value();
   return result;
 }
 
 std::string toText(const DryRun& result) {
+  std::string limits;
+  if (result.isAdaptive)
+    limits += "  of the grid of the scene: criteria refine it when the run begins, and more patches come and go\n";
+  if (result.hasSmallerSteps)
+    limits += "  of all levels once: finer ones take several steps in one, each with its messages\n";
   return fmt::format(
-      "rank {} of {}: {} of {} patches\n"
+      "rank {} of {}: {} of {} patches\n{}"
       "  a step: {} tasks, run {} times; {} messages to {} neighbours, {:.4g} kB and particles; {} agreements of all "
       "ranks\n"
       "  compiled in {:.2f} ms of processor time with {:.2f} MB\n",
-      result.rank, result.ranks, result.patches, result.patchesOfAll, result.tasks, result.placements, result.messages,
-      result.neighbours, 1e-3 * result.bytes, result.agreements, 1e3 * result.seconds, result.megabytes);
+      result.rank, result.ranks, result.patches, result.patchesOfAll, limits, result.tasks, result.placements,
+      result.messages, result.neighbours, 1e-3 * result.bytes, result.agreements, 1e3 * result.seconds,
+      result.megabytes);
 }
 
 }  // namespace tushar::scene

@@ -17,6 +17,8 @@ struct DryRun {
   int neighbours = 0;                 ///< ranks that it sends ghosts to
   int messages = 0;                   ///< sent in a step, with ghosts and with particles that move
   int agreements = 0;                 ///< of all ranks, in a step
+  bool isAdaptive = false;            ///< criteria change the grid once the run has begun, of which this is the start
+  bool hasSmallerSteps = false;       ///< finer levels take several steps in one, which exchanges ghosts in each
   double bytes = 0;                   ///< upper bound, without particles: as if all nodes were near some
   double seconds = 0;                 ///< processor time to read the scene and compile
   double megabytes = 0;               ///< memory taken by this

@@ -219,6 +219,9 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
       for (const Element& given : element.children(name)) read.components.push_back(readThresholds(given, diagnostics));
   };
   section.ignoredAttribute("type", "a grid is adaptive where <Regridder> says so")
+      .check([](const AmrSection&, const Element& given, Diagnostics& diagnostics) {
+        input::noteAttribute(given, "type", "a grid is adaptive where <Regridder> says so", diagnostics);
+      })
       .value("useLockStep", &AmrSection::usesLockStep, true, "1",
              "all levels take the same time step; false: finer ones take several smaller steps for each of the next "
              "coarser level, if no task of a step needs new values of other cells or sums over the grid")

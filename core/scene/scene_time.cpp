@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/input/refuse.hpp"
 #include "core/input/schema.hpp"
 #include "core/input/values.hpp"
 #include "core/scene/scene.hpp"
@@ -78,7 +79,11 @@ const Schema<SaveRequest>& saveSchema() {
           .ignoredAttribute("compression", "<compression> in <DataArchiver> holds for all")
           .ignoredAttribute("table_lookup", "belongs to components that read tables")
           .location(&SaveRequest::where, "label")
-          .location(&SaveRequest::whereOfMaterial, "material");
+          .location(&SaveRequest::whereOfMaterial, "material")
+          .check([](const SaveRequest&, const Element& given, Diagnostics& diagnostics) {
+            if (given.attribute("levels") == "-1") return;  // all of them
+            input::noteAttribute(given, "levels", "all levels are saved", diagnostics);
+          });
   return schema;
 }
 

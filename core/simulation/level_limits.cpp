@@ -66,14 +66,22 @@ std::string taskAgainstSmallerSteps(const tasks::Task& task) {
 
 }  // namespace
 
-std::vector<InputProblem> problemsOfSmallerSteps(const std::vector<tasks::Task>& tasks, const Location& where) {
-  std::vector<InputProblem> problems;
-  for (const tasks::Task& task : tasks)
-    if (const std::string problem = taskAgainstSmallerSteps(task); !problem.empty())
-      problems.push_back(
-          {where, "AMR/useLockStep",
-           fmt::format("task {} {}: all levels must take the same time step, as by default", task.name, problem)});
-  return problems;
+std::optional<InputProblem> problemOfSmallerSteps(const std::vector<tasks::Task>& tasks, const Location& where) {
+  std::string first;
+  int others = 0;
+  for (const tasks::Task& task : tasks) {
+    const std::string problem = taskAgainstSmallerSteps(task);
+    if (problem.empty()) continue;
+    if (first.empty())
+      first = fmt::format("task {} {}", task.name, problem);
+    else
+      ++others;
+  }
+  if (first.empty()) return std::nullopt;
+  if (others > 0)
+    first += fmt::format(", and {} {} smaller steps out, too", counted(others, "other task"),
+                         others == 1 ? "rules" : "rule");
+  return InputProblem{where, "AMR/useLockStep", first + ": all levels must take the same time step, as by default"};
 }
 
 std::vector<InputProblem> problemsOnLevels(const std::vector<tasks::Task>& tasks, const grid::Grid& grid,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -19,10 +20,10 @@ namespace tushar::simulation {
 std::vector<InputProblem> problemsOnLevels(const std::vector<tasks::Task>& tasks, const grid::Grid& grid,
                                            const Location& where);
 
-/// The problems of the tasks of a step where finer levels take smaller steps, each with the task and its label. Such
-/// tasks compute cells, from the old state and, in the same cell, from what earlier tasks computed. Others see new
-/// values that another level does not have yet, or add up over the grid what is there at different times.
-/// `where` is the tag that has levels take smaller steps.
-std::vector<InputProblem> problemsOfSmallerSteps(const std::vector<tasks::Task>& tasks, const Location& where);
+/// The problem of the tasks of a step where finer levels take smaller steps: the first task that rules this out, with
+/// its label, and how many others there are. Tasks that allow it compute cells, from the old state and, in the same
+/// cell, from what earlier tasks computed. Others see new values that another level does not have yet, or add up over
+/// the grid what is there at different times. `where` is the tag that has levels take smaller steps.
+std::optional<InputProblem> problemOfSmallerSteps(const std::vector<tasks::Task>& tasks, const Location& where);
 
 }  // namespace tushar::simulation

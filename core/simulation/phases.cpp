@@ -310,11 +310,11 @@ void checkOnLevels(std::initializer_list<const Pruned*> lists, const grid::Grid&
   throwIfAny(std::move(problems));
 }
 
-/// Throws InputError for tasks that cannot run on one level after the other.
+/// Throws InputError if tasks cannot run on one level after the other.
 void refuseSmallerSteps(std::initializer_list<const Pruned*> lists, const Location& where) {
-  std::vector<InputProblem> problems;
-  for (const Pruned* list : lists) addOthers(problemsOfSmallerSteps(list->kept, where), problems);
-  throwIfAny(std::move(problems));
+  std::vector<tasks::Task> all;
+  for (const Pruned* list : lists) all.insert(all.end(), list->kept.begin(), list->kept.end());
+  if (auto problem = problemOfSmallerSteps(all, where)) throw InputError(std::vector{*std::move(problem)});
 }
 
 }  // namespace

@@ -104,12 +104,10 @@ namespace {
 void limit(const Patch&, CellView<const double>, Minimum&) {}
 void sumUp(const Patch&, CellView<const double>, Sum&) {}
 
-/// What keeps tasks from smaller steps on finer levels, line by line.
-std::string problemsOfSteps(const TaskList& list) {
-  std::string text;
-  for (const InputProblem& problem : problemsOfSmallerSteps(list.tasks(), {"a.ups", 7, 3}))
-    text += problem.text() + "\n";
-  return text;
+/// What keeps tasks from smaller steps on finer levels.
+std::string problemOfSteps(const TaskList& list) {
+  const auto problem = problemOfSmallerSteps(list.tasks(), {"a.ups", 7, 3});
+  return problem ? problem->text() : "";
 }
 
 }  // namespace
@@ -120,19 +118,33 @@ TEST(LevelLimits, SmallerStepsAreForTasksThatReadTheOldStateAndTheirOwnCells) {
   fit.perPatch("limit", limit, requiresOld(value, 2), computes(delT));
   fit.perPatch("own", readCells, requiresNew(value));
   fit.perPatch("flow", flow, computes(value), keepsFlux(value));
-  EXPECT_EQ(problemsOfSteps(fit), "");
+  EXPECT_EQ(problemOfSteps(fit), "");
   TaskList far, sums, solve, nodes;
   far.perPatch("far", readCells, requiresNew(value, 1));
   sums.perPatch("sum", sumUp, requiresOld(value), computes(all));
   solve.perRank("solve", readAll, requiresOld(value));
   nodes.perPatch("turn", readNodes, requiresNew(corner));
-  const std::string end = ": all levels must take the same time step, as by default\n";
+  const std::string end = ": all levels must take the same time step, as by default";
   const std::string start = "a.ups:7:3: AMR/useLockStep: task ";
-  EXPECT_EQ(problemsOfSteps(far),
+  EXPECT_EQ(problemOfSteps(far),
             start + "far reads the new c.value beyond a patch, where another level does not have it yet" + end);
-  EXPECT_EQ(problemsOfSteps(sums), start + "sum computes TotalValue over the whole grid" + end);
-  EXPECT_EQ(problemsOfSteps(solve), start + "solve sees all patches at once" + end);
-  EXPECT_EQ(problemsOfSteps(nodes), start + "turn uses nodes (g.corner)" + end);
+  EXPECT_EQ(problemOfSteps(sums), start + "sum computes TotalValue over the whole grid" + end);
+  EXPECT_EQ(problemOfSteps(solve), start + "solve sees all patches at once" + end);
+  EXPECT_EQ(problemOfSteps(nodes), start + "turn uses nodes (g.corner)" + end);
+}
+
+TEST(LevelLimits, OneSentenceSaysWhichTaskRulesSmallerStepsOutAndHowManyOthers) {
+  TaskList list;
+  list.perPatch("own", readCells, requiresNew(value));
+  for (const char* name : {"first", "second", "third"}) {
+    list.perPatch(name, readCells, requiresNew(value, 1));
+    const std::string text = problemOfSteps(list), others = text.substr(std::min(text.size(), text.find(", and")));
+    EXPECT_NE(text.find("task first reads the new c.value"), std::string::npos) << text;
+    EXPECT_EQ(others.substr(0, others.find(':')), name == std::string("first") ? ""
+                                                  : name == std::string("second")
+                                                      ? ", and 1 other task rules smaller steps out, too"
+                                                      : ", and 2 other tasks rule smaller steps out, too");
+  }
 }
 
 namespace {
