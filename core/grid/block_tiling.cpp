@@ -14,16 +14,39 @@ Box blocksOver(const Box& cells, const Index3& blockCells) {
   return blocks;
 }
 
+namespace {
+
+std::size_t placeInTable(const BlockTree& tree, const BlockId& block) {
+  return Box{{}, tree.blocksOf(block.level)}.offset(block.at);
+}
+
+/// Tables of the levels that have few enough blocks that they take not much more memory than the leaves. They are
+/// faster than a search on the curve.
+std::vector<std::vector<int>> tablesOf(const BlockTree& tree) {
+  constexpr std::size_t mostPerLeaf = 8;
+  std::vector<std::vector<int>> tables(static_cast<std::size_t>(tree.levels()));
+  for (int level = 0; level < tree.levels(); ++level)
+    if (const std::size_t all = Box{{}, tree.blocksOf(level)}.size(); all <= mostPerLeaf * tree.leaves().size())
+      tables[static_cast<std::size_t>(level)].assign(all, -1);
+  return tables;
+}
+
+}  // namespace
+
 BlockTiling::BlockTiling(BlockTree tree, const Index3& blockCells, const Index3& most)
     : tree_(std::move(tree)),
       block_cells_(blockCells),
       patches_(patchesOf(tree_, blockCells, most)),
-      patch_of_leaf_(tree_.leaves().size(), -1) {
+      patch_of_leaf_(tree_.leaves().size(), -1),
+      patch_of_block_(tablesOf(tree_)) {
   cells_before_.push_back(0);
   for (std::size_t id = 0; id < patches_.size(); ++id) {
     const auto& [level, cells] = patches_[id];
-    forEach<3>(blocksOver(cells, block_cells_), [&, level = level](const Index3& block) {
-      patch_of_leaf_[tree_.placeOf({level, block})] = static_cast<int>(id);
+    std::vector<int>& table = patch_of_block_[static_cast<std::size_t>(level)];
+    forEach<3>(blocksOver(cells, block_cells_), [&, level = level](const Index3& at) {
+      const BlockId block{level, at};
+      patch_of_leaf_[tree_.placeOf(block)] = static_cast<int>(id);
+      if (!table.empty()) table[placeInTable(tree_, block)] = static_cast<int>(id);
     });
     cells_before_.push_back(cells_before_.back() + cells.size());
   }
@@ -35,6 +58,8 @@ Tile BlockTiling::tile(int id) const {
 }
 
 int BlockTiling::patchOf(const BlockId& block) const {
+  if (const std::vector<int>& table = patch_of_block_[static_cast<std::size_t>(block.level)]; !table.empty())
+    return table[placeInTable(tree_, block)];
   const int place = tree_.placeIfLeaf(block);
   return place < 0 ? -1 : patch_of_leaf_[static_cast<std::size_t>(place)];
 }

@@ -33,8 +33,9 @@ class BlockTiling : public Tiling {
   BlockTree tree_;
   Index3 block_cells_;
   std::vector<PatchBox> patches_;
-  std::vector<int> patch_of_leaf_;           ///< by place of the leaf on the curve
-  std::vector<std::uint64_t> cells_before_;  ///< by patch, and of all
+  std::vector<int> patch_of_leaf_;                ///< by place of the leaf on the curve
+  std::vector<std::vector<int>> patch_of_block_;  ///< by level and block, x fastest; or empty, see tablesOf
+  std::vector<std::uint64_t> cells_before_;       ///< by patch, and of all
 };
 
 }  // namespace tushar::grid

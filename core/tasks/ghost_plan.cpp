@@ -212,6 +212,7 @@ std::vector<std::vector<GhostCopy>> planFaces(const Grid& grid) {
 const GhostPlan& GhostPlans::of(const grid::Grid& grid, GhostReach reach) {
   const bool isAsForCells = reach.centring == data::Centring::particle && grid.levels() == 1;
   if (isAsForCells) reach.centring = data::Centring::cell;
+  if (grid.share().ranks == 1) reach.level = -1;  // without messages, a plan of all levels serves for each
   const auto [plan, isNew] = plans_.try_emplace(reach);
   if (isNew) plan->second = planGhosts(grid, reach);
   return plan->second;

@@ -185,6 +185,12 @@ class Luggage {
     return count;
   }
   bool hasMaterials() const { return materials_ > 0; }
+  /// Bytes of all variables of a cell.
+  std::size_t bytesOfCell() const {
+    std::size_t bytes = 0;
+    for (const int number : cells_) bytes += label(number).bytes;
+    return bytes;
+  }
 
   void beginSets() const {
     for (int material = 0; material < materials_; ++material)
@@ -240,6 +246,9 @@ std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, co
   std::set<int> readers;
   for (const grid::Patch& patch : grid.patches()) pieces.findReaders(patch, readers);
   std::map<int, Bytes> parts;
+  const int here = grid.share().rank, first = owners.firstOf(here), end = owners.firstOf(here + 1);
+  const std::uint64_t cells = next.cellsBefore(end) - next.cellsBefore(first);
+  parts[here].reserve(cells * luggage.bytesOfCell());  // most values stay
   const auto forEachPiece = [&](const auto& visit) {
     for (const int reader : readers)
       pieces.of(reader, [&](const Piece& piece) {
