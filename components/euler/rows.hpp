@@ -22,6 +22,10 @@ inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
                                  : D == 2 ? Index3{{128, 16, 1}}
                                           : Index3{{64, 8, 8}};
 
+/// Cells across a column of work, ghosts included: what moves along it in step with the plane of cells at work stays
+/// in the second-level cache.
+inline constexpr int kColumnCells = 2400;
+
 /// A box as large as the largest block of a box.
 template <int D>
 Box largestBlock(Box box) {
@@ -29,22 +33,37 @@ Box largestBlock(Box box) {
   return box;
 }
 
-/// Calls `visit(block)` for boxes that tile the box, none larger than kBlock.
+/// Calls `visit(block)` for boxes that tile the box, none larger than `extents`.
 template <int D, class Visit>
-void forEachBlock(const Box& box, Visit&& visit) {
+void forEachBlock(const Box& box, const Index3& extents, Visit&& visit) {
   Box blocks{{}, Index3::filled(1)};
-  for (int d = 0; d < D; ++d) blocks.upper[d] = (box.extent(d) + kBlock<D>[d] - 1) / kBlock<D>[d];
+  for (int d = 0; d < D; ++d) blocks.upper[d] = (box.extent(d) + extents[d] - 1) / extents[d];
   forEach<D>(blocks, [&](const Index<D>& at) {
     Box block = box;
     for (int d = 0; d < D; ++d) {
-      block.lower[d] = box.lower[d] + at[d] * kBlock<D>[d];
-      block.upper[d] = std::min(block.lower[d] + kBlock<D>[d], box.upper[d]);
+      block.lower[d] = box.lower[d] + at[d] * extents[d];
+      block.upper[d] = std::min(block.lower[d] + extents[d], box.upper[d]);
     }
     visit(block);
   });
 }
+/// The same, none larger than kBlock.
+template <int D, class Visit>
+void forEachBlock(const Box& box, Visit&& visit) {
+  forEachBlock<D>(box, kBlock<D>, std::forward<Visit>(visit));
+}
+
+/// The extents across z of the columns that tile a box with `reach` cells of ghosts around each: as wide along x as a
+/// block, and along y as kColumnCells allows.
+inline Index3 columnOf(const Box& box, int reach) {
+  const int width = std::min(kBlock<3>[0], box.extent(0));
+  return {{width, std::clamp(kColumnCells / (width + 2 * reach) - 2 * reach, 1, box.extent(1)), box.extent(2)}};
+}
 
 /// One State of K gases per cell of a box, each number in an array of its own, the first axis fastest.
+///
+/// Of a box of three dimensions it may hold some planes of z alone: as many consecutive ones as it has room for. A
+/// plane takes the place of the one that is as many before it or behind.
 template <int D, int K = 1>
 class Rows {
  public:
@@ -53,6 +72,8 @@ class Rows {
 
   /// Room for boxes of up to `cells` cells.
   explicit Rows(std::size_t cells) : cells_(cells), values_(cells * numbers) {}
+  /// Room for so many planes of z, of up to `cells` cells each.
+  Rows(std::size_t cells, int planes) : Rows(cells * planes) { planes_ = planes; }
 
   /// The box that the rows hold from now on.
   void hold(const Box& box) {
@@ -60,7 +81,7 @@ class Rows {
     stride_ = {1, box.extent(0), static_cast<std::ptrdiff_t>(box.extent(0)) * box.extent(1)};
   }
   const Box& box() const { return box_; }
-  /// Distance in memory of neighbours along an axis.
+  /// Distance in memory of neighbours along an axis; not along z where it holds some planes.
   std::ptrdiff_t stride(int axis) const { return stride_[axis]; }
 
   /// The numbers of a cell; those of the next cell of its row follow.
@@ -81,12 +102,16 @@ class Rows {
  private:
   std::ptrdiff_t offsetOf(const Index<D>& cell) const {
     std::ptrdiff_t offset = 0;
-    for (int d = 0; d < D; ++d) offset += (cell[d] - box_.lower[d]) * stride(d);
+    for (int d = 0; d < D; ++d) {
+      const int from = cell[d] - box_.lower[d];
+      offset += (d == 2 && planes_ > 0 ? from % planes_ : from) * stride(d);
+    }
     return offset;
   }
 
   std::size_t cells_;
   std::vector<double> values_;
+  int planes_ = 0;  ///< that it holds; 0: all
   Box box_;
   std::array<std::ptrdiff_t, 3> stride_{};
 };
