@@ -263,15 +263,15 @@ GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, in
 }
 
 template <int D, int K>
-void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& rows) {
+void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& rows, const Box& box) {
   const Box grid = level.cells();
-  Box known = level.clipCells(rows.box());
+  Box known = level.clipCells(box);
   for (int d = 0; d < D; ++d) {
     if (level.isPeriodic(d)) continue;
     for (int side = 0; side < 2; ++side) {
       Box beyond = known;
-      beyond.lower[d] = side == 0 ? rows.box().lower[d] : grid.upper[d];
-      beyond.upper[d] = side == 0 ? 0 : rows.box().upper[d];
+      beyond.lower[d] = side == 0 ? box.lower[d] : std::max(grid.upper[d], box.lower[d]);
+      beyond.upper[d] = side == 0 ? std::min(0, box.upper[d]) : box.upper[d];
       const SideRules<D>& rule = rules[d][side];
       if (!rule.areOne()) {
         fillByPlace<D>(level, rules, beyond, d, side, rows);
@@ -283,8 +283,8 @@ void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& 
         store<D>(rows.at(cell), 0, beyondSide<D>(rule, depthOf(cell[d], grid.upper[d]), load<D>(rows.at(source), 0)));
       });
     }
-    known.lower[d] = rows.box().lower[d];
-    known.upper[d] = rows.box().upper[d];
+    known.lower[d] = box.lower[d];
+    known.upper[d] = box.upper[d];
   }
 }
 
@@ -300,14 +300,14 @@ template GhostRule<3> ruleAt<3>(const Level&, const GhostRules<3>&, int, int, co
 template bool isWall<1>(const Place&, const Gas&);
 template bool isWall<2>(const Place&, const Gas&);
 template bool isWall<3>(const Place&, const Gas&);
-template void fillBeyondGrid<1>(const Level&, const GhostRules<1>&, Rows<1, 1>&);
-template void fillBeyondGrid<1>(const Level&, const GhostRules<1>&, Rows<1, 2>&);
-template void fillBeyondGrid<1>(const Level&, const GhostRules<1>&, Rows<1, 3>&);
-template void fillBeyondGrid<2>(const Level&, const GhostRules<2>&, Rows<2, 1>&);
-template void fillBeyondGrid<2>(const Level&, const GhostRules<2>&, Rows<2, 2>&);
-template void fillBeyondGrid<2>(const Level&, const GhostRules<2>&, Rows<2, 3>&);
-template void fillBeyondGrid<3>(const Level&, const GhostRules<3>&, Rows<3, 1>&);
-template void fillBeyondGrid<3>(const Level&, const GhostRules<3>&, Rows<3, 2>&);
-template void fillBeyondGrid<3>(const Level&, const GhostRules<3>&, Rows<3, 3>&);
+template void fillBeyondGrid<1>(const Level&, const GhostRules<1>&, Rows<1, 1>&, const Box&);
+template void fillBeyondGrid<1>(const Level&, const GhostRules<1>&, Rows<1, 2>&, const Box&);
+template void fillBeyondGrid<1>(const Level&, const GhostRules<1>&, Rows<1, 3>&, const Box&);
+template void fillBeyondGrid<2>(const Level&, const GhostRules<2>&, Rows<2, 1>&, const Box&);
+template void fillBeyondGrid<2>(const Level&, const GhostRules<2>&, Rows<2, 2>&, const Box&);
+template void fillBeyondGrid<2>(const Level&, const GhostRules<2>&, Rows<2, 3>&, const Box&);
+template void fillBeyondGrid<3>(const Level&, const GhostRules<3>&, Rows<3, 1>&, const Box&);
+template void fillBeyondGrid<3>(const Level&, const GhostRules<3>&, Rows<3, 2>&, const Box&);
+template void fillBeyondGrid<3>(const Level&, const GhostRules<3>&, Rows<3, 3>&, const Box&);
 
 }  // namespace tushar::euler

@@ -99,8 +99,13 @@ GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time = 0
 template <int D>
 GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, int side, const Index<D>& cell);
 
-/// Fills the cells of `rows` that lie beyond the grid; those on the grid must be known.
+/// Fills the cells of a box that lie beyond the grid; those on the grid must be known, and the ones within reach of
+/// these cells across a side.
 template <int D, int K>
-void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& rows);
+void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& rows, const Box& box);
+template <int D, int K>
+void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& rows) {
+  fillBeyondGrid<D>(level, rules, rows, rows.box());
+}
 
 }  // namespace tushar::euler

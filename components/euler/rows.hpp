@@ -25,6 +25,10 @@ inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
                                  : D == 2 ? Index3{{128, 16, 1}}
                                           : Index3{{64, 8, 8}};
 
+/// Cells across a column of work, ghosts included: what moves along it in step with the plane of cells at work stays
+/// in the second-level cache.
+inline constexpr int kColumnCells = 2400;
+
 /// A box as large as the largest block of a box.
 template <int D>
 Box largestBlock(Box box) {
@@ -32,19 +36,31 @@ Box largestBlock(Box box) {
   return box;
 }
 
-/// Calls `visit(block)` for boxes that tile the box, none larger than kBlock.
+/// Calls `visit(block)` for boxes that tile the box, none larger than `extents`.
 template <int D, class Visit>
-void forEachBlock(const Box& box, Visit&& visit) {
+void forEachBlock(const Box& box, const Index3& extents, Visit&& visit) {
   Box blocks{{}, Index3::filled(1)};
-  for (int d = 0; d < D; ++d) blocks.upper[d] = (box.extent(d) + kBlock<D>[d] - 1) / kBlock<D>[d];
+  for (int d = 0; d < D; ++d) blocks.upper[d] = (box.extent(d) + extents[d] - 1) / extents[d];
   forEach<D>(blocks, [&](const Index<D>& at) {
     Box block = box;
     for (int d = 0; d < D; ++d) {
-      block.lower[d] = box.lower[d] + at[d] * kBlock<D>[d];
-      block.upper[d] = std::min(block.lower[d] + kBlock<D>[d], box.upper[d]);
+      block.lower[d] = box.lower[d] + at[d] * extents[d];
+      block.upper[d] = std::min(block.lower[d] + extents[d], box.upper[d]);
     }
     visit(block);
   });
+}
+/// The same, none larger than kBlock.
+template <int D, class Visit>
+void forEachBlock(const Box& box, Visit&& visit) {
+  forEachBlock<D>(box, kBlock<D>, std::forward<Visit>(visit));
+}
+
+/// The extents across z of the columns that tile a box with `reach` cells of ghosts around each: as wide along x as a
+/// block, and along y as kColumnCells allows.
+inline Index3 columnOf(const Box& box, int reach) {
+  const int width = std::min(kBlock<3>[0], box.extent(0));
+  return {{width, std::clamp(kColumnCells / (width + 2 * reach) - 2 * reach, 1, box.extent(1)), box.extent(2)}};
 }
 
 /// Memory that a vector does not fill: for numbers that are all written before they are read.
@@ -64,15 +80,19 @@ struct Unfilled : std::allocator<T> {
 };
 
 /// One State of K gases per cell of a box, each number in an array of its own, the first axis fastest.
+///
+/// Of a box of three dimensions it may hold some planes of z alone: as many consecutive ones as it has room for. A
+/// plane takes the place of the one that is as many before it or behind.
 template <int D, int K = 1>
 class Rows {
  public:
   static constexpr std::size_t numbers = std::tuple_size_v<State<D, K>>;
   using Pointers = std::array<double*, numbers>;
 
-  /// Room for boxes of up to `cells` cells, whose values are 0 at first, or anything.
-  explicit Rows(std::size_t cells) : cells_(cells), values_(cells * numbers, 0.0) {}
-  static Rows unfilled(std::size_t cells) { return Rows(cells, Values(cells * numbers)); }
+  /// Room for boxes of up to `cells` cells or, of three dimensions, so many planes of z of up to `cells` cells each.
+  /// All values are 0 at first, or anything.
+  explicit Rows(std::size_t cells, int planes = 0) : Rows(cells, planes, Values(room(cells, planes), 0.0)) {}
+  static Rows unfilled(std::size_t cells, int planes = 0) { return {cells, planes, Values(room(cells, planes))}; }
 
   /// The box that the rows hold from now on.
   void hold(const Box& box) {
@@ -80,7 +100,7 @@ class Rows {
     stride_ = {1, box.extent(0), static_cast<std::ptrdiff_t>(box.extent(0)) * box.extent(1)};
   }
   const Box& box() const { return box_; }
-  /// Distance in memory of neighbours along an axis.
+  /// Distance in memory of neighbours along an axis; not along z where it holds some planes.
   std::ptrdiff_t stride(int axis) const { return stride_[axis]; }
 
   /// The numbers of a cell; those of the next cell of its row follow.
@@ -101,15 +121,21 @@ class Rows {
  private:
   using Values = std::vector<double, Unfilled<double>>;
 
-  Rows(std::size_t cells, Values values) : cells_(cells), values_(std::move(values)) {}
+  Rows(std::size_t cells, int planes, Values values)
+      : cells_(cells * std::max(planes, 1)), values_(std::move(values)), planes_(planes) {}
+  static std::size_t room(std::size_t cells, int planes) { return cells * std::max(planes, 1) * numbers; }
   std::ptrdiff_t offsetOf(const Index<D>& cell) const {
     std::ptrdiff_t offset = 0;
-    for (int d = 0; d < D; ++d) offset += (cell[d] - box_.lower[d]) * stride(d);
+    for (int d = 0; d < D; ++d) {
+      const int from = cell[d] - box_.lower[d];
+      offset += (d == 2 && planes_ > 0 ? from % planes_ : from) * stride(d);
+    }
     return offset;
   }
 
   std::size_t cells_;
   Values values_;
+  int planes_ = 0;  ///< that it holds; 0: all
   Box box_;
   std::array<std::ptrdiff_t, 3> stride_{};
 };

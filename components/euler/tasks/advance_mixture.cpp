@@ -47,10 +47,7 @@ void advanceMixture(const Patch& patch, const std::vector<Settings>& gases, cons
   const Mixture<K> mixture = mixtureOf<K>(gases);
   const auto before = viewsOf<const double, D>(old, oldGases);
   const auto after = viewsOf<double, D>(fresh, newGases);
-  Work<D, K> work(patch.cells(), Shape::reach);
-  forEachBlock<D>(patch.cells(), [&](const Box& block) {
-    advanceBlock<D, Hllc, Shape>(mixture, level, rules, block, dt, before, work, after, allRims);
-  });
+  advanceCells<D, Hllc, Shape>(mixture, level, rules, patch.cells(), dt, before, after, allRims, [](const Box&) {});
   refuseBrokenMixture<D>(patch, gases, newGases, fresh);
 }
 

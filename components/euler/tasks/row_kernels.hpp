@@ -28,12 +28,13 @@ void recoverRow(const G& gas, const double* density, const double* momentum, con
   }
 }
 
-/// w -+ slope / 2 of one number, with limited slopes; neighbours are `stride` apart.
+/// w -+ slope / 2 of one number, with limited slopes, from the rows of neighbours below and above.
 template <class Limited>
-void reconstructRow(const double* w, std::ptrdiff_t stride, int count, double* lower, double* upper) {
+void reconstructRow(const double* below, const double* w, const double* above, int count, double* lower,
+                    double* upper) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const double half = 0.5 * Limited::slope(w[i] - w[i - stride], w[i + stride] - w[i]);
+    const double half = 0.5 * Limited::slope(w[i] - below[i], above[i] - w[i]);
     lower[i] = w[i] - half;
     upper[i] = w[i] + half;
   }
@@ -118,22 +119,22 @@ void fluxRow(const G& gas, const Pointers<D, kGases<G>>& below, const Pointers<D
 
 /// new = old - ratio (flux of the upper face - flux of the lower face) of one number, `step` apart in old and new,
 /// which may be the same.
-inline void updateRow(const double* old, const double* flux, std::ptrdiff_t stride, double ratio, int step, int count,
+inline void updateRow(const double* old, const double* below, const double* above, double ratio, int step, int count,
                       double* result) {
 #pragma GCC ivdep
-  for (std::ptrdiff_t i = 0; i < count; ++i) result[i * step] = old[i * step] - ratio * (flux[i + stride] - flux[i]);
+  for (std::ptrdiff_t i = 0; i < count; ++i) result[i * step] = old[i * step] - ratio * (above[i] - below[i]);
 }
 
 /// The update of a share, which is not conserved as matter is: z' = z - ratio (F_upper - F_lower - z (v_upper -
 /// v_lower)), with the velocity of a face from the fluxes of all shares, which add up to 1. So equal shares stay equal.
 template <int K>
-void updateShareRow(const double* start, const double* old, const std::array<const double*, K>& shares, int gas,
-                    std::ptrdiff_t stride, double ratio, int count, double* result) {
+void updateShareRow(const double* start, const double* old, const std::array<const double*, K>& below,
+                    const std::array<const double*, K>& above, int gas, double ratio, int count, double* result) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     double widens = 0;
-    for (int k = 0; k < K; ++k) widens += shares[k][i + stride] - shares[k][i];
-    result[i] = old[i] - ratio * (shares[gas][i + stride] - shares[gas][i] - start[i] * widens);
+    for (int k = 0; k < K; ++k) widens += above[k][i] - below[k][i];
+    result[i] = old[i] - ratio * (above[gas][i] - below[gas][i] - start[i] * widens);
   }
 }
 

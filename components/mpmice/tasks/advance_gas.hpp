@@ -94,7 +94,7 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
                const std::optional<CellView<Vec<D>>>& flow) {
   Box faces = block;
   ++faces.upper[Axis];
-  euler::computeFluxes<D, Flux, Shape, Axis>(gas, faces, work);
+  euler::computeFluxes<D, Flux, Shape, Axis>(gas, faces, work, work.flux);
   closeFaces<D>(level, exchange.space(), near, faces, Axis, work.flux);
   euler::addFluxes<D, Axis>(ratio, block, old, work.flux, fresh);
   if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, work.flux, *flow);

@@ -1,0 +1,196 @@
+#pragma once
+
+#include "components/euler/boundary.hpp"
+#include "components/euler/tasks/advance.hpp"
+#include "components/euler/tasks/row_kernels.hpp"
+#include "core/base/limiters.hpp"
+
+namespace tushar::euler {
+
+/// Cells are constant: the values at their faces are their own.
+struct Constant {
+  static constexpr int reach = 1;
+};
+/// Cells have limited slopes: the values at their faces are those half a step later.
+template <class Limited>
+struct Sloped {
+  static constexpr int reach = 2;
+};
+
+/// Work arrays for a block of cells and the cells around it.
+template <int D, int K = 1>
+struct Work {
+  /// Room for blocks of a patch. Cells over edges of the grid stay 0; all else is written before it is read.
+  Work(const Box& cells, int reach) : Work(largestBlock<D>(cells).grown(reach, D).size(), reach > 1, {}) {}
+  /// Room for the planes, of up to `cells` cells, that a ColumnStep needs at a time.
+  static Work ofColumns(std::size_t cells, int reach) { return {cells, reach > 1, {2 * reach, 1, 2}}; }
+  void hold(const Box& box) {
+    w.hold(box);
+    flux.hold(box);
+    for (Rows<D, K>& values : lower) values.hold(box);
+    for (Rows<D, K>& values : upper) values.hold(box);
+  }
+
+  Rows<D, K> w;                          ///< primitive values of cells
+  std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, per axis; none if cells are constant
+  Rows<D, K> flux;                       ///< through lower faces, of one axis at a time
+  std::vector<double> least;             ///< of a row: least density and p + p_inf at faces
+
+ private:
+  /// How many planes it holds of cells, of faces, and of upper faces along the last axis; 0: all.
+  struct Planes {
+    int cells = 0, faces = 0, above = 0;
+  };
+  Work(std::size_t cells, bool hasSlopes, const Planes& planes)
+      : w(cells, planes.cells), flux(Rows<D, K>::unfilled(cells, planes.faces)) {
+    for (int d = 0; d < D && hasSlopes; ++d) {
+      lower.push_back(Rows<D, K>::unfilled(cells, planes.faces));
+      upper.push_back(Rows<D, K>::unfilled(cells, d == D - 1 ? planes.above : planes.faces));
+    }
+  }
+};
+
+/// rho, v, p of the cells of a box that are on the grid or its images.
+template <int D, class G>
+void recover(const G& gas, const Level& level, const Box& box, const ViewsOf<D, kGases<G>, const double>& old,
+             Rows<D, kGases<G>>& w) {
+  forEachRow<D>(level.clipCells(box), [&](const Index<D>& first, int count) {
+    if constexpr (constexpr int gases = kGases<G>; gases > 1)
+      for (int k = 0; k < gases; ++k) {
+        std::copy_n(rowOf(old.masses[k], first, count), count, w.at(first)[kMass<D>(k)]);
+        std::copy_n(rowOf(old.shares[k], first, count), count, w.at(first)[kShare<D, gases>(k)]);
+      }
+    recoverRow<D>(gas, rowOf(old.density, first, count), rowOf(old.momentum, first, count)->data(),
+                  rowOf(old.totalEnergy, first, count), count, w.at(first));
+  });
+}
+
+/// Adds the half step's change of a row across an axis, and sets its limited values at the faces.
+template <int D, class Limited, int Axis, class G>
+void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, Work<D, kGases<G>>& work) {
+  const auto next = Index<D>::unit(Axis);
+  const auto w = work.w.at(first), below = work.w.at(first - next), above = work.w.at(first + next);
+  const auto lower = work.lower[Axis].at(first), upper = work.upper[Axis].at(first);
+  for (std::size_t k = 0; k < w.size(); ++k)
+    reconstructRow<Limited>(below[k], w[k], above[k], count, lower[k], upper[k]);
+  if constexpr (kGases < G >> 1) {
+    closeRow<D, kGases<G>>(count, lower);
+    closeRow<D, kGases<G>>(count, upper);
+  }
+  halfStepRow<D, Axis>(gas, lower, upper, ratio, count, work.flux.at(first));
+}
+
+/// Values at the faces of the cells of `box`, half a step later. The rows of fluxes hold the change on the way.
+template <int D, class G>
+void predict(const G&, const Level&, const Box&, double, Work<D, kGases<G>>&, Constant) {}
+template <int D, class Limited, class G>
+void predict(const G& gas, const Level& level, const Box& box, double dt, Work<D, kGases<G>>& work, Sloped<Limited>) {
+  constexpr int gases = kGases<G>;
+  forEachRow<D>(box, [&](const Index<D>& first, int count) {
+    const auto ratio = [&](int d) { return 0.5 * dt / level.spacing(d); };
+    reconstruct<D, Limited, 0>(gas, first, count, ratio(0), work);
+    if constexpr (D > 1) reconstruct<D, Limited, 1>(gas, first, count, ratio(1), work);
+    if constexpr (D > 2) reconstruct<D, Limited, 2>(gas, first, count, ratio(2), work);
+    const auto change = work.flux.at(first);
+    work.least.assign(count, 1.0);
+    for (std::size_t d = 0; d < D; ++d)
+      for (Rows<D, gases>* values : {&work.lower[d], &work.upper[d]})
+        changeRow<D>(gas, change, count, values->at(first), work.least.data());
+    for (std::size_t d = 0; d < D; ++d)
+      flattenRow<D, gases>(work.least.data(), work.w.at(first), count, work.lower[d].at(first),
+                           work.upper[d].at(first));
+  });
+}
+
+/// Fluxes through the lower faces of the cells of `faces` across an axis.
+template <int D, class Flux, class Shape, int Axis, class G>
+void computeFluxes(const G& gas, const Box& faces, Work<D, kGases<G>>& work, Rows<D, kGases<G>>& flux) {
+  constexpr bool constant = Shape::reach == 1;
+  auto& below = constant ? work.w : work.upper[Axis];
+  auto& above = constant ? work.w : work.lower[Axis];
+  forEachRow<D>(faces, [&](const Index<D>& first, int count) {
+    fluxRow<D, Flux, Axis>(gas, below.at(first - Index<D>::unit(Axis)), above.at(first), count, flux.at(first));
+  });
+}
+
+/// Adds what flows in across an axis of each of several gases.
+template <int D, int Axis, int K>
+void addFluxesOfEach(double ratio, const Index<D>& first, int count, const MixtureViews<D, const double>& old,
+                     Rows<D, K>& flux, const MixtureViews<D, double>& fresh) {
+  const auto below = flux.at(first), above = flux.at(first + Index<D>::unit(Axis));
+  std::array<const double*, K> in, out;
+  for (int k = 0; k < K; ++k) in[k] = below[kShare<D, K>(k)], out[k] = above[kShare<D, K>(k)];
+  for (int k = 0; k < K; ++k) {
+    const double *mass = rowOf(old.masses[k], first, count), *share = rowOf(old.shares[k], first, count);
+    double *newMass = rowOf(fresh.masses[k], first, count), *newShare = rowOf(fresh.shares[k], first, count);
+    updateRow(Axis == 0 ? mass : newMass, below[kMass<D>(k)], above[kMass<D>(k)], ratio, 1, count, newMass);
+    updateShareRow<K>(share, Axis == 0 ? share : newShare, in, out, k, ratio, count, newShare);
+  }
+}
+
+/// Adds what flows in across an axis; the first axis starts from the old state.
+template <int D, int Axis, int K>
+void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>& old, Rows<D, K>& flux,
+               const ViewsOf<D, K, double>& fresh) {
+  forEachRow<D>(block, [&](const Index<D>& first, int count) {
+    const auto below = flux.at(first), above = flux.at(first + Index<D>::unit(Axis));
+    const auto update = [&](const double* from, double* to, std::size_t number, int step) {
+      updateRow(Axis == 0 ? from : to, below[number], above[number], ratio, step, count, to);
+    };
+    update(rowOf(old.density, first, count), rowOf(fresh.density, first, count), kDensity, 1);
+    const double* momentum = rowOf(old.momentum, first, count)->data();
+    double* newMomentum = rowOf(fresh.momentum, first, count)->data();
+    for (int k = 0; k < D; ++k) update(momentum + k, newMomentum + k, kVelocity(k), D);
+    update(rowOf(old.totalEnergy, first, count), rowOf(fresh.totalEnergy, first, count), kPressure<D>, 1);
+    if constexpr (K > 1) addFluxesOfEach<D, Axis, K>(ratio, first, count, old, flux, fresh);
+  });
+}
+
+/// Keeps the fluxes across an axis at the rim of the level.
+template <int D, int K>
+void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D, K>& flux) {
+  if (rims.mass.empty()) return;
+  const auto at = [&](const Index<D>& face, std::size_t number) { return *flux.at(face)[number]; };
+  rims.mass.template forEachFaceIn<D>(faces, axis,
+                                      [&](const Index<D>& face, double& through) { through += at(face, kDensity); });
+  rims.momentum.template forEachFaceIn<D>(faces, axis, [&](const Index<D>& face, Vec<D>& through) {
+    for (int d = 0; d < D; ++d) through[d] += at(face, kVelocity(d));
+  });
+  rims.energy.template forEachFaceIn<D>(
+      faces, axis, [&](const Index<D>& face, double& through) { through += at(face, kPressure<D>); });
+  if constexpr (K > 1)
+    for (int k = 0; k < K; ++k) {
+      rims.gases[k].mass.template forEachFaceIn<D>(
+          faces, axis, [&](const Index<D>& face, double& through) { through += at(face, kMass<D>(k)); });
+      rims.gases[k].share.template forEachFaceIn<D>(
+          faces, axis, [&](const Index<D>& face, double& through) { through += at(face, kShare<D, K>(k)); });
+    }
+}
+
+template <int D, class Flux, class Shape, int Axis, class G>
+void sweep(const G& gas, const Level& level, const Box& block, double dt,
+           const ViewsOf<D, kGases<G>, const double>& old, Work<D, kGases<G>>& work,
+           const ViewsOf<D, kGases<G>, double>& fresh, const RimFluxes<D>& rims) {
+  Box faces = block;
+  ++faces.upper[Axis];
+  computeFluxes<D, Flux, Shape, Axis>(gas, faces, work, work.flux);
+  keepAtRim<D>(rims, faces, Axis, work.flux);
+  rims.masses.keep(block, Axis, work.flux);
+  addFluxes<D, Axis>(dt / level.spacing(Axis), block, old, work.flux, fresh);
+}
+
+/// A step of a block of cells.
+template <int D, class Flux, class Shape, class G>
+void advanceBlock(const G& gas, const Level& level, const GhostRules<D>& rules, const Box& block, double dt,
+                  const ViewsOf<D, kGases<G>, const double>& old, Work<D, kGases<G>>& work,
+                  const ViewsOf<D, kGases<G>, double>& fresh, const RimFluxes<D>& rims) {
+  work.hold(block.grown(Shape::reach, D));
+  recover<D>(gas, level, work.w.box(), old, work.w);
+  fillBeyondGrid<D>(level, rules, work.w);
+  predict<D>(gas, level, block.grown(1, D), dt, work, Shape{});
+  sweep<D, Flux, Shape, 0>(gas, level, block, dt, old, work, fresh, rims);
+  if constexpr (D > 1) sweep<D, Flux, Shape, 1>(gas, level, block, dt, old, work, fresh, rims);
+  if constexpr (D > 2) sweep<D, Flux, Shape, 2>(gas, level, block, dt, old, work, fresh, rims);
+}
+
+}  // namespace tushar::euler

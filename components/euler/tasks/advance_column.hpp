@@ -1,0 +1,91 @@
+#pragma once
+
+#include "components/euler/tasks/advance_block.hpp"
+
+namespace tushar::euler {
+
+/// A step of columns of cells along z, plane after plane, to the bits of advanceBlock: what it holds of a column is the
+/// planes that it needs at a time, and nothing is computed twice along z.
+template <class Flux, class Shape, class G>
+class ColumnStep {
+ public:
+  /// For columns no wider than `extents`.
+  ColumnStep(const G& gas, const Level& level, const GhostRules<3>& rules, const Index3& extents, double dt,
+             const ViewsOf<3, kGases<G>, const double>& old, const ViewsOf<3, kGases<G>, double>& fresh,
+             const RimFluxes<3>& rims)
+      : gas_(gas),
+        level_(level),
+        rules_(rules),
+        dt_(dt),
+        old_(old),
+        fresh_(fresh),
+        rims_(rims),
+        work_(Work<3, kGases<G>>::ofColumns(cellsAcross(extents), Shape::reach)),
+        rising_(cellsAcross(extents), 2) {}
+
+  /// Calls `finish(plane)` for each plane of cells when it has its new state.
+  template <class Finish>
+  void run(const Box& column, Finish&& finish) {
+    const Box around = column.grown(Shape::reach, 3);
+    work_.hold(around);
+    rising_.hold(around);
+    const int first = column.lower[z], end = column.upper[z];
+    take(planesOf(around, first - Shape::reach, first + Shape::reach));
+    for (int plane = first - 1; plane <= end; ++plane) {
+      if (plane > first) take(planesOf(around, plane + Shape::reach - 1, plane + Shape::reach));
+      const Box cells = planesOf(column, plane, plane + 1);
+      const bool isInside = plane >= first && plane < end;
+      predict<3>(gas_, level_, isInside ? cells.grown(1, 2) : cells, dt_, work_, Shape{});
+      if (plane >= first) rise(cells);
+      if (isInside) cross(cells);
+      if (plane <= first) continue;
+      const Box below = planesOf(column, plane - 1, plane);
+      add(below);
+      finish(below);
+    }
+  }
+
+ private:
+  static constexpr int z = 2;
+
+  static std::size_t cellsAcross(const Index3& extents) {
+    return static_cast<std::size_t>(extents[0] + 2 * Shape::reach) * (extents[1] + 2 * Shape::reach);
+  }
+  static Box planesOf(Box box, int first, int end) {
+    box.lower[z] = first;
+    box.upper[z] = end;
+    return box;
+  }
+  /// The gas before the step in some planes, those beyond the grid included.
+  void take(const Box& planes) {
+    recover<3>(gas_, level_, planes, old_, work_.w);
+    fillBeyondGrid<3>(level_, rules_, work_.w, planes);
+  }
+  /// The fluxes through the lower faces of a plane across z.
+  void rise(const Box& plane) {
+    computeFluxes<3, Flux, Shape, z>(gas_, plane, work_, rising_);
+    keepAtRim<3>(rims_, plane, z, rising_);
+  }
+  /// What fluxes across x and y change in a plane.
+  void cross(const Box& plane) {
+    sweep<3, Flux, Shape, 0>(gas_, level_, plane, dt_, old_, work_, fresh_, rims_);
+    sweep<3, Flux, Shape, 1>(gas_, level_, plane, dt_, old_, work_, fresh_, rims_);
+  }
+  /// What fluxes across z change in a plane.
+  void add(const Box& plane) {
+    rims_.masses.keep(plane, z, rising_);
+    addFluxes<3, z>(dt_ / level_.spacing(z), plane, old_, rising_, fresh_);
+  }
+
+  const G& gas_;
+  const Level& level_;
+  const GhostRules<3>& rules_;
+  double dt_;
+  const ViewsOf<3, kGases<G>, const double>& old_;
+  const ViewsOf<3, kGases<G>, double>& fresh_;
+  const RimFluxes<3>& rims_;
+  Work<3, kGases<G>> work_;
+  Rows<3, kGases<G>> rising_;  ///< fluxes across z, of two planes
+};
+
+}  // namespace tushar::euler
