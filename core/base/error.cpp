@@ -10,7 +10,7 @@ namespace tushar {
 
 namespace {
 
-std::string joined(const std::vector<InputProblem>& problems) {
+std::string linesOf(const std::vector<InputProblem>& problems) {
   std::string text;
   for (const InputProblem& problem : problems) {
     if (!text.empty()) text += '\n';
@@ -57,7 +57,7 @@ std::string InputProblem::text() const {
 }
 
 InputError::InputError(std::vector<InputProblem> problems)
-    : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
+    : std::runtime_error(linesOf(problems)), problems_(std::move(problems)) {}
 
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates) {
   const std::string wanted = lower(word);

@@ -22,16 +22,16 @@ void Progress::line(const std::string& text) {
 
 bool Progress::due() { return !quiet_ && Clock::now() >= next_; }
 
-void Progress::live(int step, double time, double delT, double maxTime) {
+void Progress::live(int step, double time, double dt, double maxTime) {
   const auto now = Clock::now();
   next_ = now + period_;
   const double elapsed = std::chrono::duration<double>(now - started_).count();
   const double done = maxTime > 0 ? time / maxTime : 0;
   const double left = done > 0 && done < 1 ? elapsed / done - elapsed : 0.0;
   if (!terminal_)
-    return line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} {:.0f} %, {:.0f} s left", step, time, delT,
+    return line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} {:.0f} %, {:.0f} s left", step, time, dt,
                             100 * done, left));
-  fmt::print(stream_, "\r\033[Kstep {}  t = {:.5g} s  dt = {:.3g} s  {:.0f} %  {:.0f} s left", step, time, delT,
+  fmt::print(stream_, "\r\033[Kstep {}  t = {:.5g} s  dt = {:.3g} s  {:.0f} %  {:.0f} s left", step, time, dt,
              100 * done, left);
   std::fflush(stream_);
   drawn_ = true;

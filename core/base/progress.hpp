@@ -18,8 +18,8 @@ class Progress {
 
   /// Prints a line that stays.
   void line(const std::string& text);
-  /// Draws the live line, or writes a line to a file. `time`, `delT` and `maxTime` in s.
-  void live(int step, double time, double delT, double maxTime);
+  /// Draws the live line, or writes a line to a file. `time`, `dt` and `maxTime` in s.
+  void live(int step, double time, double dt, double maxTime);
   /// Ends the live line.
   void finish();
   /// Whether live() is due, at most ten times a second; cheap enough for every step.

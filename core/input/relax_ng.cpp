@@ -8,6 +8,7 @@
 #include <map>
 #include <pugixml.hpp>
 
+#include "core/base/joined.hpp"
 #include "core/input/schema_file.hpp"
 #include "core/input/value_types.hpp"
 
@@ -99,7 +100,7 @@ class Grammar {
 
   static std::string keyOf(const std::string& tag, const void* what, const std::vector<Demand>& demands) {
     std::string key = fmt::format("{} {}", tag, what);
-    for (const Demand& demand : demands) key += fmt::format(" {}={}", demand.name, fmt::join(demand.words, ","));
+    for (const Demand& demand : demands) key += fmt::format(" {}={}", demand.name, joined(demand.words, ","));
     return key;
   }
 
@@ -115,7 +116,7 @@ class Grammar {
       return;
     }
     const std::string key = fmt::format("{} {} {} {} {} {}", keyOf(tag, nullptr, form.demands), form.type, form.pattern,
-                                        fmt::join(form.choices, ","), static_cast<int>(form.kind), documentation);
+                                        joined(form.choices, ","), static_cast<int>(form.kind), documentation);
     refer(parent, define(key, tag, [form, documentation](xml_node to) {
             document(to, documentation);
             form.kind == TagForm::Kind::value ? writeValue(to, form) : writeAnything(to, form.demands);

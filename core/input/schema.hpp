@@ -177,9 +177,10 @@ class Schema : public SchemaBase {
   }
 
   /// Reads what declarations cannot express. `read` is called once with the element of *this* schema, whether or not
-  /// any of the tags that it `takes` over (`name` itself if none are listed) is given.
-  Schema& custom(std::string_view name, std::function<void(S&, const Element&, Diagnostics&)> read,
-                 std::vector<std::string> takes, std::string_view sentence,
+  /// any of the tags that it `takes` over (`name` itself if none are listed) is given. `Read` is a function of an S&,
+  /// an Element and Diagnostics.
+  template <class Read>
+  Schema& custom(std::string_view name, Read read, std::vector<std::string> takes, std::string_view sentence,
                  std::function<void(std::ostream&, int)> describeBelow = {}) {
     addCustom(
         name,
@@ -205,8 +206,10 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// Checks values against each other; called only if the element had no problem so far.
-  Schema& check(std::function<void(const S&, const Element&, Diagnostics&)> check) {
+  /// Checks values against each other; called only if the element had no problem so far. `Check` is a function of a
+  /// const S&, an Element and Diagnostics.
+  template <class Check>
+  Schema& check(Check check) {
     addCheck([check = std::move(check)](const void* object, const Element& element, Diagnostics& diagnostics) {
       check(*static_cast<const S*>(object), element, diagnostics);
     });

@@ -2,6 +2,8 @@
 
 namespace tushar::input {
 
+TUSHAR_ALL_SCHEMA_INSTANCES()
+
 // Instances that the compiler would otherwise make in each file that declares a schema.
 SchemaEntry::SchemaEntry() = default;
 SchemaEntry::SchemaEntry(const SchemaEntry& other) = default;

@@ -131,4 +131,18 @@ void setDefaultChoiceOf(SchemaEntry& entry, Reach<E> member, const Choices<E>& c
   entry.setDefault = [member = std::move(member), byDefault](void* object) { *member(object) = byDefault; };
 }
 
+// Instances that nearly every component has, compiled once in the core.
+#define TUSHAR_SCHEMA_INSTANCES(WORD, T)                                                                             \
+  WORD template SchemaEntry valueEntryOf(Reach<T>, std::string_view, std::string_view, std::string_view, Limits<T>); \
+  WORD template void setDefaultOf(SchemaEntry&, Reach<T>, const T&);
+#define TUSHAR_ALL_SCHEMA_INSTANCES(WORD)    \
+  TUSHAR_SCHEMA_INSTANCES(WORD, bool)        \
+  TUSHAR_SCHEMA_INSTANCES(WORD, int)         \
+  TUSHAR_SCHEMA_INSTANCES(WORD, double)      \
+  TUSHAR_SCHEMA_INSTANCES(WORD, std::string) \
+  TUSHAR_SCHEMA_INSTANCES(WORD, Vec3)        \
+  TUSHAR_SCHEMA_INSTANCES(WORD, Expression)  \
+  TUSHAR_SCHEMA_INSTANCES(WORD, VectorExpression)
+TUSHAR_ALL_SCHEMA_INSTANCES(extern)
+
 }  // namespace tushar::input

@@ -1,12 +1,12 @@
 #include "core/input/values.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "core/base/joined.hpp"
 #include "core/input/text.hpp"
 
 namespace tushar::input {
@@ -186,10 +186,10 @@ std::string toText(std::int64_t value) { return fmt::to_string(value); }
 std::string toText(double value) { return fmt::format("{}", value); }
 std::string toText(const std::string& value) { return value; }
 std::string toText(const Vec3& value) { return fmt::format("[{},{},{}]", value[0], value[1], value[2]); }
-std::string toText(const Index3& value) { return fmt::format("[{}]", fmt::join(value.at, ",")); }
-std::string toText(const std::vector<double>& value) { return fmt::format("[{}]", fmt::join(value, ",")); }
-std::string toText(const std::vector<int>& value) { return fmt::format("[{}]", fmt::join(value, ",")); }
-std::string toText(const std::vector<std::string>& value) { return fmt::format("[{}]", fmt::join(value, ",")); }
+std::string toText(const Index3& value) { return fmt::format("[{}]", joined(value.at, ",")); }
+std::string toText(const std::vector<double>& value) { return fmt::format("[{}]", joined(value, ",")); }
+std::string toText(const std::vector<int>& value) { return fmt::format("[{}]", joined(value, ",")); }
+std::string toText(const std::vector<std::string>& value) { return fmt::format("[{}]", joined(value, ",")); }
 std::string toText(const std::vector<Index3>& value) {
   std::string text;
   for (const Index3& triple : value) text += (text.empty() ? "" : ",") + toText(triple);

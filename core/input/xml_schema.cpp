@@ -8,6 +8,7 @@
 #include <pugixml.hpp>
 #include <set>
 
+#include "core/base/joined.hpp"
 #include "core/input/schema_file.hpp"
 #include "core/input/value_types.hpp"
 
@@ -48,8 +49,7 @@ class Uses {
   }
   static std::string keyOf(const Alternative& section) {
     std::string key = fmt::format("{}", static_cast<const void*>(section.schema));
-    for (const Demand& demand : section.demands)
-      key += fmt::format(" {}={}", demand.name, fmt::join(demand.words, ","));
+    for (const Demand& demand : section.demands) key += fmt::format(" {}={}", demand.name, joined(demand.words, ","));
     return key;
   }
 
@@ -96,7 +96,7 @@ class Writer {
     if (uses.sections.empty()) return "";
     std::set<std::string> parts;
     for (const Alternative& one : uses.sections) parts.insert(Uses::keyOf(one));
-    auto [found, isNew] = names_.try_emplace(fmt::format("{} {}", tag, fmt::join(parts, ";")));
+    auto [found, isNew] = names_.try_emplace(fmt::format("{} {}", tag, joined(parts, ";")));
     if (isNew) {
       const int count = ++counts_[tag];
       found->second = count == 1 ? tag + "-tag" : fmt::format("{}-tag-{}", tag, count);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <system_error>
 
 #include "core/output/archive_cut.hpp"
@@ -38,8 +37,8 @@ bool GlobalFiles::append(const GlobalSample& sample) {
     found = files_.emplace(sample.name, AppendFile(pathOf(sample.name))).first;
     line_ = headerOf(sample);
   }
-  fmt::format_to(std::back_inserter(line_), "{}", sample.time);
-  for (const double value : sample.values) fmt::format_to(std::back_inserter(line_), " {}", value);
+  line_ += fmt::format("{}", sample.time);
+  for (const double value : sample.values) line_ += fmt::format(" {}", value);
   line_ += '\n';
   found->second.append(line_);
   return isNew;

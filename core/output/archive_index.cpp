@@ -1,6 +1,6 @@
 #include "core/output/archive_index.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <ostream>
@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/joined.hpp"
 #include "core/output/archive_files.hpp"
 #include "core/output/archive_snapshot.hpp"
 #include "core/output/archive_xml.hpp"
@@ -122,7 +123,7 @@ void ArchiveIndex::write(std::ostream& out) const {
     pugi::xml_node node = variables.append_child("variable");
     set(node, "name", name, "centring", variable.centring, "type", variable.type, "components", variable.components,
         "unit", variable.unit, "description", variable.description);
-    if (!variable.materials.empty()) set(node, "materials", fmt::format("{}", fmt::join(variable.materials, ", ")));
+    if (!variable.materials.empty()) set(node, "materials", joined(variable.materials, ", "));
   }
   pugi::xml_node globals = root.append_child("globals");
   for (const auto& [name, global] : globals_) {

@@ -1,6 +1,6 @@
 #include "core/output/archive_xdmf.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <fstream>
@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/joined.hpp"
 #include "core/output/archive_snapshot.hpp"
 #include "core/output/archive_snapshot_head.hpp"
 #include "core/output/archive_xdmf_reader.hpp"
@@ -48,7 +49,7 @@ void addHeavyItem(pugi::xml_node parent, const Context& context, const std::stri
   const bool real = std::holds_alternative<std::vector<double>>(array.values);
   const bool wide = real ? !context.doubleAsFloat : std::holds_alternative<std::vector<std::uint64_t>>(array.values);
   pugi::xml_node item = parent.append_child("DataItem");
-  set(item, "Dimensions", fmt::format("{}", fmt::join(shape, " ")));
+  set(item, "Dimensions", joined(shape, " "));
   set(item, "NumberType", real ? "Float" : "Int");
   set(item, "Precision", wide ? 8 : 4);
   set(item, "Format", "HDF");
@@ -63,7 +64,7 @@ void addSlab(pugi::xml_node parent, const Context& context, const std::string& p
   pugi::xml_node item = parent.append_child("DataItem");
   set(item, "ItemType", "HyperSlab");
   set(item, "Dimensions",
-      fmt::format("{}{}", fmt::join(rows.shape, " "), several ? fmt::format(" {}", array.components) : ""));
+      fmt::format("{}{}", joined(rows.shape, " "), several ? fmt::format(" {}", array.components) : ""));
   pugi::xml_node slab = item.append_child("DataItem");
   set(slab, "Dimensions", several ? "3 2" : "3 1");
   set(slab, "Format", "XML");
@@ -124,7 +125,7 @@ Vec3 firstNode(const GridInfo& grid) {
 void addMesh(pugi::xml_node grid, const Shape& points, const Vec3& origin, const Vec3& spacing) {
   pugi::xml_node topology = grid.append_child("Topology");
   set(topology, "TopologyType", "3DCoRectMesh");
-  set(topology, "Dimensions", fmt::format("{}", fmt::join(points, " ")));
+  set(topology, "Dimensions", joined(points, " "));
   pugi::xml_node geometry = grid.append_child("Geometry");
   set(geometry, "GeometryType", "ORIGIN_DXDYDZ");
   addLightItem(geometry, reversed(origin));

@@ -1,7 +1,6 @@
 #include "core/output/run_log.hpp"
 
-#include <fmt/chrono.h>
-
+#include <array>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -18,7 +17,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// `2026-01-31T12:00:00Z`.
-std::string dateNow() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+std::string dateNow() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  std::array<char, sizeof "2026-01-31T12:00:00Z"> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
 
 Json entryOf(const RunRecord& record) {
   Json entry = {{"started", dateNow()},      {"restart", record.restarts},    {"from_step", record.step},

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "core/base/joined.hpp"
 #include "core/input/schema.hpp"
 #include "core/scene/module_conflicts.hpp"
 #include "core/scene/scene_samples.hpp"
@@ -104,7 +105,7 @@ void refuseUnknownSections(const Element& root, const ComponentKind& kind, Diagn
       diagnostics.note(child, idle->second);
     else
       diagnostics.error(child, fmt::format("unknown section <{}>{}; allowed here: {}", child.name(),
-                                           didYouMean(child.name(), known), fmt::join(known, ", ")));
+                                           didYouMean(child.name(), known), joined(known, ", ")));
 }
 
 /// Refuses text and attributes of the root, except the name spaces that editors write.

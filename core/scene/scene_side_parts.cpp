@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/joined.hpp"
 #include "core/input/text.hpp"
 #include "core/scene/scene_sides.hpp"
 
@@ -60,8 +61,8 @@ bool hasAttributesOf(const FaceWord& word, const Element& tag, Diagnostics& diag
   const auto& own = word.attributes;
   for (const std::string& needed : own)
     if (!tag.attribute(needed))
-      diagnostics.error(
-          tag, fmt::format("missing attribute '{}': {} goes with {}", needed, word.name, fmt::join(own, ", ")));
+      diagnostics.error(tag,
+                        fmt::format("missing attribute '{}': {} goes with {}", needed, word.name, joined(own, ", ")));
   std::set<std::string> told(own.begin(), own.end());
   for (const FaceWord& other : faceWords()) {
     if (&other != &word && tag.attribute(other.name))

@@ -1,4 +1,4 @@
-#include <fmt/ostream.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <ostream>
@@ -27,7 +27,7 @@ void Phases::printSchedule(std::ostream& out) const {
     };
     const bool isForRefinement = !refinement.tasks().empty() && !leavesOut(refinement);
     if (leavesOut(everyOutput) && leavesOut(report) && !isForRefinement)
-      fmt::print(out, "  --  {} left out: {}\n", task.task, task.reason);
+      out << fmt::format("  --  {} left out: {}\n", task.task, task.reason);
   }
 }
 

@@ -1,11 +1,11 @@
 #include "core/simulation/restart.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/joined.hpp"
 #include "core/base/mpi_together.hpp"
 
 namespace tushar::simulation {
@@ -56,8 +56,7 @@ void refuseDamaged(const Restart& restart, const mpi::Communicator& ranks) {
 }
 
 std::string listedSteps(const std::vector<int>& steps) {
-  return fmt::format("there {} {}", steps.size() == 1 ? "is that of step" : "are those of steps",
-                     fmt::join(steps, ", "));
+  return fmt::format("there {} {}", steps.size() == 1 ? "is that of step" : "are those of steps", joined(steps, ", "));
 }
 
 std::string continuesFrom(const Restart& restart) {

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <ostream>
 
@@ -32,19 +31,19 @@ void printAccesses(std::ostream& out, const Task& task, AccessKind kind) {
     line += access.label->name;
     if (access.ghost > 0) line += fmt::format(" (ghost {})", access.ghost);
   }
-  if (!line.empty()) fmt::print(out, "      {:<13} {}\n", word(kind), line);
+  if (!line.empty()) out << fmt::format("      {:<13} {}\n", word(kind), line);
 }
 
 }  // namespace
 
 void TaskGraph::print(std::ostream& out) const {
-  fmt::print(out, "{}\n", name_);
+  out << fmt::format("{}\n", name_);
   int number = 0;
   for (const CompiledTask& compiled : tasks_) {
     const Task& task = compiled.task;
     std::string materials;
     for (const std::string& material : task.materials) materials += (materials.empty() ? "" : ", ") + material;
-    fmt::print(out, "  {:>2}  {}{}\n", ++number, task.name, materials.empty() ? "" : " [" + materials + "]");
+    out << fmt::format("  {:>2}  {}{}\n", ++number, task.name, materials.empty() ? "" : " [" + materials + "]");
     for (const AccessKind kind : {AccessKind::requiresOld, AccessKind::requiresNew, AccessKind::computes,
                                   AccessKind::modifies, AccessKind::creates})
       printAccesses(out, task, kind);
@@ -52,15 +51,15 @@ void TaskGraph::print(std::ostream& out) const {
 }
 
 void TaskGraph::printLeftOut(std::ostream& out) const {
-  for (const LeftOut& task : leftOut()) fmt::print(out, "  --  {} left out: {}\n", task.task, task.reason);
+  for (const LeftOut& task : leftOut()) out << fmt::format("  --  {} left out: {}\n", task.task, task.reason);
 }
 
 void TaskGraph::printDot(std::ostream& out) const {
-  fmt::print(out, "digraph \"{}\" {{\n  rankdir=LR; node [shape=box, style=rounded];\n", name_);
-  for (std::size_t t = 0; t < tasks_.size(); ++t) fmt::print(out, "  t{} [label=\"{}\"];\n", t, tasks_[t].task.name);
+  out << fmt::format("digraph \"{}\" {{\n  rankdir=LR; node [shape=box, style=rounded];\n", name_);
+  for (std::size_t t = 0; t < tasks_.size(); ++t) out << fmt::format("  t{} [label=\"{}\"];\n", t, tasks_[t].task.name);
   for (const Dependency& d : dependencies_)
-    fmt::print(out, "  t{} -> t{} [label=\"{}\"];\n", d.before, d.after, d.label);
-  fmt::print(out, "}}\n");
+    out << fmt::format("  t{} -> t{} [label=\"{}\"];\n", d.before, d.after, d.label);
+  out << "}\n";
 }
 
 }  // namespace tushar::tasks

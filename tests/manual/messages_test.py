@@ -14,7 +14,7 @@ from tushar.manual.messages import catalogue, family_of, is_fragment, pattern  #
 from tushar.manual.templates import templates, templates_in  # noqa: E402
 
 IDS = ROOT / "tests/manual/message_ids.txt"
-JOINED = {"T704"}  # families whose message is put together from several texts
+JOINED = {"T704", "T709"}  # families whose message is put together from several texts
 SOD = "ups/mpm/sod.ups"
 MISTAKES = (
     ("T101", (SOD, "--set", "Time/maxTimes=1")),

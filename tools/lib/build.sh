@@ -9,7 +9,7 @@ packages=(
 )
 test_packages=(
   libgtest-dev libxml2-utils python3 python3-venv python3-h5py python3-matplotlib clang-format universal-ctags
-  python3-markdown-it python3-scipy python3-setuptools python3-wheel dpkg-dev
+  python3-markdown-it python3-scipy python3-setuptools python3-wheel dpkg-dev qemu-user
 )
 
 say() { printf '%s\n' "tushar: $*" >&2; }

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string>
+#include <string_view>
+
+namespace tushar {
+
+/// Values as text, with a separator between them: `1, 2, 3`. In place of fmt::join, for which the compiler makes the
+/// formatting of numbers again in each file that uses it.
+template <class Values>
+std::string joined(const Values& values, std::string_view separator) {
+  std::string text;
+  for (const auto& value : values) {
+    if (&value != &*std::begin(values)) text += separator;
+    text += fmt::format("{}", value);
+  }
+  return text;
+}
+
+}  // namespace tushar
