@@ -18,7 +18,7 @@ class GasAround : public mpm::solid::Surroundings {
   explicit GasAround(Settings settings);
 
   std::vector<std::string> gasNames() const;
-  bool exchangesHeat() const override { return !settings_.heat.empty(); }
+  bool exchangesHeat() const override { return settings_.heat.act(); }
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
   void scheduleForces(TaskList& tasks, const Materials& materials) const override;
   void scheduleMotion(TaskList& tasks, const Materials& materials) const override;
@@ -31,9 +31,10 @@ class GasAround : public mpm::solid::Surroundings {
     reach.gases = settings_.gases.size();
     return all<GasInCells<D>>(reads, reach);
   }
-  bool conductsToBodies() const { return settings_.diffusion.conductivity > 0 && exchangesHeat(); }
+  bool conductsToBodies() const { return settings_.diffusion.conducts() && exchangesHeat(); }
   void scheduleConduction(TaskList& tasks, const Materials& materials) const;
-  bool isViscous() const { return settings_.diffusion.viscosity > 0; }
+  bool isViscous() const { return settings_.diffusion.isViscous(); }
+  void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
 
