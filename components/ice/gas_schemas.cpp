@@ -112,6 +112,17 @@ const Schema<EddiesSection>& eddiesSchema() {
   return schema;
 }
 
+const Schema<HeatingSection>& heatingSchema() {
+  static const Schema<HeatingSection> schema =
+      Schema<HeatingSection>("ADD_HEAT", "Heat that gases get, everywhere, for a time.")
+          .location(&HeatingSection::where)
+          .required("add_heat_matls", &HeatingSection::materials, "1", "numbers of the materials; bodies count first")
+          .required("add_heat_coeff", &HeatingSection::perMass, "W/kg", "heat per mass and time of each of them")
+          .required("add_heat_t_start", &HeatingSection::start, "s", "steps from this time on add it")
+          .required("add_heat_t_final", &HeatingSection::end, "s", "until this time");
+  return schema;
+}
+
 const Schema<IceSection>& iceSchema() {
   static const Schema<IceSection> schema = [] {
     Schema<IceSection> tags("ICE", "The method.");
@@ -129,9 +140,9 @@ const Schema<IceSection>& iceSchema() {
     input::noteTag(tags, "ClampSpecificVolume", "the specific volume is that of the density");
     tags.section("customInitialization", &IceSection::start, customStartSchema(), "the state at the start by formulas");
     tags.section("fixedPressureGradient", &IceSection::push, pushSchema(), "a force that drives a flow")
-        .section("turbulence", &IceSection::eddies, eddiesSchema(), "viscosity of eddies smaller than cells");
+        .section("turbulence", &IceSection::eddies, eddiesSchema(), "viscosity of eddies smaller than cells")
+        .section("ADD_HEAT", &IceSection::heating, heatingSchema(), "heat from outside");
     input::refuseTag(tags, "wallShearStress", "the gas does not slip along a wall with a Velocity");
-    input::refuseTag(tags, "ADD_HEAT", "give <temperature> a formula at the start");
     input::refuseSwitch(tags, "applyHydrostaticPressure", "give <density> a formula at the start");
     return tags;
   }();

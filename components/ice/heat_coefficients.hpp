@@ -17,7 +17,7 @@ struct HeatCoefficients {
   /// That of a pair whose masses are given per volume of the cell [kg/m³]. By masses it is r² or 1/r², r their ratio,
   /// from 1e5 to 1e12: Uintah's `linearVariation`.
   double of(std::size_t pair, double massA, double massB) const {
-    if (!byMasses) return pairs[pair];
+    if (!byMasses) return pairs.empty() ? 0 : pairs[pair];
     const double ratio = massA > massB ? massA / massB : massB / massA;
     return std::clamp(ratio * ratio, 1e5, 1e12);
   }

@@ -124,6 +124,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};
   settings.diffusion = {scene.varying, scene.diffusions};
+  settings.heating = scene.heating;
   settings.gases = scene.mixture;
   if (scene.implicit)
     settings.implicit = {.diffusion = scene.varying.varies() ? euler::Diffusion() : scene.varying.uniform,
@@ -155,10 +156,13 @@ simulation::ComponentKind kind(bool areRigid) {
                            : "a compressible gas and bodies of particles, which interact";
   kind.sections = ice::gasSections();
   kind.sections.insert(kind.sections.end(), {"MPM", "PhysicalBC"});
+  kind.takesLevels = true;
+  kind.refinesByItself = true;  // the finest level follows bodies
   kind.amrSections = {"ICE", "MPM", "MPMICE"};
   kind.readFirst = {"MaterialProperties/MPM"};  // as in Uintah
   kind.boundaryLabels = {grid::symmetric, euler::boundary::density, euler::boundary::pressure,
                          mpm::boundary::velocity.evenOnPlanes(), mpm::boundary::temperature.evenOnPlanes()};
+  kind.conditionWords = ice::gasConditionWords(false);
   kind.takesPartsOfSides = true;
   kind.describe = [](std::ostream& out) {
     ice::describeGas(out);

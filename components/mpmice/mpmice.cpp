@@ -10,6 +10,7 @@
 #include "components/mpmice/tasks/exchange_heat.hpp"
 #include "components/mpmice/tasks/initialize.hpp"
 #include "components/mpmice/tasks/measure_bodies.hpp"
+#include "components/mpmice/tasks/refine_gas.hpp"
 #include "components/mpmice/tasks/share_small_cells.hpp"
 #include "components/mpmice/uintah_words.hpp"
 
@@ -118,15 +119,18 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   if (settings_.diffusion.acts())
     tasks.perPatch("mpmice::addDiffusion", settings_.diffusion.varies() ? addVaryingDiffusion<D> : addDiffusion<D>,
                    with(settings_), gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), requiresOld(delT),
-                   modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy));
+                   modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy), all<RimsOfDiffusion<D>>());
   if (conductsToBodies()) scheduleConduction(tasks, materials);
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_),
                  all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
                  computes(total::mergedCells));
   if (exchangesHeat())
-    tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), requiresOld(delT),
-                          withoutMaterial(all<HeatedGas<D>>(settings_.gases.size())), all<WarmBodies>(),
-                          withoutMaterial(offers(c::heat)));
+    tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), startTime(),
+                          requiresOld(delT), withoutMaterial(all<HeatedGas<D>>(settings_.gases.size())),
+                          all<WarmBodies>(), withoutMaterial(offers(c::heat)));
+  else if (settings_.heating.acts())
+    tasks.perPatch("mpmice::addHeat", heatGases<D>, with(settings_), startTime(), requiresOld(delT),
+                   all<HeatedGas<D>>(settings_.gases.size()));
   if (!settings_.gravity.isZero(0) && !settings_.implicit)
     tasks.perPatch("mpmice::addGravity", addGravity<D>, with(settings_.gravity), requiresNew(c::freeVolume),
                    requiresNew(c::density), requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
@@ -187,6 +191,21 @@ void GasAround<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKn
   if (settings_.diffusion.acts() && settings_.diffusion.varies())
     tasks.perPatch("mpmice::limitDiffusion", limitVaryingDiffusion<D>, with(settings_),
                    gasIn(readsOld, {.state = 1, .mass = 1, .room = 1}), with(soundSpeedKnob), computes(delT));
+}
+
+template <int D>
+void GasAround<D>::scheduleErrorEstimate(TaskList& tasks) const {
+  tasks.perPatch("mpmice::markBodies", markBodies<D>, requiresOld(c::freeVolume, markedLayers), marks());
+}
+
+template <int D>
+void GasAround<D>::scheduleRefine(TaskList& tasks) const {
+  if (settings_.gases.empty())
+    tasks.perPatch("euler::mendNewCells", euler::mendNewCells<D>, with(settings_.gas.gas), newCells(),
+                   all<euler::ChangedState<D>>());
+  else
+    tasks.perPatch("mpmice::mendNewGases", mendNewGases<D>, with(settings_.gases), newCells(),
+                   all<euler::ChangedState<D>>(), all<ChangedGases>(settings_.gases.size()));
 }
 
 template <int D>

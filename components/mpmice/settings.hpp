@@ -4,6 +4,7 @@
 #include "components/euler/varying_diffusion.hpp"
 #include "components/ice/face_flow.hpp"
 #include "components/ice/heat_coefficients.hpp"
+#include "components/ice/heating.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpmice {
@@ -36,6 +37,7 @@ struct Settings {
   bool areRigid = false;         ///< bodies keep their velocities, whatever the gas does
   GasDiffusion diffusion = {};
   std::optional<ice::IceSettings> implicit = {};  ///< where sound does not limit the steps
+  ice::Heating heating = {};                      ///< of the gases
   std::vector<euler::Settings> gases = {};        ///< each of several gases that share cells; the first is `gas`
 };
 

@@ -158,4 +158,61 @@ TEST(HeatBetweenGases, HasOneFingerprintOnAnyPatches) {
   EXPECT_EQ(test::runScene(scene, overrides).fingerprint, whole.fingerprint);
 }
 
+namespace {
+
+/// A scene whose gases get heat.
+std::string heated(const std::string& scene, const std::string& tags) {
+  return test::changedScene(scene, "<ICE><advection type=\"SecondOrder\"/>",
+                            "<ICE><advection type=\"SecondOrder\"/><ADD_HEAT>" + tags + "</ADD_HEAT>");
+}
+std::string heatTags(const std::string& materials, const std::string& rates, const std::string& end) {
+  return "<add_heat_matls>" + materials + "</add_heat_matls><add_heat_coeff>" + rates +
+         "</add_heat_coeff><add_heat_t_start>0</add_heat_t_start><add_heat_t_final>" + end + "</add_heat_t_final>";
+}
+
+}  // namespace
+
+TEST(Heating, LastsFromItsStartToItsEnd) {
+  const Heating heating{{}, {0, 5}, 0.2, 0.4};
+  EXPECT_TRUE(heating.acts());
+  EXPECT_EQ(heating.inStep(1, 0.1, 0.5), 0);
+  EXPECT_EQ(heating.inStep(1, 0.2, 0.5), 2.5);
+  EXPECT_EQ(heating.inStep(0, 0.2, 0.5), 0);
+  EXPECT_EQ(heating.inStep(1, 0.41, 0.5), 0);
+  EXPECT_FALSE((Heating{{}, {0, 0}, 0, 1}).acts());
+}
+
+TEST(Heating, OfOneOfTwoGasesMakesThatOneWarm) {
+  WarmThings<> things(2);
+  things.setGas(0, {.gamma = 1.4, .specificHeat = 700}, 0.5, 0.5, 1e5);
+  things.setGas(1, {.gamma = 1.4, .specificHeat = 700}, 0.5, 0.5, 1e5);
+  giveHeat(things, {{}, {0, 3e4}, 0, 1}, 0, 1e-1, 0);
+  EXPECT_DOUBLE_EQ(things.given[1], 1500);
+  const auto changes = changesByHeat(things, {}, 1e-1);
+  // p rises by (gamma - 1) times the heat; the other gas is compressed without heat.
+  const double after = 1e5 + 0.4 * 1500;
+  EXPECT_NEAR(things.expansion[0] * (things.temperature[0] + changes.temperature[0]) / (0.5 + changes.volume[0]), after,
+              1e-7);
+  EXPECT_LT(changes.volume[0], 0);
+  EXPECT_NEAR(changes.volume[0] + changes.volume[1], 0, 1e-15);
+  EXPECT_GT(changes.temperature[1], 2 * changes.temperature[0]);
+}
+
+TEST(Heating, AddsItsEnergyToAGasAndToSeveral) {
+  const auto rise = [](const std::string& scene) { return test::driftOf(test::runScene(scene, {}), "energy"); };
+  const std::string sod = "ups/ice/sod.ups";
+  const double one = rise(heated(sod, heatTags("[0]", "[0.3]", "1")));
+  EXPECT_GT(one, 0.005);
+  EXPECT_NEAR(rise(heated(sod, heatTags("[0]", "[0.6]", "1"))) / one, 2, 1e-6);
+  EXPECT_GT(rise(heated(tube, heatTags("[1]", "[0.3]", "1"))), 1e-4);
+  EXPECT_NEAR(rise(heated(tube, heatTags("[1]", "[0.3]", "-1"))), 0, 1e-14);
+}
+
+TEST(Heating, IsForGasesOfTheScene) {
+  EXPECT_EQ(test::problemOf(heated(tube, heatTags("[2]", "[1]", "1"))),
+            "material 2 is not available: heat is for gases, whose numbers are 0 to 1");
+  EXPECT_EQ(test::problemOf(heated(tube, heatTags("[0,1]", "[1]", "1"))),
+            "found 2 numbers of materials and 1 coefficients, expected as many");
+}
+
 }  // namespace tushar::ice

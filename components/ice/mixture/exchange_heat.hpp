@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "components/ice/heat_coefficients.hpp"
+#include "components/ice/heating.hpp"
 #include "components/ice/mixture/tasks.hpp"
 
 namespace tushar::ice {
@@ -21,6 +22,7 @@ struct WarmThings {
   Vector volume;         ///< share of the cell
   Vector expansion;      ///< m R of gases that share their volume, J/(m³ K); 0 of things that keep their own
   Vector stiffPressure;  ///< p + p_inf of these gases, Pa
+  Vector given;          ///< heat that each gets besides, J/m³
 
   explicit WarmThings(Eigen::Index count)
       : mass(Vector::Zero(count)),
@@ -28,7 +30,8 @@ struct WarmThings {
         temperature(capacity),
         volume(capacity),
         expansion(capacity),
-        stiffPressure(capacity) {}
+        stiffPressure(capacity),
+        given(capacity) {}
 
   int present() const { return static_cast<int>((capacity.array() > 0).count()); }
   /// Sets one of several gases at a common pressure [Pa]: its mass [kg/m³] and volume per volume of the cell. Without
@@ -76,7 +79,7 @@ double pressureRise(const Vector& a, const Vector& b, const Vector& stiffPressur
   return rise;
 }
 
-/// What a step of heat exchange changes.
+/// Changes in a step of heat exchange.
 template <int Most>
 struct HeatChanges {
   typename WarmThings<Most>::Vector temperature, volume;  ///< K; share of the cell
@@ -93,7 +96,7 @@ HeatChanges<Most> changesByHeat(const WarmThings<Most>& things, const HeatCoeffi
   using Vector = typename WarmThings<Most>::Vector;
   const Eigen::Index count = things.capacity.size();
   typename WarmThings<Most>::Matrix system = WarmThings<Most>::Matrix::Zero(count, count);
-  Vector heat = Vector::Zero(count);
+  Vector heat = things.given;
   std::size_t pair = 0;
   for (Eigen::Index a = 0; a < count; ++a)
     for (Eigen::Index b = a + 1; b < count; ++b, ++pair) {
@@ -128,6 +131,28 @@ HeatChanges<Most> changesByHeat(const WarmThings<Most>& things, const HeatCoeffi
   return changes;
 }
 
+/// Gives several gases their heat, by which those of a cell expand.
+template <int Most>
+void giveHeat(WarmThings<Most>& things, const Heating& heating, double time, double dt, Eigen::Index first) {
+  for (std::size_t k = 0; k < heating.perMass.size(); ++k) {
+    const auto at = first + static_cast<Eigen::Index>(k);
+    things.given[at] = things.mass[at] * heating.inStep(k, time, dt);
+  }
+}
+
+/// The shares of gases whose volumes change.
+template <int Most, class Shares>
+void changeShares(const HeatChanges<Most>& changes, Eigen::Index first, double room, Shares&& shares) {
+  double sum = 0;
+  const auto count = changes.volume.size() - first;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    double& share = shares(k);
+    share = std::max(0.0, share + changes.volume[first + k] / room);
+    sum += share;
+  }
+  for (Eigen::Index k = 0; k < count; ++k) shares(k) /= sum;
+}
+
 /// What the exchange of heat reads and changes of each of several gases.
 struct WarmGas {
   CellView<const double> mass;
@@ -138,12 +163,12 @@ struct WarmGas {
   }
 };
 
-/// Heat between several gases in the cells that they share, by Uintah's coefficients. Masses, momentum and energy stay;
-/// shares and the pressure change.
+/// Heat between several gases in the cells that they share, by Uintah's coefficients, and heat from outside. Masses and
+/// momentum stay, energy changes by what comes from outside; shares and the pressure change.
 template <int D>
-void exchangeHeat(const Patch& patch, const Gases& gases, const HeatCoefficients& coefficients, double dt,
-                  CellView<const double> density, CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
-                  const std::vector<WarmGas>& held) {
+void exchangeHeat(const Patch& patch, const Gases& gases, const HeatCoefficients& coefficients, const Heating& heating,
+                  double time, double dt, CellView<const double> density, CellView<const Vec<D>> momentum,
+                  CellView<double> totalEnergy, const std::vector<WarmGas>& held) {
   const auto count = static_cast<Eigen::Index>(gases.size());
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double energy = euler::internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
@@ -151,12 +176,11 @@ void exchangeHeat(const Patch& patch, const Gases& gases, const HeatCoefficients
     WarmThings<euler::kMostGases> things(count);
     for (Eigen::Index k = 0; k < count; ++k)
       things.setGas(k, gases[k].gas, held[k].mass[cell], held[k].share[cell], pressure);
+    giveHeat(things, heating, time, dt, 0);
+    totalEnergy[cell] += things.given.sum();
     if (things.present() < 2) return;
-    const auto changes = changesByHeat(things, coefficients, dt);
-    double sum = 0;
-    for (Eigen::Index k = 0; k < count; ++k) sum += std::max(0.0, held[k].share[cell] + changes.volume[k]);
-    for (Eigen::Index k = 0; k < count; ++k)
-      held[k].share[cell] = std::max(0.0, held[k].share[cell] + changes.volume[k]) / sum;
+    changeShares(changesByHeat(things, coefficients, dt), 0, 1,
+                 [&](Eigen::Index k) -> double& { return held[k].share[cell]; });
   });
 }
 

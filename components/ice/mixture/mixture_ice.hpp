@@ -39,6 +39,7 @@ class MixtureIce : public Component, public reference::GasSolution {
   MixtureDiffusion diffusion_;
   std::vector<Transfer> transfers_;
   HeatCoefficients heat_;
+  Heating heating_;
   bool hasLevels_;
   std::vector<std::shared_ptr<const GasTotal>> totals_;
 };

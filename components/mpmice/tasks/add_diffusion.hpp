@@ -130,12 +130,20 @@ void findTemperatures(const euler::Gas& gas, const Level& level, const GasInCell
   });
 }
 
+/// What diffuses through the rim of the level before small cells share, Pa and W/m².
+template <int D>
+struct RimsOfDiffusion : euler::DiffusionRims<D> {
+  static RimsOfDiffusion from(auto& take) {
+    return {{.momentum = take(keepsFlux(c::unsharedMomentum<D>)), .energy = take(keepsFlux(c::unsharedEnergy))}};
+  }
+};
+
 /// Adds what viscosity and conduction change within the gas in a step, from the state at its start, to that before
 /// small cells share: through faces as far as they are open. Friction at walls is with their pressure. Where no body is
 /// near, it is that of `euler`, to the last bit.
 template <int D>
 void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
-                  CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
+                  CellView<Vec<D>> momentum, CellView<double> totalEnergy, const RimsOfDiffusion<D>& rims) {
   const Level& level = patch.level();
   const euler::Gas& gas = settings.gas.gas;
   const euler::Diffusion& uniform = settings.diffusion.alone.uniform;
@@ -156,6 +164,7 @@ void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells
       near.forEachIn(faces, [&](const Index<D>& cell) {
         euler::store<D>(flux.at(cell), 0, beside.fluxThrough(cell, axis, [&](auto&&) { return uniform; }));
       });
+      euler::keepDiffused<D>(rims, faces, axis, flux);
       euler::addDiffused<D>(dt / level.spacing(axis), block, axis, flux, momentum, totalEnergy);
     }
   });
@@ -173,7 +182,7 @@ auto diffusingGas(const Level& level, const Settings& settings, const GasInCells
 /// both cells' coefficients lets through.
 template <int D>
 void addVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
-                         CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
+                         CellView<Vec<D>> momentum, CellView<double> totalEnergy, const RimsOfDiffusion<D>& rims) {
   const Level& level = patch.level();
   const euler::GhostRules<D> rules = euler::diffusionRules<D>(level, settings.gas.gas);
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
@@ -190,6 +199,7 @@ void addVaryingDiffusion(const Patch& patch, const Settings& settings, const Gas
         const auto how = [&](auto&& strain) { return diffuser.atFace(cell, axis, strain); };
         euler::store<D>(flux.at(cell), 0, beside.fluxThrough(cell, axis, how));
       });
+      euler::keepDiffused<D>(rims, faces, axis, flux);
       euler::addDiffused<D>(dt / level.spacing(axis), block, axis, flux, momentum, totalEnergy);
     }
   });

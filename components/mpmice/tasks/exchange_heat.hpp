@@ -47,13 +47,16 @@ class HeatExchange {
                const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies)
       : patch_(patch), materials_(materials), settings_(settings), gas_(gas), bodies_(bodies) {}
 
-  /// Exchanges heat in a cell. Returns what the gas gives to bodies, J/m³ of the cell.
-  double apply(const Index<D>& cell, double dt) const {
+  /// Exchanges heat in a cell, and adds that from outside. Returns what the gas gives to bodies, J/m³ of the cell.
+  double apply(const Index<D>& cell, double time, double dt) const {
     const std::size_t bodies = bodies_.size(), gases = std::max<std::size_t>(1, settings_.gases.size());
+    const auto first = static_cast<Eigen::Index>(bodies);
     ice::WarmThings<> things(static_cast<Eigen::Index>(bodies + gases));
     for (std::size_t m = 0; m < bodies; ++m) addBody(m, cell, things);
     const int solid = things.present();
     if (gas_.free[cell] >= leastFreeVolume && gas_.density[cell] > 0) addGas(cell, things);
+    ice::giveHeat(things, settings_.heating, time, dt, first);
+    gas_.totalEnergy[cell] += things.given.sum();
     const int present = things.present();
     if (present < 2) return 0;
     const auto changes = ice::changesByHeat(things, settings_.heat, dt);
@@ -65,7 +68,9 @@ class HeatExchange {
       for (const int p : bodies_[m].mass.template in<D>(cell)) bodies_[m].temperature[p] += change;
     }
     gas_.totalEnergy[cell] -= given;
-    if (present > solid && !settings_.gases.empty()) changeShares(cell, changes.volume);
+    if (present > solid && !settings_.gases.empty())
+      ice::changeShares(changes, first, gas_.free[cell],
+                        [&](Eigen::Index k) -> double& { return gas_.shares[k][cell]; });
     return given;
   }
 
@@ -104,17 +109,6 @@ class HeatExchange {
     if (gas.law || gas.pInfinity > 0) things.temperature[first] = gas.temperature(mass / free, internal / free);
     things.volume[first] = free;
   }
-  /// Gases of a cell whose volumes change by these parts of the cell.
-  void changeShares(const Index<D>& cell, const ice::WarmThings<>::Vector& volume) const {
-    const auto first = static_cast<Eigen::Index>(bodies_.size());
-    const auto changed = [&](std::size_t k) {
-      return std::max(0.0, gas_.shares[k][cell] + volume[first + static_cast<Eigen::Index>(k)] / gas_.free[cell]);
-    };
-    std::array<double, euler::kMostGases> shares{};
-    double sum = 0;
-    for (std::size_t k = 0; k < settings_.gases.size(); ++k) sum += shares[k] = changed(k);
-    for (std::size_t k = 0; k < settings_.gases.size(); ++k) gas_.shares[k][cell] = shares[k] / sum;
-  }
 
   const Patch& patch_;
   const std::vector<mpm::solid::Material>& materials_;
@@ -126,17 +120,27 @@ class HeatExchange {
 /// Heat between bodies and gases. Particles count for the cell in which they started the step.
 template <int D>
 void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
-                  double dt, const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies,
+                  double time, double dt, const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies,
                   const std::optional<CellView<double>>& heat) {
   if (heat) heat->fill(0);
   const HeatExchange<D> exchange(patch, materials, settings, gas, bodies);
+  const bool hasGasAlone = !settings.gases.empty() || settings.heating.acts();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const bool hasBody = std::any_of(bodies.begin(), bodies.end(),
                                      [&](const WarmBodies& body) { return body.mass.template in<D>(cell).size() > 0; });
-    if (!hasBody && settings.gases.empty()) return;
-    const double given = exchange.apply(cell, dt);
+    if (!hasBody && !hasGasAlone) return;
+    const double given = exchange.apply(cell, time, dt);
     if (heat) (*heat)[cell] = given;
   });
+}
+
+/// Heat of gases that exchange none with bodies.
+template <int D>
+void heatGases(const Patch& patch, const Settings& settings, double time, double dt, const HeatedGas<D>& gas) {
+  const std::vector<WarmBodies> none;
+  const std::vector<mpm::solid::Material> noMaterials;
+  const HeatExchange<D> exchange(patch, noMaterials, settings, gas, none);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { exchange.apply(cell, time, dt); });
 }
 
 }  // namespace tushar::mpmice
