@@ -139,7 +139,10 @@ void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagn
       continue;
     }
     const double fitting = *p / (gas.gasConstant() * *rho);
-    if (!(std::abs(*t - fitting) <= 1e-3 * fitting))
+    if (std::abs(*t - fitting) <= 1e-3 * fitting) continue;
+    if (std::abs(*t - fitting) <= 1e-2 * fitting)  // rounded, or changed a little in one of them
+      diagnostics.note(*temperature, fmt::format("does nothing: Density and Pressure give {:g} K", fitting));
+    else
       diagnostics.error(*temperature,
                         fmt::format("found {:g} K, but the Density, at {}, and the Pressure, at {}, give {:g} K; keep "
                                     "two of the three",
@@ -243,14 +246,30 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
   return read;
 }
 
+/// The heating of gases, which are numbered after the bodies.
+Heating heatingOf(const HeatingSection& read, int solids, std::size_t gases, Diagnostics& diagnostics) {
+  Heating heating{read.where, std::vector<double>(gases), read.start, read.end};
+  if (read.materials.size() != read.perMass.size())
+    diagnostics.error(read.where, "CFD/ICE/ADD_HEAT",
+                      fmt::format("found {} numbers of materials and {} coefficients, expected as many",
+                                  read.materials.size(), read.perMass.size()));
+  for (std::size_t k = 0; k < std::min(read.materials.size(), read.perMass.size()); ++k) {
+    const int gas = read.materials[k] - solids;
+    if (gas < 0 || gas >= static_cast<int>(gases))
+      diagnostics.error(read.where, "CFD/ICE/ADD_HEAT",
+                        fmt::format("material {} is not available: heat is for gases, whose numbers are {} to {}",
+                                    read.materials[k], solids, solids + static_cast<int>(gases) - 1));
+    else
+      heating.perMass[gas] += read.perMass[k];
+  }
+  return heating;
+}
+
 /// Refuses what a gas can have only without bodies.
 void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   const Element tag = *root.child("CFD")->child("ICE");
   const char* sentence = "is not available beside bodies: take it out, or keep only the gas";
   if (ice.push) diagnostics.error(*tag.child("fixedPressureGradient"), sentence);
-  if (ice.eddies) diagnostics.error(*tag.child("turbulence"), sentence);
-  for (const Element& material : root.child("MaterialProperties")->child("ICE")->children("material"))
-    if (const auto models = material.child("dynamicViscosityModels")) diagnostics.error(*models, sentence);
 }
 
 /// The middle of the first Level's Box less its lower corner, m: where Uintah's <counterflow> has its middle.
@@ -292,6 +311,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   scene.referencePressure = constants.referencePressure;
   if (isImplicit(cfd.ice)) scene.implicit = implicitPressureOf(cfd.ice);
   if (cfd.ice.push) scene.push = Vec3(cfd.ice.push->x, cfd.ice.push->y, cfd.ice.push->z);
+  if (cfd.ice.heating) scene.heating = heatingOf(*cfd.ice.heating, solids, materials.size(), diagnostics);
   if (cfd.ice.eddies) scene.varying.smagorinsky = cfd.ice.eddies->constant;
   if (cfd.ice.start) {
     if (const std::string problem = cfd.ice.start->problem(materials.size()); !problem.empty())
@@ -302,7 +322,10 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
       start.apply(point, {rho, gasConstant, middle}, velocity, temperature);
     };
   }
-  if (properties.exchange) scene.exchange = properties.exchange->coefficients;
+  if (properties.exchange) {
+    scene.exchange = properties.exchange->coefficients;
+    scene.exchange->heatByMasses = properties.exchange->model.value_or(CoefficientSection()).heat != "constant";
+  }
   if (solids > 0) refuseBesideBodies(root, cfd.ice, diagnostics);
   if (materials.size() > 1) {
     readGases(materials, root, scene, diagnostics);

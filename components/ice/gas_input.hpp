@@ -5,6 +5,8 @@
 
 #include "components/euler/settings.hpp"
 #include "components/euler/varying_diffusion.hpp"
+#include "components/ice/heat_coefficients.hpp"
+#include "components/ice/heating.hpp"
 #include "components/ice/scalar.hpp"
 #include "core/input/diagnostics.hpp"
 #include "core/simulation/catalogue.hpp"
@@ -17,6 +19,9 @@ struct Exchange {
   Location where;                ///< in the scene
   std::vector<double> momentum;  ///< kg/(m³ s)
   std::vector<double> heat;      ///< W/(m³ K)
+  bool heatByMasses = false;     ///< by HeatCoefficients::byMasses in place of these
+
+  HeatCoefficients heatCoefficients() const { return {heatByMasses ? std::vector<double>() : heat, heatByMasses}; }
 };
 
 /// `<Model type="Test">`: one gas becomes another one.
@@ -48,12 +53,17 @@ struct GasScene {
   std::optional<bool> thinWalls = {};     ///< whether bodies thinner than a cell hold the gas back
   std::optional<Exchange> exchange = {};  ///< with other materials
   std::optional<ImplicitPressure> implicit = {};
+  Heating heating = {};
   std::vector<ScalarSettings> scalars = {};  ///< that the gas carries along
   /// Where there are several gases: each of them, with its state at the start; the gas above is the first.
   std::vector<euler::Settings> mixture = {};
   std::vector<euler::Diffusion> diffusions = {};  ///< of each of several gases
   std::vector<MassExchange> massExchanges = {};   ///< between them
 };
+
+/// Why implicit steps need one level.
+inline constexpr const char* pressureOnOneLevel =
+    "an <ImplicitSolver> solves for the pressure on one level; CFD/ICE/explicit=true switches it off";
 
 /// Advice if a run fails.
 inline constexpr const char* adviceForGas = "a smaller CFD/cfl, or CFD/ICE/advection of type FirstOrder";
@@ -68,8 +78,8 @@ std::vector<simulation::SectionForm> gasForms();
 std::vector<std::string> gasSections();
 /// The variables for which the sides of the grid may have conditions.
 std::vector<grid::BoundaryVariable> gasBoundaryLabels();
-/// The words of their conditions for a gas without bodies.
-simulation::ConditionWords gasConditionWords();
+/// The words of their conditions; those that oscillate only where conditions may depend on the time.
+simulation::ConditionWords gasConditionWords(bool mayDependOnTime);
 /// The manual of the sections.
 void describeGas(std::ostream& out);
 

@@ -112,6 +112,17 @@ const Schema<EddiesSection>& eddiesSchema() {
   return schema;
 }
 
+const Schema<HeatingSection>& heatingSchema() {
+  static const Schema<HeatingSection> schema =
+      Schema<HeatingSection>("ADD_HEAT", "Heat that gases get, everywhere, for a time.")
+          .location(&HeatingSection::where)
+          .required("add_heat_matls", &HeatingSection::materials, "1", "numbers of the materials; bodies count first")
+          .required("add_heat_coeff", &HeatingSection::perMass, "W/kg", "heat per mass and time of each of them")
+          .required("add_heat_t_start", &HeatingSection::start, "s", "steps from this time on add it")
+          .required("add_heat_t_final", &HeatingSection::end, "s", "until this time");
+  return schema;
+}
+
 const Schema<IceSection>& iceSchema() {
   static const Schema<IceSection> schema = [] {
     Schema<IceSection> tags("ICE", "The method.");
@@ -129,9 +140,9 @@ const Schema<IceSection>& iceSchema() {
     input::noteTag(tags, "ClampSpecificVolume", "the specific volume is that of the density");
     tags.section("customInitialization", &IceSection::start, customStartSchema(), "the state at the start by formulas");
     tags.section("fixedPressureGradient", &IceSection::push, pushSchema(), "a force that drives a flow")
-        .section("turbulence", &IceSection::eddies, eddiesSchema(), "viscosity of eddies smaller than cells");
+        .section("turbulence", &IceSection::eddies, eddiesSchema(), "viscosity of eddies smaller than cells")
+        .section("ADD_HEAT", &IceSection::heating, heatingSchema(), "heat from outside");
     input::refuseTag(tags, "wallShearStress", "the gas does not slip along a wall with a Velocity");
-    input::refuseTag(tags, "ADD_HEAT", "give <temperature> a formula at the start");
     input::refuseSwitch(tags, "applyHydrostaticPressure", "give <density> a formula at the start");
     return tags;
   }();
@@ -211,6 +222,19 @@ const Schema<Exchange>& coefficientsSchema() {
   return schema;
 }
 
+const Schema<CoefficientSection>& coefficientModelSchema() {
+  static const Schema<CoefficientSection> schema = [] {
+    Schema<CoefficientSection> tags("CoefficientModel", "Exchange coefficients that vary.");
+    tags.choice("heat", &CoefficientSection::heat, {{"constant", "constant"}, {"linearVariation", "linearVariation"}},
+                "constant",
+                "the numbers of <exchange_coefficients>, or r^2 or 1/r^2, whichever is above 1, r the ratio of the "
+                "masses of both in the cell, from 1e5 to 1e12");
+    input::refuseTag(tags, "momentum", "bodies are walls to the gas, and gases share one velocity");
+    return tags;
+  }();
+  return schema;
+}
+
 const Schema<ExchangeSection>& exchangeSchema() {
   static const Schema<ExchangeSection> schema = [] {
     Schema<ExchangeSection> tags("exchange_properties", "The exchange between materials.");
@@ -218,7 +242,8 @@ const Schema<ExchangeSection>& exchangeSchema() {
     input::refuseSwitch(tags, "do_convective_heat_transfer", "walls are adiabatic");
     for (const char* tag : {"convective_fluid", "convective_solid"})
       tags.ignored(tag, "belongs to do_convective_heat_transfer");
-    for (const char* tag : {"CoefficientModel", "Model"}) input::refuseTag(tags, tag, "coefficients are constant");
+    tags.section("CoefficientModel", &ExchangeSection::model, coefficientModelSchema(), "what coefficients depend on");
+    input::refuseTag(tags, "Model", "bodies are walls to the gas");
     return tags;
   }();
   return schema;

@@ -48,6 +48,14 @@ struct EddiesSection {
   double constant = 0;
 };
 
+/// `CFD/ICE/ADD_HEAT`.
+struct HeatingSection {
+  Location where;  ///< in the scene
+  std::vector<int> materials;
+  std::vector<double> perMass;  ///< W/kg
+  double start = 0, end = 0;    ///< s
+};
+
 /// `CFD/ICE`.
 struct IceSection {
   AdvectionSection advection;
@@ -58,6 +66,7 @@ struct IceSection {
   std::optional<CustomStart> start;
   std::optional<PushSection> push;
   std::optional<EddiesSection> eddies;
+  std::optional<HeatingSection> heating;
 };
 
 /// `CFD`.
@@ -93,8 +102,14 @@ struct GasMaterials {
   std::vector<GasMaterial> materials;
 };
 
+/// `MaterialProperties/exchange_properties/CoefficientModel`.
+struct CoefficientSection {
+  std::string heat = "constant";
+};
+
 struct ExchangeSection {
   Exchange coefficients;
+  std::optional<CoefficientSection> model;
 };
 
 /// `MaterialProperties`.

@@ -28,6 +28,9 @@ void Ice<D>::scheduleDiffusion(TaskList& tasks) const {
   if (!push_.isZero(0))
     tasks.perPatch("euler::addForce", euler::addForce<D>, with(push_), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
+  if (heating_.acts())
+    tasks.perPatch("ice::addHeat", addHeat<D>, with(heating_), requiresNew(euler::c::density), startTime(),
+                   requiresOld(delT), modifies(euler::c::totalEnergy));
 }
 
 template <int D>
@@ -174,7 +177,7 @@ simulation::ComponentKind kind() {
   kind.takesFormulasAtSides = true;
   kind.amrSections = {"ICE"};
   kind.boundaryLabels = gasBoundaryLabels();
-  kind.conditionWords = gasConditionWords();
+  kind.conditionWords = gasConditionWords(true);
   kind.describe = describeGas;
   kind.forms = [] { return std::vector<std::vector<simulation::SectionForm>>{gasForms()}; };
   kind.read = [](const input::Element& root, input::Diagnostics& diagnostics) -> simulation::MakeComponent {

@@ -17,7 +17,8 @@ class Ice : public euler::Euler<D> {
       : euler::Euler<D>(scene.gas),
         acting_{.diffusion = {scene.viscosity, scene.conductivity}, .gravity = scene.gravity},
         varying_(scene.varying),
-        push_(scene.push) {
+        push_(scene.push),
+        heating_(scene.heating) {
     if (varying_.varies()) acting_.diffusion = {};
     for (const ScalarSettings& one : scene.scalars) scalars_.push_back(std::make_shared<const CarriedScalar>(one));
     if (!scene.implicit) return;
@@ -51,6 +52,7 @@ class Ice : public euler::Euler<D> {
   IceSettings acting_;  ///< its diffusion is the uniform one, none where that varies
   euler::VaryingDiffusion varying_;
   Vec3 push_;  ///< N/m³
+  Heating heating_;
 };
 
 /// One step that sound does not limit: the pressure at the end of a step is the solution of a linear system, and mass,
@@ -64,9 +66,7 @@ class ImplicitIce : public Ice<D> {
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   bool mayRepeatStep() const override { return true; }
-  std::string whyOneLevel() const override {
-    return "an <ImplicitSolver> solves for the pressure on one level; CFD/ICE/explicit=true switches it off";
-  }
+  std::string whyOneLevel() const override { return pressureOnOneLevel; }
 };
 
 extern template class Ice<1>;

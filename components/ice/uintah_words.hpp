@@ -72,6 +72,8 @@ inline const std::vector<std::string> uintahsLabels{"vol_frac_CC",
                                                     "Li4",
                                                     "Li5",
                                                     "turb_viscosity_CC",
+                                                    "eng_exch_error",
+                                                    "mom_exch_error",
                                                     "Totaldensity_src",
                                                     "TotalMom_src",
                                                     "TotalEng_src"};

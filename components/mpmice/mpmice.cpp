@@ -10,6 +10,7 @@
 #include "components/mpmice/tasks/exchange_heat.hpp"
 #include "components/mpmice/tasks/initialize.hpp"
 #include "components/mpmice/tasks/measure_bodies.hpp"
+#include "components/mpmice/tasks/refine_gas.hpp"
 #include "components/mpmice/tasks/share_small_cells.hpp"
 #include "components/mpmice/uintah_words.hpp"
 
@@ -116,18 +117,20 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                           withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size())),
                           withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
   if (settings_.diffusion.acts())
-    tasks.perPatch("mpmice::addDiffusion", addDiffusion<D>, with(settings_),
-                   gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), requiresOld(delT),
-                   modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy));
+    tasks.perPatch("mpmice::addDiffusion", settings_.diffusion.varies() ? addVaryingDiffusion<D> : addDiffusion<D>,
+                   with(settings_), gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), requiresOld(delT),
+                   modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy), all<RimsOfDiffusion<D>>());
   if (conductsToBodies()) scheduleConduction(tasks, materials);
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_),
                  all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
                  computes(total::mergedCells));
   if (exchangesHeat())
-    tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), requiresOld(delT),
-                          withoutMaterial(requiresNew(c::freeVolume)), withoutMaterial(requiresNew(c::density)),
-                          withoutMaterial(requiresNew(c::momentum<D>)), withoutMaterial(modifies(c::totalEnergy)),
+    tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), startTime(),
+                          requiresOld(delT), withoutMaterial(all<HeatedGas<D>>(settings_.gases.size())),
                           all<WarmBodies>(), withoutMaterial(offers(c::heat)));
+  else if (settings_.heating.acts())
+    tasks.perPatch("mpmice::addHeat", heatGases<D>, with(settings_), startTime(), requiresOld(delT),
+                   all<HeatedGas<D>>(settings_.gases.size()));
   if (!settings_.gravity.isZero(0) && !settings_.implicit)
     tasks.perPatch("mpmice::addGravity", addGravity<D>, with(settings_.gravity), requiresNew(c::freeVolume),
                    requiresNew(c::density), requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
@@ -171,13 +174,38 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
   if (settings_.implicit) {
     tasks.perPatch("mpmice::limitImplicitStep", limitImplicitStep<D>, with(settings_),
                    gasIn(readsOld, {.state = 1, .mass = 2, .room = 2}), computes(delT));
+    scheduleStepsOfDiffusion(tasks, settings_.implicit->soundSpeedKnob);
     return;
   }
   tasks.perPatch("mpmice::computeStableTimeStep",
                  settings_.gases.empty() ? computeStableTimeStep<D> : limitStepOfGases<D>, with(settings_),
                  gasIn(readsOld, {}), computes(delT));
-  if (settings_.diffusion.acts())
+  if (settings_.diffusion.acts() && !settings_.diffusion.varies())
     tasks.perPatch("mpmice::limitDiffusion", limitDiffusion<D>, with(settings_), gasIn(readsOld, {}), computes(delT));
+  scheduleStepsOfDiffusion(tasks, 1);
+}
+
+/// The limit of a viscosity that varies, beside this part of the speed of sound.
+template <int D>
+void GasAround<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
+  if (settings_.diffusion.acts() && settings_.diffusion.varies())
+    tasks.perPatch("mpmice::limitDiffusion", limitVaryingDiffusion<D>, with(settings_),
+                   gasIn(readsOld, {.state = 1, .mass = 1, .room = 1}), with(soundSpeedKnob), computes(delT));
+}
+
+template <int D>
+void GasAround<D>::scheduleErrorEstimate(TaskList& tasks) const {
+  tasks.perPatch("mpmice::markBodies", markBodies<D>, requiresOld(c::freeVolume, markedLayers), marks());
+}
+
+template <int D>
+void GasAround<D>::scheduleRefine(TaskList& tasks) const {
+  if (settings_.gases.empty())
+    tasks.perPatch("euler::mendNewCells", euler::mendNewCells<D>, with(settings_.gas.gas), newCells(),
+                   all<euler::ChangedState<D>>());
+  else
+    tasks.perPatch("mpmice::mendNewGases", mendNewGases<D>, with(settings_.gases), newCells(),
+                   all<euler::ChangedState<D>>(), all<ChangedGases>(settings_.gases.size()));
 }
 
 template <int D>
@@ -211,8 +239,7 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   if (exchangesHeat())
     tasks.perPatch("mpmice::sumHeat", sumOverVolume<D>, requiresOld(c::heatSinceStart), computes(total::heat));
   else
-    tasks.perPatch(
-        "mpmice::sumHeat", [](const Patch&, Sum&) {}, computes(total::heat));
+    tasks.perPatch("mpmice::sumHeat", [](const Patch&, Sum&) {}, computes(total::heat));
   tasks.perPatch("mpmice::sumLeak", sumOverVolume<D>, requiresOld(c::leakSinceStart), computes(total::leak));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/ice/gas_input.hpp"
 #include "components/ice/mixture/labels.hpp"
 #include "components/mpm/solid/problem.hpp"
 #include "components/mpmice/gas_in_cells.hpp"
@@ -18,12 +19,15 @@ class GasAround : public mpm::solid::Surroundings {
   explicit GasAround(Settings settings);
 
   std::vector<std::string> gasNames() const;
-  bool exchangesHeat() const override { return !settings_.heat.empty(); }
+  bool exchangesHeat() const override { return settings_.heat.act(); }
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
   void scheduleForces(TaskList& tasks, const Materials& materials) const override;
   void scheduleMotion(TaskList& tasks, const Materials& materials) const override;
   void scheduleStableTimeStep(TaskList& tasks, const Materials& materials) const;
   void scheduleDiagnostics(TaskList& tasks) const;
+  void scheduleErrorEstimate(TaskList& tasks) const;
+  void scheduleRefine(TaskList& tasks) const;
+  bool isImplicit() const { return settings_.implicit.has_value(); }
 
  private:
   /// The gas in cells; `reads` gives the access.
@@ -31,9 +35,10 @@ class GasAround : public mpm::solid::Surroundings {
     reach.gases = settings_.gases.size();
     return all<GasInCells<D>>(reads, reach);
   }
-  bool conductsToBodies() const { return settings_.diffusion.conductivity > 0 && exchangesHeat(); }
+  bool conductsToBodies() const { return settings_.diffusion.conducts() && exchangesHeat(); }
   void scheduleConduction(TaskList& tasks, const Materials& materials) const;
-  bool isViscous() const { return settings_.diffusion.viscosity > 0; }
+  bool isViscous() const { return settings_.diffusion.isViscous(); }
+  void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
 
@@ -57,6 +62,11 @@ class MpmIce : public Component {
   void scheduleDiagnostics(TaskList& tasks) const override {
     solids_->scheduleDiagnostics(tasks);
     gas_->scheduleDiagnostics(tasks);
+  }
+  void scheduleErrorEstimate(TaskList& tasks) const override { gas_->scheduleErrorEstimate(tasks); }
+  void scheduleRefine(TaskList& tasks) const override { gas_->scheduleRefine(tasks); }
+  std::string whyOneLevel() const override {
+    return gas_->isImplicit() ? ice::pressureOnOneLevel : solids_->whyOneLevel();
   }
   std::string advice() const override { return "a smaller CFD/cfl, or more particles per cell along surfaces (res)"; }
   bool mayRepeatStep() const override { return true; }

@@ -129,8 +129,7 @@ Kind surface() {
                   "a file next to the scene: STL (text or binary) if its name ends in .stl; otherwise the pair "
                   "NAME.pts, a point `x y z` per line, and NAME.tri, the numbers (from 0) of three points per line",
                   [](const std::string& path, const Element& tag, Diagnostics& diagnostics) -> PiecePtr {
-                    Triangles triangles = readTriangles(path, tag, diagnostics);
-                    return triangles.empty() ? nullptr : std::make_shared<Surface>(std::move(triangles));
+                    return readSurface(path, tag, diagnostics);
                   });
 }
 

@@ -137,6 +137,20 @@ TEST_F(SurfaceFile, IsRefusedWithItsNameAndWhatIsWrong) {
   expectRefused("missing", "there is no such file ending in .pts");
 }
 
+TEST_F(SurfaceFile, MayHaveSeams) {
+  // The lower face has a corner in its middle, on which its neighbour's edges have none.
+  Triangles seamed = cube();
+  seamed.erase(seamed.begin());
+  const Vec3 &a = corners[0], &b = corners[1], &c = corners[2], middle = 0.5 * (a + b);
+  seamed.push_back({a, c, middle});
+  seamed.push_back({middle, c, b});
+  temporaryFile("seam.stl", textOf(seamed));
+  const PiecePtr piece = read("seam.stl");
+  expectUnitCube(piece);
+  ASSERT_EQ(problems_.size(), 1u);
+  EXPECT_NE(problems_[0].find("a point is inside if two of three lines"), std::string::npos) << problems_[0];
+}
+
 TEST(Surface, OfASphereHoldsThePointsThatTheSphereHolds) {
   const Surface surface(sphere(1, 40));
   const double flat = 1 - std::cos(M_PI / 40);  // how far a facet lies below the sphere, along either angle

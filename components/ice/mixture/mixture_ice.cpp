@@ -32,6 +32,8 @@ MixtureIce<D>::MixtureIce(const GasScene& scene, bool hasLevels)
       gases_(scene.mixture),
       diffusion_{scene.diffusions, scene.varying.smagorinsky},
       transfers_(transfersOf(scene)),
+      heat_(scene.exchange.value_or(Exchange()).heatCoefficients()),
+      heating_(scene.heating),
       hasLevels_(hasLevels) {
   for (const euler::Settings& gas : gases_) totals_.push_back(std::make_shared<const GasTotal>(gas.name));
 }
@@ -76,6 +78,11 @@ void MixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
   if (!gravity_.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(gravity_), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
+  if (heat_.act() || heating_.acts())
+    tasks.acrossMaterials("ice::exchangeHeat", exchangeHeat<D>, gases_, with(heat_), with(heating_), startTime(),
+                          requiresOld(delT), withoutMaterial(requiresNew(euler::c::density)),
+                          withoutMaterial(requiresNew(euler::c::momentum<D>)),
+                          withoutMaterial(modifies(euler::c::totalEnergy)), all<WarmGas>());
 }
 
 template <int D>

@@ -8,15 +8,22 @@ namespace tushar::mpmice {
 template <int D>
 struct UnsharedGas {
   euler::MixtureViews<D, double> held;  ///< of several gases the volumes, in place of the shares
+  euler::RimFluxes<D> rims = {};        ///< what flows through the rim of the level
 
   static UnsharedGas from(auto& take, std::size_t gases) {
     const auto ofEach = [&](const auto& labels) {
       return viewsOfGases(take, gases, [&](std::size_t k) { return computes(labels[k]); });
     };
+    euler::RimFluxes<D> rims{.mass = take(keepsFlux(c::unsharedDensity)),
+                             .momentum = take(keepsFlux(c::unsharedMomentum<D>)),
+                             .energy = take(keepsFlux(c::unsharedEnergy))};
+    for (std::size_t k = 0; k < gases; ++k)
+      rims.gases.push_back({take(keepsFlux(c::unsharedMass[k])), take(keepsFlux(c::unsharedVolume[k]))});
     return {.held = {{take(computes(c::unsharedDensity)), take(computes(c::unsharedMomentum<D>)),
                       take(computes(c::unsharedEnergy))},
                      ofEach(c::unsharedMass),
-                     ofEach(c::unsharedVolume)}};
+                     ofEach(c::unsharedVolume)},
+            .rims = std::move(rims)};
   }
 };
 
@@ -90,13 +97,14 @@ void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, co
 template <int D, class Flux, class Shape, int Axis, class G>
 void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level,
                const Box& block, double ratio, const euler::MixtureViews<D, const double>& old,
-               euler::Work<D, euler::kGases<G>>& work, const euler::MixtureViews<D, double>& fresh,
+               euler::Work<D, euler::kGases<G>>& work, const UnsharedGas<D>& fresh,
                const std::optional<CellView<Vec<D>>>& flow) {
   Box faces = block;
   ++faces.upper[Axis];
   euler::computeFluxes<D, Flux, Shape, Axis>(gas, faces, work, work.flux);
   closeFaces<D>(level, exchange.space(), near, faces, Axis, work.flux);
-  euler::addFluxes<D, Axis>(ratio, block, old, work.flux, fresh);
+  euler::keepAtRim<D>(fresh.rims, faces, Axis, work.flux);
+  euler::addFluxes<D, Axis>(ratio, block, old, work.flux, fresh.held);
   if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, work.flux, *flow);
 }
 
@@ -138,7 +146,7 @@ bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, doub
 template <int D, class Flux, class Shape, class G>
 bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells<D>& cells,
                      const WallExchange<D>& exchange, const NearBodies<D>& near, euler::Work<D, euler::kGases<G>>& work,
-                     const euler::MixtureViews<D, double>& fresh, const OfferedExchange<D>& offered, Sum& power) {
+                     const UnsharedGas<D>& fresh, const OfferedExchange<D>& offered, Sum& power) {
   const Level& level = exchange.level();
   const double perStep = level.cellVolume() / dt;
   work.hold(block.grown(Shape::reach, D));
@@ -153,9 +161,9 @@ bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells
   sweep.template operator()<0>();
   if constexpr (D > 1) sweep.template operator()<1>();
   if constexpr (D > 2) sweep.template operator()<2>();
-  addWalls<D>(exchange, near, block, perStep, fresh, offered, power);
+  addWalls<D>(exchange, near, block, perStep, fresh.held, offered, power);
   bool fine = true;
-  forEach<D>(block, [&](const Index<D>& cell) { fine &= near(cell) || canBeIn<D>(gas, cell, fresh); });
+  forEach<D>(block, [&](const Index<D>& cell) { fine &= near(cell) || canBeIn<D>(gas, cell, fresh.held); });
   return fine;
 }
 
@@ -170,16 +178,30 @@ bool advanceWith(const G& law, const Patch& patch, double dt, const GasInCells<D
   bool fine = true;
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     if (near.anyIn(block.grown(1, D))) {
-      fine &= advanceAtBodies<D, Flux, Shape>(law, dt, block, cells, exchange, near, work, fresh.held, offered, power);
+      fine &= advanceAtBodies<D, Flux, Shape>(law, dt, block, cells, exchange, near, work, fresh, offered, power);
       return;
     }
-    euler::advanceBlock<D, Flux, Shape>(law, level, exchange.rules(), block, dt, cells.held, work, fresh.held, {});
+    euler::advanceBlock<D, Flux, Shape>(law, level, exchange.rules(), block, dt, cells.held, work, fresh.held,
+                                        fresh.rims);
     if constexpr (K > 1)
       fine = false;  // refuseFarGas looks
     else
       fine &= euler::canBe<D>(law, block, fresh.held);
   });
   return fine;
+}
+
+/// Throws NumericalError if bodies are so near to coarser cells that these would have walls.
+template <int D>
+void requireFinest(const Patch& patch, const NearBodies<D>& near) {
+  const Level& level = patch.level();
+  if (level.number() == level.domain().refinement.levels - 1 || !near.anyIn(patch.cells())) return;
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (near(cell))
+      throw NumericalError(
+          fmt::format("bodies came within {} cells of a cell that is not among the finest", nearLayers),
+          "a larger <Level>, or <adaptive> in <Regridder> of <AMR>", "c.freeVolume", level.cellNumber<D>(cell));
+  });
 }
 
 /// One step of the gas: that of `euler` where no body is near, to the last bit; at bodies, fluxes go through the open
@@ -193,6 +215,7 @@ void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, co
   const euler::Gas& gas = settings.gas.gas;
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
   const WallExchange<D> exchange(patch.level(), settings, cells, bodies, records, dt);
+  requireFinest<D>(patch, near);
   offered.clear();
   const auto advance = [&](const auto& law) {
     return advanceWith<D, Flux, Shape>(law, patch, dt, cells, exchange, near, fresh, offered, power);

@@ -6,8 +6,21 @@
 
 namespace tushar::mpmice {
 
-/// How far away, in cells, gas is sought for a partly filled cell that has none at its centre.
-inline constexpr int gasNearby = 3;
+/// Calls `visit(cell, distance squared)` for the cells around one, first those within 3, and those further away, up to
+/// all, until `isFound()`.
+template <int D, class Visit, class IsFound>
+void searchAround(const Level& level, const Index<D>& cell, Visit&& visit, IsFound&& isFound) {
+  int extent = 1;
+  for (int d = 0; d < D; ++d) extent = std::max(extent, level.cells().extent(d));
+  for (int layers = 3; !isFound(); layers *= 4) {
+    forEach<D>(level.clipCells(cellsAround<D>(cell, layers)), [&](const Index<D>& other) {
+      int apart = 0;
+      for (int d = 0; d < D; ++d) apart += (other[d] - cell[d]) * (other[d] - cell[d]);
+      visit(other, apart);
+    });
+    if (layers > extent) return;
+  }
+}
 
 /// The gas of a cell with some room: that at its centre or, as scenes cut out the bodies' shapes, at the nearest
 /// centre of a cell that has one. Throws InputError if there is none.
@@ -19,15 +32,14 @@ euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const
   if (const auto own = at(cell)) return *own;
   std::optional<euler::State<D>> nearest;
   int least = std::numeric_limits<int>::max();
-  forEach<D>(level.clipCells(cellsAround<D>(cell, gasNearby)), [&](const Index<D>& other) {
-    int apart = 0;
-    for (int d = 0; d < D; ++d) apart += (other[d] - cell[d]) * (other[d] - cell[d]);
+  const auto take = [&](const Index<D>& other, int apart) {
     if (apart >= least) return;
     if (const auto state = at(other)) {
       nearest = state;
       least = apart;
     }
-  });
+  };
+  searchAround<D>(level, cell, take, [&] { return nearest.has_value(); });
   if (!nearest) euler::refuseUncovered(settings, level.expandPoint<D>(level.cellCentre<D>(cell)));
   return *nearest;
 }
@@ -56,17 +68,15 @@ ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settin
   Vec3 point = pointOf(cell);
   auto start = ice::MixtureStart<D>::at(level, gases, point);
   int least = start.filled > 0 ? 0 : std::numeric_limits<int>::max();
-  if (least > 0)
-    forEach<D>(level.clipCells(cellsAround<D>(cell, gasNearby)), [&](const Index<D>& other) {
-      int apart = 0;
-      for (int d = 0; d < D; ++d) apart += (other[d] - cell[d]) * (other[d] - cell[d]);
-      if (apart >= least) return;
-      const auto there = ice::MixtureStart<D>::at(level, gases, pointOf(other));
-      if (!(there.filled > 0)) return;
-      start = there;
-      point = pointOf(other);
-      least = apart;
-    });
+  const auto take = [&](const Index<D>& other, int apart) {
+    if (apart >= least) return;
+    const auto there = ice::MixtureStart<D>::at(level, gases, pointOf(other));
+    if (!(there.filled > 0)) return;
+    start = there;
+    point = pointOf(other);
+    least = apart;
+  };
+  searchAround<D>(level, cell, take, [&] { return start.filled > 0; });
   start.check(gases, point);
   return start;
 }

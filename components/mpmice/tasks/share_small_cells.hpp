@@ -217,6 +217,9 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     std::copy_n(euler::rowOf(state.held.totalEnergy, first, count), count,
                 euler::rowOf(fresh.held.totalEnergy, first, count));
   });
+  // Between levels, volumes are corrected by the flux of volume.
+  if (level.domain().refinement.levels > 1 && !fresh.held.shares.empty())
+    euler::closeShares<D>(patch, settings.gases, fresh.held.shares);
   const NearBodies<D> near(patch.cells(), shareReach, state.free, state.held.density);
   const SmallCells<D> small(level, settings.thinWalls, state);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,24 +15,40 @@ namespace tushar::input {
 /// Corners of triangles (m).
 using Triangles = std::vector<std::array<Vec3, 3>>;
 
-/// The points within a closed surface of triangles.
+/// The points within a surface of triangles.
 ///
-/// A line along x through the point crosses the surface an odd number of times on one side. Edges that triangles share
-/// are cut in the same way for both, so that no line slips through between them.
+/// A line along x through the point crosses a closed surface an odd number of times on one side. Edges that triangles
+/// share are cut in the same way for both, so that no line slips through between them. Where triangles meet in corners
+/// that differ, as in meshes whose caps and walls were made apart, lines may slip through: there two of three lines,
+/// along x, y and z, decide.
 class Surface : public GeometryPiece {
  public:
-  /// At least one triangle.
-  explicit Surface(Triangles triangles);
+  /// At least one triangle. `isClosed`: whether each edge belongs to an even number of them.
+  explicit Surface(Triangles triangles, bool isClosed = true);
   bool contains(const Vec3& point) const override;
   Box3 bounds() const override { return bounds_; }
+  /// The part of a lattice of points in the bounds for which lines along x, y and z, in both directions, disagree.
+  double disagreement() const;
 
  private:
+  /// Triangles by the lines along an axis that may cross them. Their coordinates are turned so that this axis is the
+  /// first.
+  struct Lines {
+    Triangles triangles;
+    std::vector<std::vector<int>> crossing;  ///< triangles in each bin
+  };
+  Lines linesAlong(int axis) const;
+  /// How often the line along an axis through a point crosses the surface.
+  struct Crossings {
+    std::size_t ahead = 0, behind = 0;
+  };
+  Crossings crossingsAlong(int axis, const Vec3& point) const;
   std::size_t binOf(int axis, double coordinate) const;
 
   Triangles triangles_;
   Box3 bounds_;
-  std::size_t bins_;                        ///< along y and along z
-  std::vector<std::vector<int>> crossing_;  ///< triangles in each bin of lines along x
+  std::size_t bins_;          ///< across lines, along each axis
+  std::vector<Lines> lines_;  ///< along x; where the surface is open along y and z, too
 };
 
 /// Why triangles do not form a closed surface: a sentence about an edge that an odd number of them share; otherwise
@@ -42,5 +59,9 @@ std::string whyOpen(const Triangles& triangles);
 /// numbers of points a line, counted from 0, and the points of NAME.pts, three coordinates a line. If a line is
 /// malformed, or a file is missing or ends early, reports an error with its name at `tag` and returns no triangles.
 Triangles readTriangles(const std::string& path, const Element& tag, Diagnostics& diagnostics);
+
+/// The inside of the triangles of a file. Reports an error where they are so open that lines along x, y and z disagree
+/// about what is inside, and returns none; notes smaller seams.
+std::shared_ptr<const Surface> readSurface(const std::string& path, const Element& tag, Diagnostics& diagnostics);
 
 }  // namespace tushar::input

@@ -152,10 +152,26 @@ Triangles readTriangles(const std::string& path, const Element& tag, Diagnostics
   Read read = readFile(path);
   if (read.problem.empty() && read.triangles.empty()) read.problem = "there are no triangles in it";
   if (read.problem.empty() && !isSound(read.triangles)) read.problem = "a corner has a coordinate that is not finite";
-  if (read.problem.empty()) read.problem = whyOpen(read.triangles);
   if (read.problem.empty()) return read.triangles;
   diagnostics.error(tag, fmt::format("'{}': {}", path, read.problem));
   return {};
+}
+
+std::shared_ptr<const Surface> readSurface(const std::string& path, const Element& tag, Diagnostics& diagnostics) {
+  Triangles triangles = readTriangles(path, tag, diagnostics);
+  if (triangles.empty()) return nullptr;
+  const std::string why = whyOpen(triangles);
+  const auto surface = std::make_shared<const Surface>(std::move(triangles), why.empty());
+  if (why.empty()) return surface;
+  constexpr double most = 0.005;  // of points beside seams
+  if (const double part = surface->disagreement(); part > most) {
+    diagnostics.error(tag, fmt::format("'{}': {}", path, why));
+    return nullptr;
+  }
+  diagnostics.note(tag, fmt::format("'{}': {}; a point is inside if two of three lines through it, along x, y and z, "
+                                    "say so",
+                                    path, why));
+  return surface;
 }
 
 }  // namespace tushar::input

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "components/euler/tasks/mend_new_cells.hpp"
+#include "components/mpmice/gas_in_cells.hpp"
+
+namespace tushar::mpmice {
+
+/// Cells within so many of a body are the finest, so that no coarser one has a wall: a step sees bodies two cells away,
+/// and faces of cells one further.
+inline constexpr int markedLayers = 3;
+
+/// Marks cells near bodies, so that they become finer.
+template <int D>
+void markBodies(const Patch& patch, CellView<const double> free, Marks marks) {
+  forEach<D>(free.box(), [&](const Index<D>& cell) {
+    if (!(free[cell] < 1)) return;
+    forEach<D>(cellsAround<D>(cell, markedLayers).intersect(patch.cells()),
+               [&](const Index<D>& at) { marks.refine(at); });
+  });
+}
+
+/// What a regridding changes of several gases.
+struct ChangedGases {
+  std::vector<euler::ChangedGas> of;
+
+  static ChangedGases from(auto& take, std::size_t gases) {
+    ChangedGases all;
+    for (std::size_t k = 0; k < gases; ++k)
+      all.of.push_back({take(modifies(c::massOfGas[k])), take(modifies(c::shareOfGas[k]))});
+    return all;
+  }
+};
+
+/// Makes the interpolated values of new cells those of gases that can be.
+template <int D>
+void mendNewGases(const Patch& patch, const std::vector<euler::Settings>& gases, const std::vector<Box>& newCells,
+                  const euler::ChangedState<D>& state, const ChangedGases& held) {
+  euler::mendNewMixture<D>(patch, gases, newCells, state, held.of);
+}
+
+}  // namespace tushar::mpmice

@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""Gas and bodies on grids of several levels: the finest follows bodies, nothing is lost between levels."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import gas_and_bodies as fsi
+from fsi_gases_test import CONTACT as GASES
+from fsi_test import DISC, LIGHT, ConservationTest, changed, saving
+from solids import SceneTest, archive_of, columns, globals_of
+from sus import run
+from uda import FolderTest
+
+END = "</Uintah_specification>"
+LEVELS = """<AMR><Regridder><max_levels>2</max_levels><cell_refinement_ratio>[[2,2,1]]</cell_refinement_ratio>
+<min_patch_size>[[8,8,1]]</min_patch_size></Regridder></AMR>"""
+SIZE = (*fsi.resolution("carried_disc", 64),)
+WAVES = (("<temperature>5<", "<temperature>15<"), LIGHT, ("<reference_pressure>1<", "<reference_pressure>0<"))
+
+
+def refined(text):
+    return changed(text, (END, LEVELS + END))
+
+
+class Conservation(ConservationTest):
+    def assert_kept_on_levels(self, text, *sets):
+        """But for the strain of the body, whose energy is not summed; the gas loses what the body gets."""
+        names = ("GasEnergy", "GasWorkOnBodies")
+        self.assert_kept(refined(saving(text, *self.KEPT)), *sets, elastic=True)
+        found = globals_of(self.scene(refined(saving(text, *names))), *names, sets=sets)
+        sums = [energy[1] + work[1] for energy, work in zip(*found.values())]
+        self.assertLess(max(abs(one / sums[0] - 1) for one in sums), 1e-12)
+
+    def test_of_a_disc_between_waves(self):
+        self.assert_kept_on_levels(changed(DISC, *WAVES), *SIZE, "Time/maxTime=0.02")
+
+    def test_of_two_gases_and_a_body(self):
+        text = changed(GASES, LIGHT, ("<temperature>10<", "<temperature>30<"),
+                       ("<reference_pressure>1<", "<reference_pressure>0<"))
+        self.assert_kept_on_levels(text, "Grid/Level/Box/resolution=[80,1,1]", "Time/maxTime=0.3")
+
+    def test_of_a_disc_in_viscous_gas(self):
+        self.assert_kept_on_levels(changed(DISC, *WAVES, ("<dynamic_viscosity>0", "<dynamic_viscosity>0.01"),
+                                           ("<thermal_conductivity>0", "<thermal_conductivity>0.03")),
+                                   *SIZE, "Time/maxTime=0.01")
+
+
+class Levels(SceneTest):
+    FIELDS = ("c.pressure", "c.velocity", "c.density", "c.freeVolume")
+
+    def test_leave_what_moves_alike_as_it_is(self):
+        scene = self.scene(refined(DISC))
+        found = columns(archive_of(scene, scene.parent, *SIZE, "Time/maxTime=0.02"), *self.FIELDS)
+        held = zip(found["c.freeVolume [1]"], found["c.density [kg/m^3]"])
+        gas = [k for k, (free, mass) in enumerate(held) if free >= 1e-9 and mass > 0]
+        for column, value in (("c.pressure [Pa]", 1), ("c.velocity.x [m/s]", 1), ("c.velocity.y [m/s]", .618)):
+            self.assertLess(max(abs(found[column][k] - value) for k in gas), 1e-11, column)
+
+    def test_are_fewer_cells_than_a_fine_grid(self):
+        report = run(self.scene(refined(DISC)), *SIZE, "Time/max_Timesteps=20").report
+        coarse, fine = report["levels"]
+        self.assertLess(coarse + fine, .7 * 128 * 128)
+
+    def test_that_stay_must_reach_beyond_bodies(self):
+        level = """<Level><Box label="fine"><lower>[0.25,0.25,0]</lower><upper>[0.75,0.75,0.015625]</upper>
+            <resolution>[64,64,1]</resolution></Box></Level>"""
+        blocks = "<AMR><Regridder><min_patch_size>[[8,8,1]]</min_patch_size></Regridder></AMR>"
+        still = changed(DISC, ("[50,50,1]", "[64,64,1]"), ("[1,1,0.02]", "[1,1,0.015625]"),
+                        ("</Level>", "</Level>" + level), (END, blocks + END))
+        done = run(self.scene(still), "Time/maxTime=0.3")
+        self.assertNotEqual(done.code, 0)
+        self.assertIn("not among the finest", done.err)
+
+
+class Bits(SceneTest, FolderTest):
+    def test_are_the_same_on_any_layout_and_after_a_restart(self):
+        scene = self.scene(refined(changed(DISC, *WAVES)))
+        sets = (*SIZE, "Time/max_Timesteps=12")
+        expected = run(scene, *sets).report["fingerprint"]
+        for options in (("-layout", "1x1x1"), ("-layout", "4x2x1", "-nthreads", "2")):
+            self.assertEqual(run(scene, *sets, options=options).report["fingerprint"], expected, options)
+        self.assertEqual(run(scene, *sets, ranks=2).report["fingerprint"], expected)
+        self.assertEqual(self.fingerprint_of_two_parts(scene, 12, *sets), expected)
+
+
+if __name__ == "__main__":
+    unittest.main()
