@@ -5,6 +5,7 @@
 
 #include "components/euler/settings.hpp"
 #include "components/euler/varying_diffusion.hpp"
+#include "components/ice/burn_model.hpp"
 #include "components/ice/scalar.hpp"
 #include "core/input/diagnostics.hpp"
 #include "core/simulation/catalogue.hpp"
@@ -53,6 +54,7 @@ struct GasScene {
   std::vector<euler::Settings> mixture = {};
   std::vector<euler::Diffusion> diffusions = {};  ///< of each of several gases
   std::vector<MassExchange> massExchanges = {};   ///< between them
+  std::vector<BurnModel> burns = {};              ///< of bodies
 };
 
 /// Advice if a run fails.

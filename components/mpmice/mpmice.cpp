@@ -1,5 +1,6 @@
 #include "components/mpmice/mpmice.hpp"
 
+#include "components/mpmice/burn/gas_of_burning.hpp"
 #include "components/mpmice/tasks/add_diffusion.hpp"
 #include "components/mpmice/tasks/add_gravity.hpp"
 #include "components/mpmice/tasks/advance_gas.hpp"
@@ -44,7 +45,8 @@ std::vector<std::string> GasAround<D>::gasNames() const {
 template <int D>
 void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) const {
   tasks.perMaterial("mpmice::findBoxes", findBoxes<D>, materials, requiresNew(p::size<D>),
-                    requiresNew(p::deformationMeasure), computes(p::boxEdges<D>));
+                    requiresNew(p::deformationMeasure), when(false, requiresNew(p::unburned)),
+                    computes(p::boxEdges<D>));
   tasks.acrossMaterials("mpmice::measureFreeSpace", measureFreeSpace<D>, materials, all<Boxes<D>>(readsNew),
                         withoutMaterial(all<FreeShares<D>>(&c::freeVolume)));
   if (settings_.gases.empty())
@@ -56,6 +58,10 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
   if (settings_.implicit)
     tasks.perPatch("mpmice::guessPressure", guessPressure<D>, with(settings_), gasIn(readsNew, {}),
                    computes(c::pressureAtEnd));
+  if (burns()) {
+    tasks.perMaterial("mpmice::startUnburned", startUnburned, materials, requiresNew(p::mass), computes(p::unburned));
+    tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(c::burntSinceStart));
+  }
   tasks.perPatch("mpmice::startImpulse", startSum<D, Vec<D>>, computes(c::impulseSinceStart<D>));
   for (const CellLabel<double>* sum : {&c::workSinceStart, &c::heatSinceStart, &c::leakSinceStart})
     tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(*sum));
@@ -63,11 +69,13 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
 
 template <int D>
 void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) const {
+  if (burns()) scheduleBurning(tasks, materials);
   if (settings_.implicit)
     schedulePressure(tasks, materials);
   else
     tasks.acrossMaterials("mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
                           withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})), requiresNew(g::record, 1),
+                          withoutMaterial(when(burns(), requiresNew(c::blowing<D>, 1))),
                           withoutMaterial(all<WallPressures<D>>()));
   if (isViscous())
     tasks.acrossMaterials("mpmice::computeWallFriction", computeWallFriction<D>, materials, with(settings_),
@@ -77,6 +85,17 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
       "mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
       withoutMaterial(gasIn(readsOld, {.mass = 3, .room = 3})), withoutMaterial(all<KnownWalls<D>>(2, isViscous())),
       requiresNew(g::record, isViscous() ? 3 : 2), computes(total::forceOnBodies), computes(g::surroundingForce<D>));
+}
+
+/// What burns in the step, by the state at its start.
+template <int D>
+void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials) const {
+  tasks.acrossMaterials("mpmice::measureReactant", measureReactant<D>, materials, with(settings_),
+                        all<ParticlesAtStart>(), withoutMaterial(all<NewReactant>()));
+  tasks.perPatch("mpmice::findBurning", findBurning<D>, with(settings_),
+                 gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), all<Reactant>(1), all<NewBurning<D>>());
+  tasks.perPatch("mpmice::findBurntShare", findBurntShare<D>, with(settings_), startTime(), requiresOld(delT),
+                 requiresNew(c::burnRate<D>, 2), requiresNew(c::reactantMass, 1), computes(c::burntShare));
 }
 
 /// The pressure at the end of the step, that on walls included.
@@ -97,8 +116,13 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
 
 template <int D>
 void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) const {
+  if (burns())
+    tasks.perMaterial("mpmice::burnParticles", burnParticles<D>, materials, with(settings_),
+                      withoutMaterial(requiresNew(c::burntShare)), requiresOld(p::mass), requiresOld(p::unburned),
+                      computes(p::mass), computes(p::unburned));
   tasks.perMaterial("mpmice::findBoxes", findBoxes<D>, materials, requiresOld(p::size<D>),
-                    requiresNew(p::deformationMeasure), computes(p::boxEdges<D>));
+                    requiresNew(p::deformationMeasure), when(burns(), requiresNew(p::unburned)),
+                    computes(p::boxEdges<D>));
   tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, all<MovedBoxes<D>>(),
                         withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume)),
                         withoutMaterial(computes(c::swept<D>)));
@@ -120,6 +144,9 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                    gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), requiresOld(delT),
                    modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy));
   if (conductsToBodies()) scheduleConduction(tasks, materials);
+  if (burns())
+    tasks.acrossMaterials("mpmice::addBurntGas", addBurntGas<D>, materials, with(settings_), all<BurningParticles<D>>(),
+                          withoutMaterial(all<BurntGas<D>>(settings_.gases.size())));
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_),
                  all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
                  computes(total::mergedCells));
@@ -127,11 +154,14 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
     tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), requiresOld(delT),
                           withoutMaterial(requiresNew(c::freeVolume)), withoutMaterial(requiresNew(c::density)),
                           withoutMaterial(requiresNew(c::momentum<D>)), withoutMaterial(modifies(c::totalEnergy)),
-                          all<WarmBodies>(), withoutMaterial(offers(c::heat)));
+                          all<WarmBodies>(burns() ? requiresNew(p::mass) : requiresOld(p::mass)),
+                          withoutMaterial(offers(c::heat)));
   if (!settings_.gravity.isZero(0) && !settings_.implicit)
     tasks.perPatch("mpmice::addGravity", addGravity<D>, with(settings_.gravity), requiresNew(c::freeVolume),
                    requiresNew(c::density), requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
   scheduleSums(tasks, materials);
+  if (burns())
+    tasks.perMaterial("mpmice::removeBurnt", removeBurnt<D>, materials, requiresNew(p::mass), modifies(p::x<D>));
 }
 
 /// Heat through the walls of bodies, by the state at the start of the step.
@@ -187,9 +217,7 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("mpmice::computeVelocity", computeVelocity<D>, gas, computes(c::velocity<D>));
   tasks.perPatch("mpmice::computeMach", computeMach<D>, with(settings_), gas, computes(c::mach<D>));
   tasks.perPatch("mpmice::computeGasDensity", computeGasDensity<D>, gas, computes(c::gasDensity));
-  tasks.perPatch("mpmice::computeTemperature",
-                 settings_.gases.empty() ? computeTemperature<D> : computeTemperatureOfGases<D>, with(settings_), gas,
-                 computes(c::temperature));
+  tasks.perPatch("mpmice::computeTemperature", computeTemperature<D>, with(settings_), gas, computes(c::temperature));
   for (std::size_t k = 0; k < totals_.size(); ++k)
     tasks.perPatch("mpmice::sumGas", euler::sumMass<D>, requiresOld(c::massOfGas[k]), computes(totals_[k]->label()));
   tasks.perPatch("mpmice::computeSoundSpeed", computeSoundSpeed<D>, with(settings_), gas, computes(c::soundSpeed));
@@ -213,6 +241,9 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   else
     tasks.perPatch(
         "mpmice::sumHeat", [](const Patch&, Sum&) {}, computes(total::heat));
+  if (burns())
+    tasks.perPatch("mpmice::sumBurnt", sumBurnt<D>, with(settings_), requiresOld(c::burntSinceStart),
+                   computes(total::burntMass), computes(total::reactionHeat));
   tasks.perPatch("mpmice::sumLeak", sumOverVolume<D>, requiresOld(c::leakSinceStart), computes(total::leak));
 }
 

@@ -19,6 +19,7 @@ class GasAround : public mpm::solid::Surroundings {
 
   std::vector<std::string> gasNames() const;
   bool exchangesHeat() const override { return !settings_.heat.empty(); }
+  bool readsTemperature() const override { return exchangesHeat() || burns(); }
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
   void scheduleForces(TaskList& tasks, const Materials& materials) const override;
   void scheduleMotion(TaskList& tasks, const Materials& materials) const override;
@@ -35,6 +36,8 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleConduction(TaskList& tasks, const Materials& materials) const;
   bool isViscous() const { return settings_.diffusion.viscosity > 0; }
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
+  bool burns() const { return settings_.burning.has_value(); }
+  void scheduleBurning(TaskList& tasks, const Materials& materials) const;
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
 
   Settings settings_;

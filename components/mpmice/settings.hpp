@@ -2,10 +2,18 @@
 
 #include "components/euler/diffusion.hpp"
 #include "components/euler/settings.hpp"
+#include "components/ice/burn_model.hpp"
 #include "components/ice/face_flow.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpmice {
+
+/// A body that turns into a gas.
+struct Burning {
+  ice::BurnModel model;
+  std::size_t body = 0;  ///< its number among the bodies
+  std::size_t gas = 0;   ///< that of the gas among several
+};
 
 /// The gas around bodies, and its interaction with them.
 struct Settings {
@@ -18,6 +26,7 @@ struct Settings {
   euler::Diffusion diffusion = {};                ///< in the gas
   std::optional<ice::IceSettings> implicit = {};  ///< where sound does not limit the steps
   std::vector<euler::Settings> gases = {};        ///< each of several gases that share cells; the first is `gas`
+  std::optional<Burning> burning = {};            ///< a body that burns
 };
 
 /// How far limits of free volumes are from shares of a cell that bodies fill where they are aligned with it: round-off

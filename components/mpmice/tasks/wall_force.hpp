@@ -33,8 +33,9 @@ class CellWalls {
     const double outward = side == 0 ? -relative[axis] : relative[axis];
     return slip_ * relative.dot(normal_) + (1 - slip_) * outward;
   }
-  double pressure(const euler::Gas& gas, const Vec<D>& wallVelocity, int axis, int side) const {
-    return wallPressure(gas, w_[euler::kDensity], w_[euler::kPressure<D>], closing(wallVelocity, axis, side));
+  /// `blowing` is the speed of new gas away from the wall, which the gas need not follow.
+  double pressure(const euler::Gas& gas, const Vec<D>& wallVelocity, int axis, int side, double blowing) const {
+    return wallPressure(gas, w_[euler::kDensity], w_[euler::kPressure<D>], closing(wallVelocity, axis, side) + blowing);
   }
 
  private:
@@ -42,6 +43,19 @@ class CellWalls {
   euler::State<D> w_;
   std::array<OpenFaces, D> faces_;
   double slip_ = 0;
+};
+
+/// New gas that leaves walls which burn; none elsewhere.
+template <int D>
+struct Blowing {
+  std::optional<CellView<const Vec<D>>> atFaces;
+
+  /// Its speed, m/s, away from the wall of a cell at a face; `above` is the cell whose lower face it is.
+  double speed(const Index<D>& above, int axis, int side) const {
+    if (!atFaces || !atFaces->box().contains(above)) return 0;
+    const double up = (*atFaces)[above][axis];  // positive where the gas is below
+    return std::max(0.0, side == 0 ? -up : up);
+  }
 };
 
 /// Fills in the pressure on all walls: `pressureOn(cell, walls of the cell, velocity of the wall, axis, side)`.
@@ -73,10 +87,13 @@ void fillWallPressure(const Patch& patch, const Settings& settings, const GasInC
 template <int D>
 void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                          const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
-                         const WallPressures<D>& walls) {
+                         const std::optional<CellView<const Vec<D>>>& blowing, const WallPressures<D>& walls) {
+  const Blowing<D> blown{blowing};
   fillWallPressure<D>(patch, settings, cells, records, walls,
                       [&](const Index<D>& cell, const CellWalls<D>& ofCell, const Vec<D>& velocity, int d, int side) {
-                        return ofCell.pressure(lawAt<D>(settings, cells.held, cell), velocity, d, side);
+                        const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
+                        return ofCell.pressure(lawAt<D>(settings, cells.held, cell), velocity, d, side,
+                                               blown.speed(face, d, side));
                       });
 }
 
