@@ -18,7 +18,7 @@ using input::Schema;
 namespace {
 
 /// The attribute `type` of a <Model>.
-const std::vector<std::string> modelTypes{"PassiveScalar", "Test", "Simple_Burn"};
+const std::vector<std::string> modelTypes{"PassiveScalar", "Test", "Simple_Burn", "Steady_Burn"};
 
 const Schema<ScalarRegion>& startSchema() {
   static const Schema<ScalarRegion> schema = [] {
@@ -146,6 +146,7 @@ void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnos
   const std::string type = model.attribute("type").value_or("");
   if (type == "Test") return readExchange(model, models, diagnostics);
   if (type == simpleBurnSchema().name()) return readBurning(model, simpleBurnSchema(), models, diagnostics);
+  if (type == steadyBurnSchema().name()) return readBurning(model, steadyBurnSchema(), models, diagnostics);
   if (type != "PassiveScalar")
     return diagnostics.error(model, fmt::format("of type '{}' is not available; take it out: there are {}", type,
                                                 input::listed(modelTypes)));
@@ -186,11 +187,12 @@ const Schema<ModelsSection>& modelsSchema() {
               },
               {"Model"},
               "type=\"PassiveScalar\": a number per mass that the gas carries along; type=\"Test\": one material "
-              "becomes another one; type=\"Simple_Burn\": a body burns",
+              "becomes another one; type=\"Simple_Burn\", type=\"Steady_Burn\": a body burns",
               [](std::ostream& out, int indent) {
                 passiveScalarSchema().describe(out, indent);
                 massExchangeSchema().describe(out, indent);
                 simpleBurnSchema().describe(out, indent);
+                steadyBurnSchema().describe(out, indent);
               })
           .forms({{.tags = {"Model"}, .demands = {{"type", modelTypes}}}});
   return schema;

@@ -35,6 +35,11 @@ GasAround<D>::GasAround(Settings settings) : settings_(std::move(settings)) {
 }
 
 template <int D>
+bool GasAround<D>::keepsStrain(const Materials& materials) const {
+  return burns() && storesStrain(materials[settings_.burning->body]);
+}
+
+template <int D>
 std::vector<std::string> GasAround<D>::gasNames() const {
   if (settings_.gases.empty()) return {settings_.gas.name};
   std::vector<std::string> names;
@@ -145,7 +150,8 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                    modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy));
   if (conductsToBodies()) scheduleConduction(tasks, materials);
   if (burns())
-    tasks.acrossMaterials("mpmice::addBurntGas", addBurntGas<D>, materials, with(settings_), all<BurningParticles<D>>(),
+    tasks.acrossMaterials("mpmice::addBurntGas", addBurntGas<D>, materials, with(settings_),
+                          all<BurningParticles<D>>(keepsStrain(materials)),
                           withoutMaterial(all<BurntGas<D>>(settings_.gases.size())));
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_),
                  all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
@@ -161,7 +167,8 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                    requiresNew(c::density), requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
   scheduleSums(tasks, materials);
   if (burns())
-    tasks.perMaterial("mpmice::removeBurnt", removeBurnt<D>, materials, requiresNew(p::mass), modifies(p::x<D>));
+    tasks.perMaterial("mpmice::removeBurnt", removeBurnt<D>, materials, requiresOld(p::mass), requiresNew(p::mass),
+                      modifies(p::x<D>), when(keepsStrain(materials), modifies(p::strainEnergy)));
 }
 
 /// Heat through the walls of bodies, by the state at the start of the step.

@@ -37,6 +37,8 @@ class GasAround : public mpm::solid::Surroundings {
   bool isViscous() const { return settings_.diffusion.viscosity > 0; }
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
   bool burns() const { return settings_.burning.has_value(); }
+  /// Whether what burns has strain energy, which the gas gets.
+  bool keepsStrain(const Materials& materials) const;
   void scheduleBurning(TaskList& tasks, const Materials& materials) const;
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
 

@@ -121,4 +121,35 @@ TEST(SimpleBurn, FollowsThePressure) {
   EXPECT_NEAR(law.rate({.pressure = 10 * 101325.0}) / 75.3, 5.99791, 1e-5);  // 10^.778
 }
 
+/// The explosive PBX 9501, of Uintah's scenes.
+const ice::SteadyBurn explosive{8.314, 1.637e15, 1.76e5, 1.6e-3, 4e5, 3.018e6, 0.07, 0.2, 1.4e3, 0.0342};
+
+TEST(SteadyBurn, SatisfiesTheEquationsOfItsSource) {
+  for (const double pressure : {1e5, 1e6, 1e7, 1e8})
+    for (const double cold : {250.0, 298.0, 400.0}) {
+      const ice::AtSurface at{pressure, cold, 1832};
+      const double c = explosive.specificHeat, kg = explosive.gasConductivity, r = explosive.gasConstant;
+      const double m = explosive.rate(at), ts = explosive.surfaceTemperature(at);
+      const double wp = explosive.molarMass * pressure / r;
+      const double x = 2 * kg / (c * (std::sqrt(m * m + 4 * kg * explosive.gasFactor * wp * wp / c) - m));
+      const double back = cold + explosive.solidHeat / c + explosive.gasHeat / c / (1 + x * m * c / kg);
+      EXPECT_NEAR(back / ts, 1, 1e-9);
+      const double heating = ts - cold - 0.5 * explosive.solidHeat / c;
+      const double square = explosive.solidFactor * r * explosive.solidConductivity * at.bodyDensity * ts * ts *
+                            std::exp(-explosive.activationEnergy / (r * ts)) /
+                            (explosive.activationEnergy * c * heating);
+      EXPECT_NEAR(m * m / square, 1, 1e-9);
+    }
+}
+
+TEST(SteadyBurn, IsFasterUnderPressureAndWhereTheBodyIsWarm) {
+  double last = 0;
+  for (const double pressure : {1e5, 1e6, 1e7, 1e8}) {
+    const double rate = explosive.rate({pressure, 298, 1832});
+    EXPECT_GT(rate, last);
+    EXPECT_GT(explosive.rate({pressure, 350, 1832}), rate);
+    last = rate;
+  }
+}
+
 }  // namespace tushar::mpmice

@@ -80,12 +80,15 @@ void burnParticles(const Patch& patch, const mpm::solid::Material& material, con
   });
 }
 
-/// Takes particles of which nothing is left out of the run.
+/// Takes particles of which nothing is left out of the run; the others keep the strain energy [J] of what is left.
 template <int D>
-void removeBurnt(const Patch&, const mpm::solid::Material&, ParticleView<const double> mass,
-                 ParticleView<Vec<D>> position) {
-  for (int p = 0; p < mass.owned(); ++p)
+void removeBurnt(const Patch&, const mpm::solid::Material&, ParticleView<const double> massBefore,
+                 ParticleView<const double> mass, ParticleView<Vec<D>> position,
+                 const std::optional<ParticleView<double>>& strainEnergy) {
+  for (int p = 0; p < mass.owned(); ++p) {
     if (mass[p] == 0) position[p][0] = vanished;
+    if (strainEnergy && mass[p] != massBefore[p]) (*strainEnergy)[p] *= mass[p] / massBefore[p];
+  }
 }
 
 }  // namespace tushar::mpmice

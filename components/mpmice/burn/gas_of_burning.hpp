@@ -1,19 +1,30 @@
 #pragma once
 
+#include "components/mpm/solid/constitutive/comp_mooney_rivlin.hpp"
+#include "components/mpm/solid/constitutive/comp_neo_hook.hpp"
 #include "components/mpmice/burn/burn_bodies.hpp"
 
 namespace tushar::mpmice {
+
+/// Whether a body's p.strainEnergy is all that its strain stores, rather than what a step adds to it.
+inline bool storesStrain(const mpm::solid::Material& material) {
+  const auto name = material.model->name();
+  return !material.isDamageable() &&
+         (name == mpm::solid::CompNeoHook::name || name == mpm::solid::CompMooneyRivlin::name);
+}
 
 /// The particles of a body at the end of a step; the mass is that before they burn.
 template <int D>
 struct BurningParticles {
   ParticleView<const double> mass, temperature;
   ParticleView<const Vec<D>> velocity;
+  std::optional<ParticleView<const double>> strainEnergy;  ///< J
 
-  static BurningParticles from(auto& take) {
+  static BurningParticles from(auto& take, bool keepsStrain) {
     return {.mass = take(requiresOld(p::mass)),
             .temperature = take(requiresNew(p::temperature)),
-            .velocity = take(requiresNew(p::velocity<D>))};
+            .velocity = take(requiresNew(p::velocity<D>)),
+            .strainEnergy = take(when(keepsStrain, requiresNew(p::strainEnergy)))};
   }
 };
 
@@ -59,6 +70,7 @@ struct Burnt {
       sum.momentum += mass * particles.velocity[p];
       sum.kinetic += 0.5 * mass * particles.velocity[p].squaredNorm();
       sum.internal += mass * (specificHeat * particles.temperature[p] + heat);
+      if (particles.strainEnergy) sum.internal += factor * (*particles.strainEnergy)[p];
     }
     return sum;
   }
