@@ -30,7 +30,6 @@ using data::recomputeTimeStep;
 using data::ReductionLabel;
 using data::RimFlux;
 using data::Sum;
-using data::vanished;
 using data::VectorSum;
 using data::WideSum;
 using grid::BoundaryKind;

@@ -80,7 +80,7 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
   else
     tasks.acrossMaterials("mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
                           withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})), requiresNew(g::record, 1),
-                          withoutMaterial(when(burns(), requiresNew(c::blowing<D>, 1))),
+                          withoutMaterial(all<Blowing<D>>(burns())),
                           withoutMaterial(all<WallPressures<D>>()));
   if (isViscous())
     tasks.acrossMaterials("mpmice::computeWallFriction", computeWallFriction<D>, materials, with(settings_),
@@ -116,7 +116,7 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
                 all<ice::PressureViews>(), totals<ice::SolveTotals>());
   tasks.acrossMaterials("mpmice::takeWallPressure", takeWallPressure<D>, materials, with(settings_),
                         withoutMaterial(gas), requiresNew(g::record, 1), withoutMaterial(requiresNew(c::pressureAtEnd)),
-                        withoutMaterial(all<WallPressures<D>>()));
+                        withoutMaterial(all<Blowing<D>>(burns())), withoutMaterial(all<WallPressures<D>>()));
 }
 
 template <int D>
@@ -156,7 +156,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_),
                  all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
                  computes(total::mergedCells));
-  if (exchangesHeat())
+  if (hasHeat())
     tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), requiresOld(delT),
                           withoutMaterial(requiresNew(c::freeVolume)), withoutMaterial(requiresNew(c::density)),
                           withoutMaterial(requiresNew(c::momentum<D>)), withoutMaterial(modifies(c::totalEnergy)),
@@ -191,7 +191,7 @@ void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) con
                  requiresOld(c::impulseSinceStart<D>), computes(c::impulseSinceStart<D>));
   tasks.perPatch("mpmice::addWork", addToSum<D, double>, requiresNew(c::work), requiresOld(c::workSinceStart),
                  computes(c::workSinceStart));
-  if (exchangesHeat())
+  if (hasHeat())
     tasks.perPatch("mpmice::addHeat", addHeatToSum<D>, requiresNew(c::heat),
                    when(conductsToBodies(), requiresNew(c::wallHeat)), requiresOld(c::heatSinceStart),
                    computes(c::heatSinceStart));
@@ -243,7 +243,7 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("mpmice::sumImpulse", sumVectorOverVolume<D>, requiresOld(c::impulseSinceStart<D>),
                  computes(total::impulse));
   tasks.perPatch("mpmice::sumWork", sumOverVolume<D>, requiresOld(c::workSinceStart), computes(total::work));
-  if (exchangesHeat())
+  if (hasHeat())
     tasks.perPatch("mpmice::sumHeat", sumOverVolume<D>, requiresOld(c::heatSinceStart), computes(total::heat));
   else
     tasks.perPatch(

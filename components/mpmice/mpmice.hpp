@@ -18,8 +18,7 @@ class GasAround : public mpm::solid::Surroundings {
   explicit GasAround(Settings settings);
 
   std::vector<std::string> gasNames() const;
-  bool exchangesHeat() const override { return !settings_.heat.empty(); }
-  bool readsTemperature() const override { return exchangesHeat() || burns(); }
+  bool exchangesHeat() const override { return hasHeat() || burns(); }
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
   void scheduleForces(TaskList& tasks, const Materials& materials) const override;
   void scheduleMotion(TaskList& tasks, const Materials& materials) const override;
@@ -32,7 +31,8 @@ class GasAround : public mpm::solid::Surroundings {
     reach.gases = settings_.gases.size();
     return all<GasInCells<D>>(reads, reach);
   }
-  bool conductsToBodies() const { return settings_.diffusion.conductivity > 0 && exchangesHeat(); }
+  bool hasHeat() const { return !settings_.heat.empty(); }
+  bool conductsToBodies() const { return settings_.diffusion.conductivity > 0 && hasHeat(); }
   void scheduleConduction(TaskList& tasks, const Materials& materials) const;
   bool isViscous() const { return settings_.diffusion.viscosity > 0; }
   void schedulePressure(TaskList& tasks, const Materials& materials) const;

@@ -11,9 +11,6 @@
 
 namespace tushar::data {
 
-/// The first coordinate of a particle that is to vanish when particles are relocated.
-inline constexpr double vanished = std::numeric_limits<double>::max();
-
 #ifdef TUSHAR_CHECKS
 inline constexpr bool checked = true;
 #else

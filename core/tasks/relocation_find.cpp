@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/lanes.hpp"
+#include "core/data/vanished.hpp"
 #include "core/tasks/broken_value.hpp"
 #include "core/tasks/outcome.hpp"
 

@@ -94,8 +94,7 @@ class TaskList {
   }
 
   /// From here on every particle is where `position` (computed before) says: in its new cell, on its new patch.
-  /// All particle variables that are needed afterwards go with it. A particle whose first coordinate is
-  /// `data::vanished` is no more.
+  /// All particle variables that are needed afterwards go with it.
   template <class Material, int D>
   void relocate(const data::ParticleLabel<Vec<D>>& position, const std::vector<Material>& materials) {
     add({"relocate", TaskKind::relocate, names(materials), {{&position, AccessKind::requiresNew, 0}}, {}});

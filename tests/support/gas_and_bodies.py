@@ -219,15 +219,14 @@ def energies_of_burning(run_of):
     return [one + body for one, body in zip(sums, bodies)]
 
 
-def burning_grain(cells):
+def burning_grain(cells, sets=()):
     """What a burning grain and the gases around it have more or less of than at the start, of what they had, and the
     part of it that has burned."""
-    run_of = Outcome("burning_grain", cells)
-    reactant = run_of.of_bodies("TotalMass") if "GasMass" in run_of.totals else None
+    run_of = Outcome("burning_grain", cells, sets)
     return {"mass": run_of.drift([line[1] for line in run_of.totals["TotalMass"]]),
             "mass of air": run_of.drift([line[1] for line in run_of.totals["TotalMass-air"]]),
             "energy": run_of.drift(energies_of_burning(run_of)),
-            "burnt": run_of.last("BurntMass") / (reactant[0] if reactant else 1)}
+            "burnt": run_of.last("BurntMass") / run_of.of_bodies("TotalMass")[0]}
 
 
 def oblique_shock(mach, angle, gamma=1.4):

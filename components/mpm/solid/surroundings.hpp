@@ -11,8 +11,6 @@ class Surroundings {
   virtual ~Surroundings() = default;
   /// Whether the surroundings change p.temperature.
   virtual bool exchangesHeat() const { return false; }
-  /// Whether they read the new p.temperature.
-  virtual bool readsTemperature() const { return exchangesHeat(); }
   /// Adds tasks after those that make the particles of `materials`, which outlive the list.
   virtual void scheduleStart(TaskList& tasks, const std::vector<Material>& materials) const = 0;
   /// After the task that gives g.record velocities and masses, and before forces accelerate nodes: computes

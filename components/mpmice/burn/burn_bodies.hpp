@@ -2,6 +2,7 @@
 
 #include "components/mpmice/burn/burning_surface.hpp"
 #include "components/mpmice/tasks/advance_gas.hpp"
+#include "core/data/vanished.hpp"
 
 namespace tushar::mpmice {
 
@@ -86,7 +87,7 @@ void removeBurnt(const Patch&, const mpm::solid::Material&, ParticleView<const d
                  ParticleView<const double> mass, ParticleView<Vec<D>> position,
                  const std::optional<ParticleView<double>>& strainEnergy) {
   for (int p = 0; p < mass.owned(); ++p) {
-    if (mass[p] == 0) position[p][0] = vanished;
+    if (mass[p] == 0) position[p][0] = data::vanished;
     if (strainEnergy && mass[p] != massBefore[p]) (*strainEnergy)[p] *= mass[p] / massBefore[p];
   }
 }

@@ -61,10 +61,15 @@ class SurfaceAtFaces {
 /// What burns at the lower faces of cells.
 template <int D>
 struct NewBurning {
-  CellView<Vec<D>> rate, blowing;
+  CellView<Vec<D>> rate, blowing, recoil;
 
   static NewBurning from(auto& take) {
-    return {.rate = take(computes(c::burnRate<D>)), .blowing = take(computes(c::blowing<D>))};
+    return {.rate = take(computes(c::burnRate<D>)),
+            .blowing = take(computes(c::blowing<D>)),
+            .recoil = take(computes(c::recoil<D>))};
+  }
+  void clear() const {
+    for (const auto& field : {rate, blowing, recoil}) field.fill(Vec<D>::Zero());
   }
 };
 
@@ -75,7 +80,8 @@ class BurningSurface {
   BurningSurface(const Level& level, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant)
       : level_(level), settings_(settings), cells_(cells), reactant_(reactant), surface_(level, settings, cells) {}
 
-  /// Adds what burns at the lower face of a cell.
+  /// Adds what burns at the lower face of a cell. The new gas leaves the body with the speed u = m (1/rho - 1/rho_s),
+  /// and its recoil is m u: mass and momentum across the surface.
   void burn(const Index<D>& above, int axis, const NewBurning<D>& fresh) const {
     const Index<D> below = above - Index<D>::unit(axis);
     const double share = reactant_.shareIn(below, above), step = share > 0 ? surface_.step(above, axis) : 0;
@@ -92,8 +98,11 @@ class BurningSurface {
     fresh.rate[above][axis] =
         rate * share * step * surface_.normalAlong(above, axis) * level_.inverseSpacing(axis);
     const double wall = surface_.space().faces(gas, axis).wall(step > 0 ? 1 : 0);
+    if (!(wall > 0)) return;
+    const double part = share * std::clamp(step / wall, -1.0, 1.0);
     const double speed = std::max(0.0, rate * (1 / density - 1 / bodyDensity));
-    if (wall > 0) fresh.blowing[above][axis] = speed * share * std::clamp(step / wall, -1.0, 1.0);
+    fresh.blowing[above][axis] = part * speed;
+    fresh.recoil[above][axis] = part * rate * speed;
   }
 
  private:
@@ -115,8 +124,7 @@ class BurningSurface {
 template <int D>
 void findBurning(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant,
                  const NewBurning<D>& fresh) {
-  fresh.rate.fill(Vec<D>::Zero());
-  fresh.blowing.fill(Vec<D>::Zero());
+  fresh.clear();
   if (!settings.burning->model.burnsAtSurface()) return;
   const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
   const BurningSurface<D> surface(patch.level(), settings, cells, reactant);

@@ -48,12 +48,22 @@ class CellWalls {
 /// New gas that leaves walls which burn; none elsewhere.
 template <int D>
 struct Blowing {
-  std::optional<CellView<const Vec<D>>> atFaces;
+  std::optional<CellView<const Vec<D>>> speeds, recoils;
 
-  /// Its speed, m/s, away from the wall of a cell at a face; `above` is the cell whose lower face it is.
-  double speed(const Index<D>& above, int axis, int side) const {
-    if (!atFaces || !atFaces->box().contains(above)) return 0;
-    const double up = (*atFaces)[above][axis];  // positive where the gas is below
+  static Blowing from(auto& take, bool burns) {
+    return {.speeds = take(when(burns, requiresNew(c::blowing<D>, 1))),
+            .recoils = take(when(burns, requiresNew(c::recoil<D>, 1)))};
+  }
+  /// Its speed, m/s, away from the wall of a cell at its lower (0) or upper (1) face.
+  double speed(const Index<D>& cell, int axis, int side) const { return at(speeds, cell, axis, side); }
+  /// What it exerts on that wall, Pa.
+  double recoil(const Index<D>& cell, int axis, int side) const { return at(recoils, cell, axis, side); }
+
+ private:
+  static double at(const std::optional<CellView<const Vec<D>>>& faces, const Index<D>& cell, int axis, int side) {
+    const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis);
+    if (!faces || !faces->box().contains(above)) return 0;
+    const double up = (*faces)[above][axis];  // positive where the gas is below
     return std::max(0.0, side == 0 ? -up : up);
   }
 };
@@ -87,13 +97,12 @@ void fillWallPressure(const Patch& patch, const Settings& settings, const GasInC
 template <int D>
 void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                          const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
-                         const std::optional<CellView<const Vec<D>>>& blowing, const WallPressures<D>& walls) {
-  const Blowing<D> blown{blowing};
+                         const Blowing<D>& blowing, const WallPressures<D>& walls) {
   fillWallPressure<D>(patch, settings, cells, records, walls,
                       [&](const Index<D>& cell, const CellWalls<D>& ofCell, const Vec<D>& velocity, int d, int side) {
-                        const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
                         return ofCell.pressure(lawAt<D>(settings, cells.held, cell), velocity, d, side,
-                                               blown.speed(face, d, side));
+                                               blowing.speed(cell, d, side)) +
+                               blowing.recoil(cell, d, side);
                       });
 }
 

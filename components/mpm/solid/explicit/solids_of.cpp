@@ -146,7 +146,7 @@ void SolidsOf<D>::scheduleEndOfStep(TaskList& tasks) const {
   scheduleNonlocalPlasticity(tasks);
   tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
                     requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
-  if (problem_.surroundings && problem_.surroundings->readsTemperature() && !problem_.method.conductsHeat && !heats_)
+  if (problem_.surroundings && problem_.surroundings->exchangesHeat() && !problem_.method.conductsHeat && !heats_)
     tasks.perMaterial("mpm::keepTemperature", keepTemperature, problem_.materials, requiresOld(p::temperature),
                       computes(p::temperature));
   if (problem_.surroundings) problem_.surroundings->scheduleMotion(tasks, problem_.materials);
