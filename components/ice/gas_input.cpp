@@ -249,9 +249,6 @@ void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics&
   const Element tag = *root.child("CFD")->child("ICE");
   const char* sentence = "is not available beside bodies: take it out, or keep only the gas";
   if (ice.push) diagnostics.error(*tag.child("fixedPressureGradient"), sentence);
-  if (ice.eddies) diagnostics.error(*tag.child("turbulence"), sentence);
-  for (const Element& material : root.child("MaterialProperties")->child("ICE")->children("material"))
-    if (const auto models = material.child("dynamicViscosityModels")) diagnostics.error(*models, sentence);
 }
 
 /// Exchanges of mass from a body to a gas are a way to burn.
@@ -321,7 +318,10 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
       start.apply(point, {rho, gasConstant, middle}, velocity, temperature);
     };
   }
-  if (properties.exchange) scene.exchange = properties.exchange->coefficients;
+  if (properties.exchange) {
+    scene.exchange = properties.exchange->coefficients;
+    scene.exchange->heatByMasses = properties.exchange->model.value_or(CoefficientSection()).heat != "constant";
+  }
   if (solids > 0) refuseBesideBodies(root, cfd.ice, diagnostics);
   if (materials.size() > 1) {
     readGases(materials, root, scene, diagnostics);

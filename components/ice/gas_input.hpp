@@ -6,6 +6,7 @@
 #include "components/euler/settings.hpp"
 #include "components/euler/varying_diffusion.hpp"
 #include "components/ice/burn_model.hpp"
+#include "components/ice/heat_coefficients.hpp"
 #include "components/ice/scalar.hpp"
 #include "core/input/diagnostics.hpp"
 #include "core/simulation/catalogue.hpp"
@@ -18,6 +19,9 @@ struct Exchange {
   Location where;                ///< in the scene
   std::vector<double> momentum;  ///< kg/(m³ s)
   std::vector<double> heat;      ///< W/(m³ K)
+  bool heatByMasses = false;     ///< by HeatCoefficients::byMasses in place of these
+
+  HeatCoefficients heatCoefficients() const { return {heatByMasses ? std::vector<double>() : heat, heatByMasses}; }
 };
 
 /// `<Model type="Test">`: one gas becomes another one.

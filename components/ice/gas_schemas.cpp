@@ -211,6 +211,19 @@ const Schema<Exchange>& coefficientsSchema() {
   return schema;
 }
 
+const Schema<CoefficientSection>& coefficientModelSchema() {
+  static const Schema<CoefficientSection> schema = [] {
+    Schema<CoefficientSection> tags("CoefficientModel", "Exchange coefficients that vary.");
+    tags.choice("heat", &CoefficientSection::heat, {{"constant", "constant"}, {"linearVariation", "linearVariation"}},
+                "constant",
+                "the numbers of <exchange_coefficients>, or r^2 or 1/r^2, whichever is above 1, r the ratio of the "
+                "masses of both in the cell, from 1e5 to 1e12");
+    input::refuseTag(tags, "momentum", "bodies are walls to the gas, and gases share one velocity");
+    return tags;
+  }();
+  return schema;
+}
+
 const Schema<ExchangeSection>& exchangeSchema() {
   static const Schema<ExchangeSection> schema = [] {
     Schema<ExchangeSection> tags("exchange_properties", "The exchange between materials.");
@@ -218,7 +231,8 @@ const Schema<ExchangeSection>& exchangeSchema() {
     input::refuseSwitch(tags, "do_convective_heat_transfer", "walls are adiabatic");
     for (const char* tag : {"convective_fluid", "convective_solid"})
       tags.ignored(tag, "belongs to do_convective_heat_transfer");
-    for (const char* tag : {"CoefficientModel", "Model"}) input::refuseTag(tags, tag, "coefficients are constant");
+    tags.section("CoefficientModel", &ExchangeSection::model, coefficientModelSchema(), "what coefficients depend on");
+    input::refuseTag(tags, "Model", "bodies are walls to the gas");
     return tags;
   }();
   return schema;

@@ -94,8 +94,14 @@ struct GasMaterials {
   std::vector<GasMaterial> materials;
 };
 
+/// `MaterialProperties/exchange_properties/CoefficientModel`.
+struct CoefficientSection {
+  std::string heat = "constant";
+};
+
 struct ExchangeSection {
   Exchange coefficients;
+  std::optional<CoefficientSection> model;
 };
 
 /// `MaterialProperties`.

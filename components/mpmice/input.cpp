@@ -53,20 +53,12 @@ void checkMomentum(const ice::Exchange& exchange, int solids, int gases, bool ar
                      "does nothing between bodies: they interact by their <contact>");
 }
 
-/// The coefficients of heat of all pairs; empty if none flows.
-std::vector<double> heatOf(const ice::Exchange& exchange, int solids, int gases, const Element& root,
-                           const Element& tag, Diagnostics& diagnostics) {
-  const auto& heat = exchange.heat;
-  if (heat.empty() || !hasAllPairs(heat, "heat", solids + gases, tag, diagnostics)) return {};
-  if (std::all_of(heat.begin(), heat.end(), [](double h) { return h == 0; })) return {};
-  if (gases > 1) {
-    const std::size_t ofGases = static_cast<std::size_t>(gases) * (gases - 1) / 2;  // the last pairs
-    if (std::any_of(heat.begin(), heat.end() - ofGases, [](double h) { return h != 0; }))
-      diagnostics.error(tag.child("heat").value_or(tag),
-                        "heat of bodies is not available where there are several gases: set it to 0 for all pairs "
-                        "with a body");
-    return {};
-  }
+/// The coefficients of heat; none if there are not as many as pairs, or a body has no specific heat.
+ice::HeatCoefficients heatOf(const ice::Exchange& exchange, int solids, int gases, const Element& root,
+                             const Element& tag, Diagnostics& diagnostics) {
+  ice::HeatCoefficients heat = exchange.heatCoefficients();
+  if (!heat.pairs.empty() && !hasAllPairs(heat.pairs, "heat", solids + gases, tag, diagnostics)) return {};
+  if (!heat.act()) return {};
   for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material"))
     if (!material.child("specific_heat")) diagnostics.error(material, "missing tag <specific_heat>: it exchanges heat");
   return heat;
@@ -147,11 +139,6 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   if (!scene.massExchanges.empty())
     diagnostics.error(scene.massExchanges.front().where, "Models/Model",
                       "is not available beside bodies; take it out, or keep only the gas");
-  if (std::any_of(scene.diffusions.begin(), scene.diffusions.end(), [](const auto& one) { return one.acts(); }))
-    diagnostics.error(
-        scene.where, "CFD",
-        "a viscosity or thermal conductivity of several gases is not available beside bodies: set each to "
-        "0, or keep one gas");
   if (scene.implicit && scene.gas.gas.law)
     diagnostics.error(
         scene.implicit->where, "CFD/ICE/ImplicitSolver",
@@ -160,10 +147,10 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};
-  settings.diffusion = {scene.viscosity, scene.conductivity};
+  settings.diffusion = {scene.varying, scene.diffusions};
   settings.gases = scene.mixture;
   if (scene.implicit)
-    settings.implicit = {.diffusion = settings.diffusion,
+    settings.implicit = {.diffusion = scene.varying.varies() ? euler::Diffusion() : scene.varying.uniform,
                          .gravity = scene.gravity,
                          .soundSpeedKnob = scene.implicit->soundSpeedKnob,
                          .solver = scene.implicit->solver};

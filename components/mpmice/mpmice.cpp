@@ -145,8 +145,8 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                           withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size())),
                           withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
   if (settings_.diffusion.acts())
-    tasks.perPatch("mpmice::addDiffusion", addDiffusion<D>, with(settings_),
-                   gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), requiresOld(delT),
+    tasks.perPatch("mpmice::addDiffusion", settings_.diffusion.varies() ? addVaryingDiffusion<D> : addDiffusion<D>,
+                   with(settings_), gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), requiresOld(delT),
                    modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy));
   if (conductsToBodies()) scheduleConduction(tasks, materials);
   if (burns())
@@ -158,8 +158,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                  computes(total::mergedCells));
   if (hasHeat())
     tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), requiresOld(delT),
-                          withoutMaterial(requiresNew(c::freeVolume)), withoutMaterial(requiresNew(c::density)),
-                          withoutMaterial(requiresNew(c::momentum<D>)), withoutMaterial(modifies(c::totalEnergy)),
+                          withoutMaterial(all<HeatedGas<D>>(settings_.gases.size())),
                           all<WarmBodies>(burns() ? requiresNew(p::mass) : requiresOld(p::mass)),
                           withoutMaterial(offers(c::heat)));
   if (!settings_.gravity.isZero(0) && !settings_.implicit)
@@ -208,13 +207,23 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
   if (settings_.implicit) {
     tasks.perPatch("mpmice::limitImplicitStep", limitImplicitStep<D>, with(settings_),
                    gasIn(readsOld, {.state = 1, .mass = 2, .room = 2}), computes(delT));
+    scheduleStepsOfDiffusion(tasks, settings_.implicit->soundSpeedKnob);
     return;
   }
   tasks.perPatch("mpmice::computeStableTimeStep",
                  settings_.gases.empty() ? computeStableTimeStep<D> : limitStepOfGases<D>, with(settings_),
                  gasIn(readsOld, {}), computes(delT));
-  if (settings_.diffusion.acts())
+  if (settings_.diffusion.acts() && !settings_.diffusion.varies())
     tasks.perPatch("mpmice::limitDiffusion", limitDiffusion<D>, with(settings_), gasIn(readsOld, {}), computes(delT));
+  scheduleStepsOfDiffusion(tasks, 1);
+}
+
+/// The limit of a viscosity that varies, beside this part of the speed of sound.
+template <int D>
+void GasAround<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
+  if (settings_.diffusion.acts() && settings_.diffusion.varies())
+    tasks.perPatch("mpmice::limitDiffusion", limitVaryingDiffusion<D>, with(settings_),
+                   gasIn(readsOld, {.state = 1, .mass = 1, .room = 1}), with(soundSpeedKnob), computes(delT));
 }
 
 template <int D>
@@ -246,8 +255,7 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   if (hasHeat())
     tasks.perPatch("mpmice::sumHeat", sumOverVolume<D>, requiresOld(c::heatSinceStart), computes(total::heat));
   else
-    tasks.perPatch(
-        "mpmice::sumHeat", [](const Patch&, Sum&) {}, computes(total::heat));
+    tasks.perPatch("mpmice::sumHeat", [](const Patch&, Sum&) {}, computes(total::heat));
   if (burns())
     tasks.perPatch("mpmice::sumBurnt", sumBurnt<D>, with(settings_), requiresOld(c::burntSinceStart),
                    computes(total::burntMass), computes(total::reactionHeat));

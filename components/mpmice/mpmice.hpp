@@ -31,10 +31,11 @@ class GasAround : public mpm::solid::Surroundings {
     reach.gases = settings_.gases.size();
     return all<GasInCells<D>>(reads, reach);
   }
-  bool hasHeat() const { return !settings_.heat.empty(); }
-  bool conductsToBodies() const { return settings_.diffusion.conductivity > 0 && hasHeat(); }
+  bool hasHeat() const { return settings_.heat.act(); }
+  bool conductsToBodies() const { return settings_.diffusion.conducts() && hasHeat(); }
   void scheduleConduction(TaskList& tasks, const Materials& materials) const;
-  bool isViscous() const { return settings_.diffusion.viscosity > 0; }
+  bool isViscous() const { return settings_.diffusion.isViscous(); }
+  void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
   bool burns() const { return settings_.burning.has_value(); }
   /// Whether what burns has strain energy, which the gas gets.

@@ -1,9 +1,10 @@
 #pragma once
 
-#include "components/euler/diffusion.hpp"
 #include "components/euler/settings.hpp"
+#include "components/euler/varying_diffusion.hpp"
 #include "components/ice/burn_model.hpp"
 #include "components/ice/face_flow.hpp"
+#include "components/ice/heat_coefficients.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpmice {
@@ -15,15 +16,33 @@ struct Burning {
   std::size_t gas = 0;   ///< that of the gas among several
 };
 
+/// How the gas around bodies diffuses.
+struct GasDiffusion {
+  euler::VaryingDiffusion alone = {};         ///< of one gas; of several the eddies
+  std::vector<euler::Diffusion> ofEach = {};  ///< of several gases: a cell has the mean by their shares
+
+  /// Whether viscosity and conductivity differ from cell to cell.
+  bool varies() const { return alone.varies() || !ofEach.empty(); }
+  bool isViscous() const {
+    return alone.uniform.viscosity > 0 || alone.varies() ||
+           std::any_of(ofEach.begin(), ofEach.end(), [](const auto& one) { return one.viscosity > 0; });
+  }
+  bool conducts() const {
+    return alone.uniform.conductivity > 0 ||
+           std::any_of(ofEach.begin(), ofEach.end(), [](const auto& one) { return one.conductivity > 0; });
+  }
+  bool acts() const { return isViscous() || conducts(); }
+};
+
 /// The gas around bodies, and its interaction with them.
 struct Settings {
   euler::Settings gas;
   double referencePressure = 0;  ///< exerts no force on bodies, Pa
   Vec3 gravity = Vec3::Zero();   ///< m/s²
-  std::vector<double> heat;      ///< W/(m³ K) between pairs of materials, row by row, the gas last; empty: none flows
+  ice::HeatCoefficients heat;    ///< of bodies in their order, then gases
   bool thinWalls = false;        ///< bodies thinner than a cell also hold the gas back
   bool areRigid = false;         ///< bodies keep their velocities, whatever the gas does
-  euler::Diffusion diffusion = {};                ///< in the gas
+  GasDiffusion diffusion = {};
   std::optional<ice::IceSettings> implicit = {};  ///< where sound does not limit the steps
   std::vector<euler::Settings> gases = {};        ///< each of several gases that share cells; the first is `gas`
   std::optional<Burning> burning = {};            ///< a body that burns

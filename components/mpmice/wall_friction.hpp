@@ -3,6 +3,7 @@
 #include "components/mpm/solid/material.hpp"
 #include "components/mpmice/bodies_at_nodes.hpp"
 #include "components/mpmice/free_space.hpp"
+#include "components/mpmice/gas_diffusion.hpp"
 #include "components/mpmice/near_bodies.hpp"
 
 namespace tushar::mpmice {
@@ -60,9 +61,11 @@ class CellFriction {
 template <int D>
 CellFriction<D> frictionWeights(const Level& level, const Settings& settings, const GasInCells<D>& cells,
                                 const FreeSpace<D>& space, const BodiesAtNodes<D>& bodies, const Index<D>& cell) {
-  return {level, space, cell, cells.free[cell], settings.diffusion.viscosity, [&](const Index<D>& face, int axis) {
-            return bodies.massAt(face, axis);
-          }};
+  const double viscosity = viscosityAtWalls<D>(level, settings, cells, cell);
+  return {level,     space,
+          cell,      cells.free[cell],
+          viscosity, [&](const Index<D>& face, int axis) {
+            return bodies.massAt(face, axis); }};
 }
 
 /// Friction of a step on the gas of a cell, N/m³ of the cell.

@@ -1,12 +1,28 @@
 #!/usr/bin/env python3
 """Several gases around bodies: exactness, errors, the mass of each, the same bits on any layout."""
 import pathlib
+import re
 import sys
+import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import gas_and_bodies as fsi
+from fsi_test import LIGHT, ConservationTest, also, changed, rigid
 from same_bits import SameBitsTest
+from sus import run
+
+CONTACT, BUBBLE = (fsi.scene(name).read_text() for name in ("contact_of_gases", "bubble_and_body"))
+
+
+def diffusing(text, viscosity, conductivity, specific_heat, heat):
+    """A scene whose gases diffuse and exchange heat with the body."""
+    text = re.sub(r"<(dynamic_viscosity|thermal_conductivity)>0</\1>", "", text)
+    of_body = f"<specific_heat>{specific_heat}</specific_heat><thermal_conductivity>0</thermal_conductivity>"
+    of_gas = (f"<dynamic_viscosity>{viscosity}</dynamic_viscosity>"
+              f"<thermal_conductivity>{conductivity}</thermal_conductivity>")
+    return changed(text, ("</constitutive_model>", "</constitutive_model>" + of_body),
+                   ("</gamma>", "</gamma>" + of_gas), ("<heat>[0, 0, 0]", f"<heat>[{heat}]"))
 
 
 class Gases(unittest.TestCase):
@@ -31,6 +47,28 @@ class Gases(unittest.TestCase):
         self.assert_within(errors, .03, "p behind the shock")
 
 
+class Conservation(ConservationTest):
+    def warm(self, heat):
+        """A body and two gases of unlike temperatures, one of which is in the other one's region, too."""
+        text = changed(also(rigid(CONTACT), *self.KEPT), LIGHT, ("<temperature>10<", "<temperature>30<"),
+                       ("<reference_pressure>1<", "<reference_pressure>0<"),
+                       ("<res>[4,1,1]</res>", "<res>[4,1,1]</res><temperature>5</temperature>"),
+                       ("<min>[0,0,0]</min><max>[0.5,1,1]", "<min>[0,0,0]</min><max>[1,1,1]"),
+                       ("<density>1<", "<volumeFraction>x &lt; 0.5 ? 1 : 0.3</volumeFraction><density>1<"),
+                       ("<density>0.1<", "<volumeFraction>0.7</volumeFraction><density>0.1<"))
+        return diffusing(text, .01, .03, 1, heat)
+
+    def test_of_gases_and_a_body_that_exchange_heat(self):
+        for heat in ("50, 20, 5", "1e15, 1e15, 1e15"):
+            self.assert_kept(self.warm(heat), "Time/maxTime=0.5")
+
+    def test_of_heat_changes_no_bit_on_any_patches(self):
+        scene = self.scene(self.warm("50, 20, 5"))
+        prints = {run(scene, "Time/max_Timesteps=100", f"Grid/Level/Box/patches={layout}",
+                      options=("--quiet",)).report["fingerprint"] for layout in ("[1,1,1]", "[7,1,1]", "[25,1,1]")}
+        self.assertEqual(len(prints), 1)
+
+
 class Bits(SameBitsTest):
     SPACE = ("Grid/Level/Box/resolution=[20,10,10]", "Grid/Level/Box/upper=[0.1,0.05,0.05]")
 
@@ -39,6 +77,12 @@ class Bits(SameBitsTest):
 
     def test_are_the_same_in_a_plane(self):
         self.assert_same("bubble_and_body", 60, ("[1,1,1]", "[5,3,1]", "[20,4,1]"), ranks=3)
+
+    def test_are_the_same_where_gases_diffuse(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, "scene.ups")
+            scene.write_text(diffusing(BUBBLE, 1, 1e3, 900, "1e15, 1e8, 1e9"))
+            self.assert_same(scene, 40, ("[1,1,1]", "[5,3,1]", "[20,4,1]"), ranks=1)
 
     def test_are_the_same_in_space(self):
         self.assert_same("bubble_and_body", 15, ("[1,1,1]", "[3,2,2]", "[5,1,4]"), *self.SPACE, ranks=1)

@@ -8,6 +8,26 @@
 
 namespace tushar::euler {
 
+/// sqrt(2 S : S) [1/s], S the symmetric part of the gradient; `slope(k, d)`: dv_k/dx_d.
+template <int D, class Slope>
+double strainOf(Slope&& slope) {
+  double gradient[D][D];
+  for (int k = 0; k < D; ++k)
+    for (int d = 0; d < D; ++d) gradient[k][d] = slope(k, d);
+  double sum = 0;
+  for (int k = 0; k < D; ++k)
+    for (int d = 0; d < D; ++d) {
+      const double s = 0.5 * (gradient[k][d] + gradient[d][k]);
+      sum += s * s;
+    }
+  return std::sqrt(2 * sum);
+}
+
+/// How fast a cell is crossed, 1/s.
+struct Crossing {
+  double byFlow = 0, byDiffusion = 0;
+};
+
 /// What diffuses in a cell, and how.
 template <int D>
 struct DiffusingCell {
@@ -65,15 +85,37 @@ class Diffuser {
     });
     return flux_;
   }
+  /// T in the place of the density, and v.
+  const Rows<D>& state() const { return w_; }
   /// Viscosity and conductivity at a face.
   Diffusion atFace(const Index<D>& face, int axis) const {
+    return atFace(face, axis, [&] { return strain(face, axis); });
+  }
+  /// The same, with eddies by a function that finds sqrt(2 S : S) there [1/s].
+  template <class Strain>
+  Diffusion atFace(const Index<D>& face, int axis, Strain&& strain) const {
     const Index<D> below = face - Index<D>::unit(axis);
     const auto mean = [&](std::size_t k) {
       return 0.5 * (coefficients_.number(below, k) + coefficients_.number(face, k));
     };
     Diffusion here{mean(viscosity), mean(conductivity)};
-    if (eddies_ > 0) here.viscosity += mean(density) * eddies_ * strain(face, axis);
+    if (eddies_ > 0) here.viscosity += mean(density) * eddies_ * strain();
     return here;
+  }
+  /// sum_d (|v_d| + k c) / h_d of a cell, and sum_d (nu_below + nu_above) / h_d², nu the greatest diffusivity at a
+  /// face, k the part of the speed of sound that counts.
+  Crossing crossingOf(const Index<D>& cell, const DiffusingCell<D>& here, double soundSpeedKnob) const {
+    Crossing rate;
+    for (int d = 0; d < D; ++d) {
+      const double perWidth = level_.inverseSpacing(d);
+      rate.byFlow += (std::abs(here.w[kVelocity(d)]) + soundSpeedKnob * here.soundSpeed) * perWidth;
+      for (const Index<D>& face : {cell, cell + Index<D>::unit(d)}) {
+        const Diffusion how = atFace(face, d);
+        const double heat = how.conductivity > 0 ? how.conductivity / here.specificHeat : 0;
+        rate.byDiffusion += std::max(4.0 / 3 * how.viscosity, heat) / here.density * perWidth * perWidth;
+      }
+    }
+    return rate;
   }
 
  private:
@@ -83,23 +125,13 @@ class Diffuser {
   /// sqrt(2 S : S) at a face [1/s].
   double strain(const Index<D>& face, int axis) const {
     const Index<D> below = face - Index<D>::unit(axis);
-    double gradient[D][D];
-    for (int k = 0; k < D; ++k)
-      for (int d = 0; d < D; ++d) {
-        const auto v = [&](const Index<D>& cell) { return w_.number(cell, kVelocity(k)); };
-        const Index<D> step = Index<D>::unit(d);
-        const double rise = d == axis
-                                ? v(face) - v(below)
-                                : 0.25 * ((v(face + step) - v(face - step)) + (v(below + step) - v(below - step)));
-        gradient[k][d] = rise * level_.inverseSpacing(d);
-      }
-    double sum = 0;
-    for (int k = 0; k < D; ++k)
-      for (int d = 0; d < D; ++d) {
-        const double s = 0.5 * (gradient[k][d] + gradient[d][k]);
-        sum += s * s;
-      }
-    return std::sqrt(2 * sum);
+    return strainOf<D>([&](int k, int d) {
+      const auto v = [&](const Index<D>& cell) { return w_.number(cell, kVelocity(k)); };
+      const Index<D> step = Index<D>::unit(d);
+      const double rise = d == axis ? v(face) - v(below)
+                                    : 0.25 * ((v(face + step) - v(face - step)) + (v(below + step) - v(below - step)));
+      return rise * level_.inverseSpacing(d);
+    });
   }
 
   const Level& level_;
@@ -125,27 +157,15 @@ void diffuse(const Patch& patch, Diffuser<D>& diffuser, double dt, CellAt&& cell
   });
 }
 
-/// The greatest sum_d (|v_d| + k c) / h_d + (nu_below + nu_above) / h_d² of the patch [1/s], nu the greatest
-/// diffusivity at a face, k the part of the speed of sound that counts.
+/// The greatest rate of crossing a cell of the patch by flow and diffusion [1/s].
 template <int D, class CellAt>
 double greatestDiffusionRate(const Patch& patch, Diffuser<D>& diffuser, double soundSpeedKnob, CellAt&& cellAt) {
-  const Level& level = patch.level();
   double greatest = 0;
   forEachBlock<D>(patch.cells(), [&](const Box& block) {
     diffuser.hold(block, cellAt);
     forEach<D>(block, [&](const Index<D>& cell) {
-      const DiffusingCell<D> here = cellAt(cell);
-      double rate = 0;
-      for (int d = 0; d < D; ++d) {
-        const double perWidth = level.inverseSpacing(d);
-        rate += (std::abs(here.w[kVelocity(d)]) + soundSpeedKnob * here.soundSpeed) * perWidth;
-        for (const Index<D>& face : {cell, cell + Index<D>::unit(d)}) {
-          const Diffusion how = diffuser.atFace(face, d);
-          const double heat = how.conductivity > 0 ? how.conductivity / here.specificHeat : 0;
-          rate += std::max(4.0 / 3 * how.viscosity, heat) / here.density * perWidth * perWidth;
-        }
-      }
-      greatest = std::max(greatest, rate);
+      const Crossing rate = diffuser.crossingOf(cell, cellAt(cell), soundSpeedKnob);
+      greatest = std::max(greatest, rate.byFlow + rate.byDiffusion);
     });
   });
   return greatest;

@@ -14,7 +14,7 @@ using input::Element;
 
 namespace {
 
-/// From this value on, Uintah's coefficients mean one velocity, or one temperature.
+/// From this value on, Uintah's coefficients of momentum mean one velocity.
 constexpr double oneForAll = 1e9;
 
 void checkSubstance(const GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
@@ -27,23 +27,26 @@ void checkSubstance(const GasMaterial& material, const Element& element, Diagnos
                       "is not available beside a second gas: give <dynamic_viscosity>, or keep one gas");
 }
 
-/// Each pair of gases has one velocity; heat flows between them at once, or not at all.
+/// The coefficients have a number for each pair of materials, and each pair of gases has one velocity.
 void checkExchange(const GasScene& scene, const Element& root, int solids, Diagnostics& diagnostics) {
   if (!scene.exchange) return;
   const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
   const std::size_t gases = scene.mixture.size(), count = gases + solids, pairs = count * (count - 1) / 2;
+  for (const auto& [name, given] :
+       {std::pair("momentum", &scene.exchange->momentum), std::pair("heat", &scene.exchange->heat)})
+    if (!given->empty() && given->size() != pairs && !(given == &scene.exchange->heat && scene.exchange->heatByMasses))
+      diagnostics.error(tag.child(name).value_or(tag),
+                        fmt::format("found {} numbers, expected {}: one for each pair of {} {}", given->size(), pairs,
+                                    count, solids > 0 ? "materials" : "gases"));
+  const std::vector<double>& momentum = scene.exchange->momentum;
+  if (momentum.size() != pairs) return;
   const std::size_t ofGases = pairs - gases * (gases - 1) / 2;  // the first: pairs come row by row, bodies first
-  const auto check = [&](const std::vector<double>& given, const char* name, bool mayBeNone, const char* sentence) {
-    const Element at = tag.child(name).value_or(tag);
-    if (!given.empty() && given.size() != pairs)
-      return diagnostics.error(at, fmt::format("found {} numbers, expected {}: one for each pair of {} {}",
-                                               given.size(), pairs, count, solids > 0 ? "materials" : "gases"));
-    for (std::size_t at_pair = ofGases; at_pair < given.size(); ++at_pair)
-      if (const double k = given[at_pair]; k < oneForAll && !(mayBeNone && k == 0))
-        return diagnostics.error(at, fmt::format("{:g} between gases is not available: {}", k, sentence));
-  };
-  check(scene.exchange->momentum, "momentum", false, "they share one velocity, so it must be 1e9 or more");
-  check(scene.exchange->heat, "heat", true, "it is 1e9 or more, or 0");
+  for (std::size_t pair = ofGases; pair < momentum.size(); ++pair)
+    if (momentum[pair] < oneForAll)
+      return diagnostics.error(tag.child("momentum").value_or(tag),
+                               fmt::format("{:g} between gases is not available: they share one velocity, so it must "
+                                           "be 1e9 or more",
+                                           momentum[pair]));
 }
 
 /// The Dirichlet value of a variable at a face, if it has one.

@@ -32,6 +32,7 @@ MixtureIce<D>::MixtureIce(const GasScene& scene, bool hasLevels)
       gases_(scene.mixture),
       diffusion_{scene.diffusions, scene.varying.smagorinsky},
       transfers_(transfersOf(scene)),
+      heat_(scene.exchange.value_or(Exchange()).heatCoefficients()),
       hasLevels_(hasLevels) {
   for (const euler::Settings& gas : gases_) totals_.push_back(std::make_shared<const GasTotal>(gas.name));
 }
@@ -76,6 +77,11 @@ void MixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
   if (!gravity_.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(gravity_), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
+  if (heat_.act())
+    tasks.acrossMaterials("ice::exchangeHeat", exchangeHeat<D>, gases_, with(heat_), requiresOld(delT),
+                          withoutMaterial(requiresNew(euler::c::density)),
+                          withoutMaterial(requiresNew(euler::c::momentum<D>)),
+                          withoutMaterial(requiresNew(euler::c::totalEnergy)), all<WarmGas>());
 }
 
 template <int D>

@@ -3,6 +3,7 @@
 #include "components/euler/euler.hpp"
 #include "components/ice/gas_input.hpp"
 #include "components/ice/mixture/diffusion.hpp"
+#include "components/ice/mixture/exchange_heat.hpp"
 #include "components/ice/mixture/exchange_mass.hpp"
 #include "components/ice/mixture/tasks.hpp"
 
@@ -37,6 +38,7 @@ class MixtureIce : public Component, public reference::GasSolution {
   Gases gases_;
   MixtureDiffusion diffusion_;
   std::vector<Transfer> transfers_;
+  HeatCoefficients heat_;
   bool hasLevels_;
   std::vector<std::shared_ptr<const GasTotal>> totals_;
 };

@@ -14,25 +14,28 @@ template <int D>
 class DiffusionBeside {
  public:
   DiffusionBeside(const Level& level, const Settings& settings, const GasInCells<D>& cells, const euler::Rows<D>& w)
-      : level_(level), diffusion_(settings.diffusion), cells_(cells), space_(level, settings, cells), w_(w) {}
+      : level_(level), cells_(cells), space_(level, settings, cells), w_(w) {}
 
-  /// Pa and W/m² through the lower face of a cell across an axis.
-  euler::State<D> fluxThrough(const Index<D>& cell, int axis) const {
+  /// Pa and W/m² through the lower face of a cell across an axis. `how(strain)` is the diffusion there, by the function
+  /// that finds sqrt(2 S : S) of the gas beside the face [1/s].
+  template <class How>
+  euler::State<D> fluxThrough(const Index<D>& cell, int axis, How&& how) const {
     const Index<D> below = cell - Index<D>::unit(axis);
     euler::State<D> flux{};
     const double open = openFor(cell, below, axis);
     if (!(open > 0)) return flux;
     const double perWidth = level_.inverseSpacing(axis) / distance(cell, below, axis);
+    const euler::Diffusion diffusion = how([&] { return strain(cell, below, axis, perWidth); });
     const double along = rise(cell, below, euler::kVelocity(axis)) * perWidth;
     double others = 0;
     for (int k = 0; k < D; ++k) {
       if (k == axis) continue;
       others += slope(cell, below, k, euler::kVelocity(k));
-      flux[euler::kVelocity(k)] = -diffusion_.viscosity * (rise(cell, below, euler::kVelocity(k)) * perWidth +
-                                                           slope(cell, below, k, euler::kVelocity(axis)));
+      flux[euler::kVelocity(k)] = -diffusion.viscosity * (rise(cell, below, euler::kVelocity(k)) * perWidth +
+                                                          slope(cell, below, k, euler::kVelocity(axis)));
     }
-    flux[euler::kVelocity(axis)] = -diffusion_.viscosity * (2 * along - 2.0 / 3 * (along + others));
-    double energy = -diffusion_.conductivity * rise(cell, below, euler::kDensity) * perWidth;
+    flux[euler::kVelocity(axis)] = -diffusion.viscosity * (2 * along - 2.0 / 3 * (along + others));
+    double energy = -diffusion.conductivity * rise(cell, below, euler::kDensity) * perWidth;
     for (int k = 0; k < D; ++k) {
       const std::size_t v = euler::kVelocity(k);
       energy += flux[v] * 0.5 * (w_.number(cell, v) + w_.number(below, v));
@@ -71,6 +74,12 @@ class DiffusionBeside {
       }
     return 0.25 * level_.inverseSpacing(axis) * sum;
   }
+  double strain(const Index<D>& cell, const Index<D>& below, int axis, double perWidth) const {
+    return euler::strainOf<D>([&](int k, int d) {
+      const std::size_t v = euler::kVelocity(k);
+      return d == axis ? rise(cell, below, v) * perWidth : slope(cell, below, d, v);
+    });
+  }
   /// Distance, in cells, between the gas of two cells along an axis.
   double distance(const Index<D>& cell, const Index<D>& below, int axis) const {
     if (isBeyond(cell, axis) || isBeyond(below, axis)) {
@@ -94,7 +103,6 @@ class DiffusionBeside {
   }
 
   const Level& level_;
-  const euler::Diffusion& diffusion_;
   const GasInCells<D>& cells_;
   FreeSpace<D> space_;
   const euler::Rows<D>& w_;
@@ -124,10 +132,10 @@ void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells
                   CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
   const Level& level = patch.level();
   const euler::Gas& gas = settings.gas.gas;
+  const euler::Diffusion& uniform = settings.diffusion.alone.uniform;
   const euler::GhostRules<D> rules = euler::diffusionRules<D>(level, gas);
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
-  std::size_t room = 1;
-  for (int d = 0; d < D; ++d) room *= std::min(patch.cells().extent(d), euler::kBlock<D>[d]) + 2;
+  const std::size_t room = euler::largestBlock<D>(patch.cells()).grown(1, D).size();
   euler::Rows<D> w(room), flux(room);
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     w.hold(block.grown(1, D));
@@ -138,9 +146,44 @@ void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells
     for (int axis = 0; axis < D; ++axis) {
       Box faces = block;
       ++faces.upper[axis];
-      euler::computeDiffusiveFluxes<D>(settings.diffusion, level, faces, axis, w, flux);
-      near.forEachIn(faces,
-                     [&](const Index<D>& cell) { euler::store<D>(flux.at(cell), 0, beside.fluxThrough(cell, axis)); });
+      euler::computeDiffusiveFluxes<D>(uniform, level, faces, axis, w, flux);
+      near.forEachIn(faces, [&](const Index<D>& cell) {
+        euler::store<D>(flux.at(cell), 0, beside.fluxThrough(cell, axis, [&](auto&&) { return uniform; }));
+      });
+      euler::addDiffused<D>(dt / level.spacing(axis), block, axis, flux, momentum, totalEnergy);
+    }
+  });
+}
+
+/// The cells with gas as they diffuse; others are at rest.
+template <int D>
+auto diffusingGas(const Level& level, const Settings& settings, const GasInCells<D>& cells) {
+  return [&level, &settings, cells](const Index<D>& cell) {
+    return cells.isEmpty(cell) ? euler::DiffusingCell<D>{} : diffusingAt<D>(level, settings, cells, cell);
+  };
+}
+
+/// addDiffusion where viscosity and conduction vary, or there are several gases: through a face flows what the mean of
+/// both cells' coefficients lets through.
+template <int D>
+void addVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
+                         CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
+  const Level& level = patch.level();
+  const euler::GhostRules<D> rules = euler::diffusionRules<D>(level, settings.gas.gas);
+  const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
+  euler::Diffuser<D> diffuser(level, patch.cells(), rules, settings.diffusion.alone.smagorinsky);
+  const auto cellAt = diffusingGas<D>(level, settings, cells);
+  euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
+    diffuser.hold(block, cellAt);
+    const DiffusionBeside<D> beside(level, settings, cells, diffuser.state());
+    for (int axis = 0; axis < D; ++axis) {
+      Box faces = block;
+      ++faces.upper[axis];
+      euler::Rows<D>& flux = diffuser.computeFluxes(faces, axis);
+      near.forEachIn(faces, [&](const Index<D>& cell) {
+        const auto how = [&](auto&& strain) { return diffuser.atFace(cell, axis, strain); };
+        euler::store<D>(flux.at(cell), 0, beside.fluxThrough(cell, axis, how));
+      });
       euler::addDiffused<D>(dt / level.spacing(axis), block, axis, flux, momentum, totalEnergy);
     }
   });
@@ -162,9 +205,31 @@ void limitDiffusion(const Patch& patch, const Settings& settings, const GasInCel
     const Vec<D> momentum = cells.held.momentum[cell] * perFree;
     const double internal = cells.held.totalEnergy[cell] * perFree - 0.5 * momentum.squaredNorm() / rho;
     const double c2 = gas.soundSpeedSquared(rho, gas.last(rho, internal));
-    double rate = std::sqrt(c2) * widths + 2 * settings.diffusion.greatest(gas, rho) * squares / (layer * layer);
+    double rate =
+        std::sqrt(c2) * widths + 2 * settings.diffusion.alone.uniform.greatest(gas, rho) * squares / (layer * layer);
     for (int d = 0; d < D; ++d) rate += std::abs(momentum[d]) / rho * level.inverseSpacing(d);
     greatest = rate > greatest ? rate : greatest;
+  });
+  if (greatest > 0) dt.add(settings.gas.cfl / greatest, "diffusion");
+}
+
+/// The same where viscosity and conduction vary, beside a part of the speed of sound: dt = cfl / max(sum_d (|v_d| +
+/// k c) / h_d + (nu_below + nu_above) / (l h_d)²).
+template <int D>
+void limitVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
+                           double soundSpeedKnob, Minimum& dt) {
+  const euler::GhostRules<D> rules = euler::diffusionRules<D>(patch.level(), settings.gas.gas);
+  euler::Diffuser<D> diffuser(patch.level(), patch.cells(), rules, settings.diffusion.alone.smagorinsky);
+  const auto cellAt = diffusingGas<D>(patch.level(), settings, cells);
+  double greatest = 0;
+  euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
+    diffuser.hold(block, cellAt);
+    forEach<D>(block, [&](const Index<D>& cell) {
+      if (cells.isEmpty(cell)) return;
+      const double layer = std::min(1.0, layerOf(cells.free[cell]));
+      const euler::Crossing rate = diffuser.crossingOf(cell, cellAt(cell), soundSpeedKnob);
+      greatest = std::max(greatest, rate.byFlow + rate.byDiffusion / (layer * layer));
+    });
   });
   if (greatest > 0) dt.add(settings.gas.cfl / greatest, "diffusion");
 }

@@ -29,11 +29,17 @@ struct HeatOfParticles {
   }
 };
 
-/// Whether a body exchanges heat with the gas.
+/// Whether a body exchanges heat with a gas: one of the last numbers of its row, which is that of its pairs with what
+/// comes after it.
 inline bool warmsGas(const Settings& settings, std::size_t body, std::size_t bodies) {
-  std::size_t pair = 0;
-  for (std::size_t row = 0; row < body; ++row) pair += bodies - row;
-  return !settings.heat.empty() && settings.heat[pair + bodies - body - 1] > 0;
+  if (settings.heat.byMasses) return true;
+  if (!settings.heat.act()) return false;
+  const std::size_t gases = std::max<std::size_t>(1, settings.gases.size());
+  std::size_t end = 0;
+  for (std::size_t row = 0; row <= body; ++row) end += bodies + gases - row - 1;
+  const auto first = settings.heat.pairs.begin();
+  return std::any_of(first + static_cast<std::ptrdiff_t>(end - gases), first + static_cast<std::ptrdiff_t>(end),
+                     [](double h) { return h > 0; });
 }
 
 /// Sums the heat of bodies in cells, J/(m³ K) and K.
@@ -103,13 +109,11 @@ class WallHeat {
     if (!(capacity > 0)) return 0;
     double heat = bodies_.capacity[cell] * bodies_.temperature[cell];
     if (next) heat += bodies_.capacity[*next] * bodies_.temperature[*next];
-    const euler::Gas& gas = settings_.gas.gas;
-    const euler::State<D> w = cells_.primitive(gas, cell);
-    const double difference = temperatureOf(gas, w[euler::kDensity], w[euler::kPressure<D>]) - heat / capacity;
-    const double perWidth = level_.inverseSpacing(axis);
-    const double flow =
-        dt_ * settings_.diffusion.conductivity * wall * perWidth * perWidth / (0.5 * layerOf(cells_.free[cell]));
-    const double ofGas = w[euler::kDensity] * layerOf(cells_.free[cell]) * gas.specificHeat;
+    const euler::DiffusingCell<D> gas = diffusingAt<D>(level_, settings_, cells_, cell);
+    const double difference = gas.w[euler::kTemperature] - heat / capacity;
+    const double perWidth = level_.inverseSpacing(axis), layer = layerOf(cells_.free[cell]);
+    const double flow = dt_ * gas.how.conductivity * wall * perWidth * perWidth / (0.5 * layer);
+    const double ofGas = gas.density * layer * gas.specificHeat;
     return std::min(flow, 1 / (1 / ofGas + 2 * D / capacity)) * difference;
   }
 

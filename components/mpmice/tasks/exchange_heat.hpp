@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-
+#include "components/ice/mixture/exchange_heat.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpmice/gas_in_cells.hpp"
 
@@ -21,114 +20,122 @@ struct WarmBodies {
   }
 };
 
-/// The participants in a cell's heat exchange: bodies in their order, then the gas.
-struct WarmThings {
-  Eigen::VectorXd capacity;     ///< J/(m³ K), of the volume of the cell
-  Eigen::VectorXd temperature;  ///< K
-  Eigen::VectorXd volume;       ///< share of the cell
+/// What the exchange of heat reads and changes of the gas after a step: its energy and, of several gases, the shares.
+template <int D>
+struct HeatedGas {
+  CellView<const double> free, density;
+  CellView<const Vec<D>> momentum;
+  CellView<double> totalEnergy;
+  std::vector<CellView<const double>> masses;
+  std::vector<CellView<double>> shares;
+
+  static HeatedGas from(auto& take, std::size_t gases) {
+    return {.free = take(requiresNew(c::freeVolume)),
+            .density = take(requiresNew(c::density)),
+            .momentum = take(requiresNew(c::momentum<D>)),
+            .totalEnergy = take(modifies(c::totalEnergy)),
+            .masses = viewsOfGases(take, gases, [](std::size_t k) { return requiresNew(c::massOfGas[k]); }),
+            .shares = viewsOfGases(take, gases, [](std::size_t k) { return modifies(c::shareOfGas[k]); })};
+  }
 };
 
-/// Temperatures after dt of C_a dT_a/dt = sum_b H_ab theta_a theta_b (T_b - T_a), implicit: however stiff the exchange
-/// is, all end at one temperature. `pairs` holds H [W/(m³ K)] of each pair, row by row.
-inline Eigen::VectorXd temperaturesAfter(const WarmThings& things, const std::vector<double>& pairs, double dt) {
-  const Eigen::Index count = things.capacity.size();
-  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(count, count);
-  std::size_t pair = 0;
-  for (Eigen::Index a = 0; a < count; ++a) {
-    system(a, a) += things.capacity[a];
-    for (Eigen::Index b = a + 1; b < count; ++b, ++pair) {
-      // Beyond that all is one temperature except for 1e-8 of the difference, and round-off would show.
-      constexpr double stiffest = 1e8;
-      const double flow = std::min(pairs[pair] * dt * things.volume[a] * things.volume[b],
-                                   stiffest * (things.capacity[a] + things.capacity[b]));
-      system(a, a) += flow;
-      system(b, b) += flow;
-      system(a, b) -= flow;
-      system(b, a) -= flow;
-    }
-  }
-  for (Eigen::Index a = 0; a < count; ++a)
-    if (!(things.capacity[a] > 0)) system(a, a) = 1;  // participants that are absent
-  const Eigen::VectorXd heat = things.capacity.cwiseProduct(things.temperature);
-  return system.ldlt().solve(heat);
-}
-
-/// Heat between bodies and the gas, and between bodies, in the cells where they are together, in the manner of Uintah's
-/// exchange coefficients: what one gives, the others get.
+/// Heat between bodies and gases, and among each of these, in the cells where they are together, in the manner of
+/// Uintah's exchange coefficients: what one gives, the others get.
 template <int D>
 class HeatExchange {
  public:
   HeatExchange(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
-               CellView<const double> free, const std::vector<WarmBodies>& bodies)
-      : patch_(patch), materials_(materials), settings_(settings), free_(free), bodies_(bodies) {}
+               const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies)
+      : patch_(patch), materials_(materials), settings_(settings), gas_(gas), bodies_(bodies) {}
 
-  /// Returns what the gas of the cell gives, J/m³ of the cell.
-  double apply(const Index<D>& cell, double dt, CellView<const double> density, CellView<const Vec<D>> momentum,
-               CellView<double> totalEnergy) const {
-    const auto gas = static_cast<Eigen::Index>(bodies_.size());
-    WarmThings things = bodiesIn(cell);
-    if (free_[cell] >= leastFreeVolume && density[cell] > 0) {
-      const double specific = settings_.gas.gas.specificHeat, mass = density[cell];
-      const double internal = totalEnergy[cell] - 0.5 * momentum[cell].squaredNorm() / mass;
-      things.capacity[gas] = mass * specific;
-      things.temperature[gas] = internal / (mass * specific);
-      if (settings_.gas.gas.law || settings_.gas.gas.pInfinity > 0)
-        things.temperature[gas] = settings_.gas.gas.temperature(mass / free_[cell], internal / free_[cell]);
-      things.volume[gas] = free_[cell];
-    }
-    if ((things.capacity.array() > 0).count() < 2) return 0;
+  /// Exchanges heat in a cell. Returns what the gas gives to bodies, J/m³ of the cell.
+  double apply(const Index<D>& cell, double dt) const {
+    const std::size_t bodies = bodies_.size(), gases = std::max<std::size_t>(1, settings_.gases.size());
+    ice::WarmThings<> things(static_cast<Eigen::Index>(bodies + gases));
+    for (std::size_t m = 0; m < bodies; ++m) addBody(m, cell, things);
+    const int solid = things.present();
+    if (gas_.free[cell] >= leastFreeVolume && gas_.density[cell] > 0) addGas(cell, things);
+    const int present = things.present();
+    if (present < 2) return 0;
+    const auto changes = ice::changesByHeat(things, settings_.heat, dt);
     double given = 0;
-    const Eigen::VectorXd after = temperaturesAfter(things, settings_.heat, dt);
-    for (Eigen::Index m = 0; m < gas; ++m) {
+    for (std::size_t m = 0; m < bodies; ++m) {
       if (!(things.capacity[m] > 0)) continue;
-      const double change = after[m] - things.temperature[m];
-      if (things.capacity[gas] > 0) given += things.capacity[m] * change;
+      const double change = changes.temperature[m];
+      if (present > solid) given += things.capacity[m] * change;
       for (const int p : bodies_[m].mass.template in<D>(cell)) bodies_[m].temperature[p] += change;
     }
-    totalEnergy[cell] -= given;
+    gas_.totalEnergy[cell] -= given;
+    if (present > solid && !settings_.gases.empty()) changeShares(cell, changes.volume);
     return given;
   }
 
  private:
-  WarmThings bodiesIn(const Index<D>& cell) const {
-    const auto count = static_cast<Eigen::Index>(bodies_.size() + 1);
-    WarmThings things{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
+  void addBody(std::size_t m, const Index<D>& cell, ice::WarmThings<>& things) const {
     const double inverse = 1 / patch_.level().cellVolume();
-    for (std::size_t m = 0; m < bodies_.size(); ++m) {
-      const auto at = static_cast<Eigen::Index>(m);
-      double heat = 0;
-      for (const int p : bodies_[m].mass.template in<D>(cell)) {
-        const double capacity = bodies_[m].mass[p] * materials_[m].specificHeat * inverse;
-        things.capacity[at] += capacity;
-        heat += capacity * bodies_[m].temperature[p];
-        things.volume[at] +=
-            bodies_[m].mass[p] / materials_[m].undeformedDensity() * bodies_[m].deformation[p].determinant() * inverse;
-      }
-      if (things.capacity[at] > 0) things.temperature[at] = heat / things.capacity[at];
+    double heat = 0;
+    for (const int p : bodies_[m].mass.template in<D>(cell)) {
+      const double capacity = bodies_[m].mass[p] * materials_[m].specificHeat * inverse;
+      things.mass[m] += bodies_[m].mass[p] * inverse;
+      things.capacity[m] += capacity;
+      heat += capacity * bodies_[m].temperature[p];
+      things.volume[m] +=
+          bodies_[m].mass[p] / materials_[m].undeformedDensity() * bodies_[m].deformation[p].determinant() * inverse;
     }
-    return things;
+    if (things.capacity[m] > 0) things.temperature[m] = heat / things.capacity[m];
+  }
+  void addGas(const Index<D>& cell, ice::WarmThings<>& things) const {
+    const auto first = static_cast<Eigen::Index>(bodies_.size());
+    const double free = gas_.free[cell], mass = gas_.density[cell];
+    const double internal = gas_.totalEnergy[cell] - 0.5 * gas_.momentum[cell].squaredNorm() / mass;
+    if (!settings_.gases.empty()) {
+      euler::MixedGas mixed;
+      for (std::size_t k = 0; k < settings_.gases.size(); ++k)
+        mixed.add(gas_.shares[k][cell], settings_.gases[k].gas.gamma, settings_.gases[k].gas.pInfinity);
+      const double pressure = mixed.pressure(mass / free, internal / free);
+      for (std::size_t k = 0; k < settings_.gases.size(); ++k)
+        things.setGas(first + static_cast<Eigen::Index>(k), settings_.gases[k].gas, gas_.masses[k][cell],
+                      free * gas_.shares[k][cell], pressure);
+      return;
+    }
+    const euler::Gas& gas = settings_.gas.gas;
+    things.mass[first] = mass;
+    things.capacity[first] = mass * gas.specificHeat;
+    things.temperature[first] = internal / (mass * gas.specificHeat);
+    if (gas.law || gas.pInfinity > 0) things.temperature[first] = gas.temperature(mass / free, internal / free);
+    things.volume[first] = free;
+  }
+  /// Gases of a cell whose volumes change by these parts of the cell.
+  void changeShares(const Index<D>& cell, const ice::WarmThings<>::Vector& volume) const {
+    const auto first = static_cast<Eigen::Index>(bodies_.size());
+    const auto changed = [&](std::size_t k) {
+      return std::max(0.0, gas_.shares[k][cell] + volume[first + static_cast<Eigen::Index>(k)] / gas_.free[cell]);
+    };
+    std::array<double, euler::kMostGases> shares{};
+    double sum = 0;
+    for (std::size_t k = 0; k < settings_.gases.size(); ++k) sum += shares[k] = changed(k);
+    for (std::size_t k = 0; k < settings_.gases.size(); ++k) gas_.shares[k][cell] = shares[k] / sum;
   }
 
   const Patch& patch_;
   const std::vector<mpm::solid::Material>& materials_;
   const Settings& settings_;
-  CellView<const double> free_;
+  const HeatedGas<D>& gas_;
   const std::vector<WarmBodies>& bodies_;
 };
 
-/// Heat between bodies and the gas. Particles count for the cell in which they started the step.
+/// Heat between bodies and gases. Particles count for the cell in which they started the step.
 template <int D>
 void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
-                  double dt, CellView<const double> free, CellView<const double> density,
-                  CellView<const Vec<D>> momentum, CellView<double> totalEnergy, const std::vector<WarmBodies>& bodies,
+                  double dt, const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies,
                   const std::optional<CellView<double>>& heat) {
   if (heat) heat->fill(0);
-  const HeatExchange<D> exchange(patch, materials, settings, free, bodies);
+  const HeatExchange<D> exchange(patch, materials, settings, gas, bodies);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    if (std::all_of(bodies.begin(), bodies.end(),
-                    [&](const WarmBodies& body) { return body.mass.template in<D>(cell).size() == 0; }))
-      return;
-    const double given = exchange.apply(cell, dt, density, momentum, totalEnergy);
+    const bool hasBody = std::any_of(bodies.begin(), bodies.end(),
+                                     [&](const WarmBodies& body) { return body.mass.template in<D>(cell).size() > 0; });
+    if (!hasBody && settings.gases.empty()) return;
+    const double given = exchange.apply(cell, dt);
     if (heat) (*heat)[cell] = given;
   });
 }

@@ -1,0 +1,163 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <limits>
+
+#include "components/ice/heat_coefficients.hpp"
+#include "components/ice/mixture/tasks.hpp"
+
+namespace tushar::ice {
+
+/// The participants in the heat exchange of a cell, at most `Most` or any number: bodies in their order, then gases.
+/// All is per volume of the cell; what is absent has the capacity 0.
+template <int Most = Eigen::Dynamic>
+struct WarmThings {
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Most, 1>;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Most, Most>;
+
+  Vector mass;           ///< kg/m³
+  Vector capacity;       ///< at constant volume, J/(m³ K)
+  Vector temperature;    ///< K
+  Vector volume;         ///< share of the cell
+  Vector expansion;      ///< m R of gases that share their volume, J/(m³ K); 0 of things that keep their own
+  Vector stiffPressure;  ///< p + p_inf of these gases, Pa
+
+  explicit WarmThings(Eigen::Index count)
+      : mass(Vector::Zero(count)),
+        capacity(mass),
+        temperature(capacity),
+        volume(capacity),
+        expansion(capacity),
+        stiffPressure(capacity) {}
+
+  int present() const { return static_cast<int>((capacity.array() > 0).count()); }
+  /// Sets one of several gases at a common pressure [Pa]: its mass [kg/m³] and volume per volume of the cell. Without
+  /// either, or where the pressure is none that it can have, it is absent.
+  void setGas(Eigen::Index at, const euler::Gas& gas, double massOfIt, double share, double pressure) {
+    if (!(massOfIt > 0) || !(share > 0) || !(pressure + gas.pInfinity > 0)) return;
+    mass[at] = massOfIt;
+    capacity[at] = massOfIt * gas.specificHeat;
+    expansion[at] = massOfIt * gas.gasConstant();
+    volume[at] = share;
+    stiffPressure[at] = pressure + gas.pInfinity;
+    temperature[at] = stiffPressure[at] * share / expansion[at];
+  }
+};
+
+/// The rise d of a common pressure with which gases fill what they filled before: the root of sum (a_k + b_k d) / (P_k
+/// + d) above the least -P_k. That is unique, as each term of the sum of volumes falls with the pressure. Newton's
+/// method within bounds.
+template <class Vector>
+double pressureRise(const Vector& a, const Vector& b, const Vector& stiffPressure) {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  for (const double p : stiffPressure)
+    if (p > 0) {
+      least = std::min(least, p);
+      greatest = std::max(greatest, p);
+    }
+  if (least == greatest) return -a.sum() / b.sum();
+  double rise = 0, low = -least, high = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    double sum = 0, slope = 0;
+    for (Eigen::Index k = 0; k < a.size(); ++k) {
+      if (!(stiffPressure[k] > 0)) continue;
+      const double inverse = 1 / (stiffPressure[k] + rise), term = (a[k] + b[k] * rise) * inverse;
+      sum += term;
+      slope += (b[k] - term) * inverse;
+    }
+    if (sum == 0) break;
+    (sum > 0 ? low : high) = rise;
+    double next = rise - sum / slope;
+    if (!(next > low && next < high)) next = std::isinf(high) ? 2 * rise - low + least : 0.5 * (low + high);
+    const double change = std::abs(next - rise);
+    rise = next;
+    if (change <= 1e-15 * (least + rise)) break;
+  }
+  return rise;
+}
+
+/// What a step of heat exchange changes.
+template <int Most>
+struct HeatChanges {
+  typename WarmThings<Most>::Vector temperature, volume;  ///< K; share of the cell
+};
+
+/// The changes in dt by C_a dT_a/dt = sum_b H_ab theta_a theta_b (T_b - T_a), implicit: however stiff the exchange is,
+/// all end at one temperature.
+///
+/// Gases that share a volume expand at their common pressure p', that at the end: m c_v dT + (p' + p_inf) dV is the
+/// heat that one gets, V = m R T / (p' + p_inf). So the energy of all gases changes by what bodies get, and the
+/// volumes fill what they filled.
+template <int Most>
+HeatChanges<Most> changesByHeat(const WarmThings<Most>& things, const HeatCoefficients& coefficients, double dt) {
+  using Vector = typename WarmThings<Most>::Vector;
+  const Eigen::Index count = things.capacity.size();
+  typename WarmThings<Most>::Matrix system = WarmThings<Most>::Matrix::Zero(count, count);
+  Vector heat = Vector::Zero(count);
+  std::size_t pair = 0;
+  for (Eigen::Index a = 0; a < count; ++a)
+    for (Eigen::Index b = a + 1; b < count; ++b, ++pair) {
+      // Beyond that all is one temperature except for 1e-8 of the difference, and round-off would show.
+      constexpr double stiffest = 1e8;
+      if (!(things.capacity[a] > 0) || !(things.capacity[b] > 0)) continue;
+      const double perShares = coefficients.of(pair, things.mass[a], things.mass[b]) * dt;
+      const double flow = std::min(perShares * things.volume[a] * things.volume[b],
+                                   stiffest * (things.capacity[a] + things.capacity[b]));
+      const double gained = flow * (things.temperature[b] - things.temperature[a]);
+      heat[a] += gained;
+      heat[b] -= gained;
+      system(a, a) += flow;
+      system(b, b) += flow;
+      system(a, b) -= flow;
+      system(b, a) -= flow;
+    }
+  for (Eigen::Index a = 0; a < count; ++a)
+    system(a, a) += things.capacity[a] > 0 ? things.capacity[a] + things.expansion[a] : 1;
+  const Eigen::LDLT<typename WarmThings<Most>::Matrix> solver(system);
+  HeatChanges<Most> changes{solver.solve(heat), Vector::Zero(count)};
+  if (!(things.expansion.array() > 0).any()) return changes;
+  const Vector sharing = (things.expansion.array() > 0).select(things.volume, Vector::Zero(count));
+  const Vector byPressure = solver.solve(sharing);
+  const double rise = pressureRise<Vector>(things.expansion.cwiseProduct(changes.temperature),
+                                           things.expansion.cwiseProduct(byPressure) - sharing, things.stiffPressure);
+  changes.temperature += rise * byPressure;
+  for (Eigen::Index k = 0; k < count; ++k)
+    if (things.expansion[k] > 0)
+      changes.volume[k] =
+          (things.expansion[k] * changes.temperature[k] - rise * sharing[k]) / (things.stiffPressure[k] + rise);
+  return changes;
+}
+
+/// What the exchange of heat reads and changes of each of several gases.
+struct WarmGas {
+  CellView<const double> mass;
+  CellView<double> share;
+
+  static WarmGas from(auto& take) {
+    return {.mass = take(requiresNew(euler::c::gasMass)), .share = take(modifies(euler::c::gasShare))};
+  }
+};
+
+/// Heat between several gases in the cells that they share, by Uintah's coefficients. Masses, momentum and energy stay;
+/// shares and the pressure change.
+template <int D>
+void exchangeHeat(const Patch& patch, const Gases& gases, const HeatCoefficients& coefficients, double dt,
+                  CellView<const double> density, CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
+                  const std::vector<WarmGas>& held) {
+  const auto count = static_cast<Eigen::Index>(gases.size());
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const double energy = euler::internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
+    const double pressure = euler::mixedAt(gases, held, cell).pressure(density[cell], energy);
+    WarmThings<euler::kMostGases> things(count);
+    for (Eigen::Index k = 0; k < count; ++k)
+      things.setGas(k, gases[k].gas, held[k].mass[cell], held[k].share[cell], pressure);
+    if (things.present() < 2) return;
+    const auto changes = changesByHeat(things, coefficients, dt);
+    double sum = 0;
+    for (Eigen::Index k = 0; k < count; ++k) sum += std::max(0.0, held[k].share[cell] + changes.volume[k]);
+    for (Eigen::Index k = 0; k < count; ++k)
+      held[k].share[cell] = std::max(0.0, held[k].share[cell] + changes.volume[k]) / sum;
+  });
+}
+
+}  // namespace tushar::ice
