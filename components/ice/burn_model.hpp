@@ -36,16 +36,16 @@ struct SimpleBurn {
 ///
 /// Source: M. J. Ward, S. F. Son and M. Q. Brewster, Combust. Flame 114 (1998) 556.
 struct SteadyBurn {
-  double gasConstant = 0;         ///< R, J/(mol K)
-  double solidFactor = 0;         ///< A, 1/s
-  double activationEnergy = 0;    ///< E, J/mol
-  double gasFactor = 0;           ///< B, m³/(kg s K²)
-  double solidHeat = 0;           ///< Q_c, J/kg
-  double gasHeat = 0;             ///< Q_g, J/kg
-  double gasConductivity = 0;     ///< k_g, W/(m K)
-  double solidConductivity = 0;   ///< k_c, W/(m K)
-  double specificHeat = 0;        ///< c of both, J/(kg K)
-  double molarMass = 0;           ///< W, kg/mol
+  double gasConstant = 0;        ///< R, J/(mol K)
+  double solidFactor = 0;        ///< A, 1/s
+  double activationEnergy = 0;   ///< E, J/mol
+  double gasFactor = 0;          ///< B, m³/(kg s K²)
+  double solidHeat = 0;          ///< Q_c, J/kg
+  double gasHeat = 0;            ///< Q_g, J/kg
+  double gasConductivity = 0;    ///< k_g, W/(m K)
+  double solidConductivity = 0;  ///< k_c, W/(m K)
+  double specificHeat = 0;       ///< c of both, J/(kg K)
+  double molarMass = 0;          ///< W, kg/mol
 
   /// kg/(m² s)
   double rate(const AtSurface& at) const { return rateAt(surfaceTemperature(at), at); }

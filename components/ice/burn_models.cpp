@@ -44,20 +44,24 @@ const Schema<SteadyBurnSection>& steadyBurnSchema() {
                       "The surface of a body burns as a steady deflagration (Ward, Son & Brewster 1998).");
     addMaterials(tags);
     tags.required("IdealGasConst", of(&SteadyBurn::gasConstant), "J/(mol K)", "R", input::positive())
-        .required("PreExpCondPh", of(&SteadyBurn::solidFactor), "1/s", "factor of the reaction in the solid", input::positive())
-        .required("ActEnergyCondPh", of(&SteadyBurn::activationEnergy), "J/mol", "its activation energy", input::positive())
+        .required("PreExpCondPh", of(&SteadyBurn::solidFactor), "1/s", "factor of the reaction in the solid",
+                  input::positive())
+        .required("ActEnergyCondPh", of(&SteadyBurn::activationEnergy), "J/mol", "its activation energy",
+                  input::positive())
         .required("PreExpGasPh", of(&SteadyBurn::gasFactor), "m^3/(kg s K^2)", "factor of the reaction in the gas",
                   input::positive())
-        .required("CondPhaseHeat", of(&SteadyBurn::solidHeat), "J/kg", "heat of the reaction in the solid", input::nonNegative())
+        .required("CondPhaseHeat", of(&SteadyBurn::solidHeat), "J/kg", "heat of the reaction in the solid",
+                  input::nonNegative())
         .required("GasPhaseHeat", of(&SteadyBurn::gasHeat), "J/kg", "heat of that in the gas", input::nonNegative())
         .required("HeatConductGasPh", of(&SteadyBurn::gasConductivity), "W/(m K)", "thermal conductivity of the gas",
                   input::positive())
-        .required("HeatConductCondPh", of(&SteadyBurn::solidConductivity), "W/(m K)", "that of the solid", input::positive())
+        .required("HeatConductCondPh", of(&SteadyBurn::solidConductivity), "W/(m K)", "that of the solid",
+                  input::positive())
         .required("SpecificHeatBoth", of(&SteadyBurn::specificHeat), "J/(kg K)", "of solid and gas, for the rate",
                   input::positive())
         .required("MoleWeightGasPh", of(&SteadyBurn::molarMass), "kg/mol", "molar mass of the gas", input::positive())
-        .required("ThresholdPressure", &Read::thresholdPressure, "Pa", "a surface burns where the gas has more pressure",
-                  input::nonNegative())
+        .required("ThresholdPressure", &Read::thresholdPressure, "Pa",
+                  "a surface burns where the gas has more pressure", input::nonNegative())
         .required("IgnitionTemp", &Read::ignitionTemperature, "K", "and where something beside it is hotter",
                   input::nonNegative())
         .ignored("BoundaryParticles", "surfaces are where the gas has walls");

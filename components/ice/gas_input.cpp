@@ -251,8 +251,11 @@ void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics&
   if (ice.push) diagnostics.error(*tag.child("fixedPressureGradient"), sentence);
 }
 
-/// Exchanges of mass from a body to a gas are a way to burn.
-void moveBurning(const Element& root, GasScene& scene) {
+/// Sorts the models of a scene. Exchanges of mass from a body to a gas are a way to burn.
+void takeModels(ModelsSection& models, const Element& root, int solids, GasScene& scene, Diagnostics& diagnostics) {
+  scene.scalars = std::move(models.scalars);
+  scene.massExchanges = std::move(models.massExchanges);
+  scene.burns = std::move(models.burns);
   std::set<std::string> bodies;
   const auto mpm = root.child("MaterialProperties")->child("MPM");
   for (const Element& material : mpm ? mpm->children("material") : std::vector<Element>())
@@ -261,6 +264,10 @@ void moveBurning(const Element& root, GasScene& scene) {
   for (const MassExchange& one : scene.massExchanges)
     if (isOfBody(one)) scene.burns.push_back({one.where, one.from, one.to, 0, 0, 0, Decay{one.rate, one.startTime}});
   std::erase_if(scene.massExchanges, isOfBody);
+  if (solids == 0 && !scene.burns.empty())
+    diagnostics.error(scene.burns.front().where, "Models/Model",
+                      "is of a body that burns, and this scene has none: it needs <MaterialProperties><MPM> and "
+                      "<SimulationComponent type=\"mpmice\"/>");
 }
 
 /// The middle of the first Level's Box less its lower corner, m: where Uintah's <counterflow> has its middle.
@@ -296,14 +303,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   scene.gas.cfl = cfd.cfl;
   scene.gas.gas.material = solids;
   scene.thinWalls = cfd.ice.thinWalls;
-  scene.scalars = std::move(models.scalars);
-  scene.massExchanges = std::move(models.massExchanges);
-  scene.burns = std::move(models.burns);
-  moveBurning(root, scene);
-  if (solids == 0 && !scene.burns.empty())
-    diagnostics.error(scene.burns.front().where, "Models/Model",
-                      "is of a body that burns, and this scene has none: it needs <MaterialProperties><MPM> and "
-                      "<SimulationComponent type=\"mpmice\"/>");
+  takeModels(models, root, solids, scene, diagnostics);
   scene.gravity = constants.gravity;
   scene.referencePressure = constants.referencePressure;
   if (isImplicit(cfd.ice)) scene.implicit = implicitPressureOf(cfd.ice);

@@ -132,8 +132,7 @@ void readExchange(const Element& model, ModelsSection& models, Diagnostics& diag
 
 /// Reads a body that burns from the tag with the name of the model.
 template <class Section>
-void readBurning(const Element& model, const Schema<Section>& schema, ModelsSection& models,
-                 Diagnostics& diagnostics) {
+void readBurning(const Element& model, const Schema<Section>& schema, ModelsSection& models, Diagnostics& diagnostics) {
   const auto given = model.child(schema.name());
   if (!given) return diagnostics.error(model, fmt::format("missing tag <{}> in <Model>", schema.name()));
   const Section read = schema.read(*given, diagnostics);

@@ -92,8 +92,8 @@ template <int D>
 inline constexpr CellLabel<Vec<D>> blowing{
     "c.blowing", "m/s", "speed of new gas away from walls at the lower faces; negative where the gas is above"};
 template <int D>
-inline constexpr CellLabel<Vec<D>> recoil{
-    "c.recoil", "Pa", "of new gas on walls at the lower faces; negative where the gas is above"};
+inline constexpr CellLabel<Vec<D>> recoil{"c.recoil", "Pa",
+                                          "of new gas on walls at the lower faces; negative where the gas is above"};
 inline constexpr CellLabel<double> burntShare{"c.burntShare", "1", "share of c.reactantMass that burns in the step"};
 inline constexpr CellLabel<double> burntSinceStart{"c.burntSinceStart", "kg/m^3", "mass that burned in the cell"};
 inline constexpr CellLabel<double> gasDensity{"c.gasDensity", "kg/m^3", "mass per volume of the gas; 0 where none is"};

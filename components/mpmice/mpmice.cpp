@@ -80,8 +80,7 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
   else
     tasks.acrossMaterials("mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
                           withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})), requiresNew(g::record, 1),
-                          withoutMaterial(all<Blowing<D>>(burns())),
-                          withoutMaterial(all<WallPressures<D>>()));
+                          withoutMaterial(all<Blowing<D>>(burns())), withoutMaterial(all<WallPressures<D>>()));
   if (isViscous())
     tasks.acrossMaterials("mpmice::computeWallFriction", computeWallFriction<D>, materials, with(settings_),
                           requiresOld(delT), withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})),
@@ -255,7 +254,8 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   if (hasHeat())
     tasks.perPatch("mpmice::sumHeat", sumOverVolume<D>, requiresOld(c::heatSinceStart), computes(total::heat));
   else
-    tasks.perPatch("mpmice::sumHeat", [](const Patch&, Sum&) {}, computes(total::heat));
+    tasks.perPatch(
+        "mpmice::sumHeat", [](const Patch&, Sum&) {}, computes(total::heat));
   if (burns())
     tasks.perPatch("mpmice::sumBurnt", sumBurnt<D>, with(settings_), requiresOld(c::burntSinceStart),
                    computes(total::burntMass), computes(total::reactionHeat));

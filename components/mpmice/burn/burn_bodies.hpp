@@ -53,8 +53,8 @@ class BurntMass {
 
 /// Finds the share of each cell's mass that burns in a step.
 template <int D>
-void findBurntShare(const Patch& patch, const Settings& settings, double start, double dt,
-                    CellView<const Vec<D>> rate, CellView<const double> mass, CellView<double> share) {
+void findBurntShare(const Patch& patch, const Settings& settings, double start, double dt, CellView<const Vec<D>> rate,
+                    CellView<const double> mass, CellView<double> share) {
   const BurntMass<D> burnt(patch.level(), rate, mass, dt);
   const auto* decay = std::get_if<ice::Decay>(&settings.burning->model.law);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
@@ -68,9 +68,8 @@ void findBurntShare(const Patch& patch, const Settings& settings, double start, 
 /// The mass of particles after a step: those of a cell burn by the same share.
 template <int D>
 void burnParticles(const Patch& patch, const mpm::solid::Material& material, const Settings& settings,
-                   CellView<const double> share, ParticleView<const double> mass,
-                   ParticleView<const double> unburned, ParticleView<double> newMass,
-                   ParticleView<double> newUnburned) {
+                   CellView<const double> share, ParticleView<const double> mass, ParticleView<const double> unburned,
+                   ParticleView<double> newMass, ParticleView<double> newUnburned) {
   const bool burns = static_cast<std::size_t>(material.index) == settings.burning->body;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double left = burns ? 1 - share[cell] : 1;

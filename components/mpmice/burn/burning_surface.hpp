@@ -95,8 +95,7 @@ class BurningSurface {
     const Index<D>& main = reactant_.mass[body] > reactant_.mass[gas] ? body : gas;
     const double bodyDensity = reactant_.mass[main] / reactant_.volume[main];
     const double rate = model.rate({pressure, reactant_.temperature[main], bodyDensity});
-    fresh.rate[above][axis] =
-        rate * share * step * surface_.normalAlong(above, axis) * level_.inverseSpacing(axis);
+    fresh.rate[above][axis] = rate * share * step * surface_.normalAlong(above, axis) * level_.inverseSpacing(axis);
     const double wall = surface_.space().faces(gas, axis).wall(step > 0 ? 1 : 0);
     if (!(wall > 0)) return;
     const double part = share * std::clamp(step / wall, -1.0, 1.0);

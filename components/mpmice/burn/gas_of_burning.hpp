@@ -120,8 +120,8 @@ void addBurntGas(const Patch& patch, const std::vector<mpm::solid::Material>& ma
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     gas.burnt[cell] = gas.burntBefore[cell];
     if (!(gas.share[cell] > 0)) return;
-    const auto burnt = Burnt<D>::of(body, body.mass.template in<D>(cell), gas.share[cell] * inverse, specificHeat,
-                                    burning.model.heat);
+    const auto burnt =
+        Burnt<D>::of(body, body.mass.template in<D>(cell), gas.share[cell] * inverse, specificHeat, burning.model.heat);
     if (!(burnt.mass > 0)) return;
     gas.burnt[cell] += burnt.mass;
     gas.held.density[cell] += burnt.mass;
