@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "components/euler/labels.hpp"
 #include "components/ice/gas_schemas.hpp"
@@ -272,6 +273,25 @@ void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics&
   if (ice.push) diagnostics.error(*tag.child("fixedPressureGradient"), sentence);
 }
 
+/// Sorts the models of a scene. Exchanges of mass from a body to a gas are a way to burn.
+void takeModels(ModelsSection& models, const Element& root, int solids, GasScene& scene, Diagnostics& diagnostics) {
+  scene.scalars = std::move(models.scalars);
+  scene.massExchanges = std::move(models.massExchanges);
+  scene.burns = std::move(models.burns);
+  std::set<std::string> bodies;
+  const auto mpm = root.child("MaterialProperties")->child("MPM");
+  for (const Element& material : mpm ? mpm->children("material") : std::vector<Element>())
+    bodies.insert(material.attribute("name").value_or(""));
+  const auto isOfBody = [&](const MassExchange& one) { return bodies.contains(one.from); };
+  for (const MassExchange& one : scene.massExchanges)
+    if (isOfBody(one)) scene.burns.push_back({one.where, one.from, one.to, 0, 0, 0, Decay{one.rate, one.startTime}});
+  std::erase_if(scene.massExchanges, isOfBody);
+  if (solids == 0 && !scene.burns.empty())
+    diagnostics.error(scene.burns.front().where, "Models/Model",
+                      "is of a body that burns, and this scene has none: it needs <MaterialProperties><MPM> and "
+                      "<SimulationComponent type=\"mpmice\"/>");
+}
+
 /// The middle of the first Level's Box less its lower corner, m: where Uintah's <counterflow> has its middle.
 Vec3 middleOf(const Element& root) {
   const auto grid = root.child("Grid");
@@ -305,8 +325,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   scene.gas.cfl = cfd.cfl;
   scene.gas.gas.material = solids;
   scene.thinWalls = cfd.ice.thinWalls;
-  scene.scalars = std::move(models.scalars);
-  scene.massExchanges = std::move(models.massExchanges);
+  takeModels(models, root, solids, scene, diagnostics);
   scene.gravity = constants.gravity;
   scene.referencePressure = constants.referencePressure;
   if (isImplicit(cfd.ice)) scene.implicit = implicitPressureOf(cfd.ice);

@@ -5,6 +5,7 @@
 
 #include "components/euler/settings.hpp"
 #include "components/euler/varying_diffusion.hpp"
+#include "components/ice/burn_model.hpp"
 #include "components/ice/heat_coefficients.hpp"
 #include "components/ice/heating.hpp"
 #include "components/ice/scalar.hpp"
@@ -59,6 +60,7 @@ struct GasScene {
   std::vector<euler::Settings> mixture = {};
   std::vector<euler::Diffusion> diffusions = {};  ///< of each of several gases
   std::vector<MassExchange> massExchanges = {};   ///< between them
+  std::vector<BurnModel> burns = {};              ///< of bodies
 };
 
 /// Why implicit steps need one level.

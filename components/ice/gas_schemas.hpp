@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "components/ice/burn_model.hpp"
 #include "components/ice/equation_of_state.hpp"
 #include "components/ice/gas_input.hpp"
 #include "components/ice/start.hpp"
@@ -138,6 +139,7 @@ void describeViscosityModels(std::ostream& out, int indent);
 struct ModelsSection {
   std::vector<ScalarSettings> scalars;
   std::vector<MassExchange> massExchanges;
+  std::vector<BurnModel> burns;
 };
 const input::Schema<ModelsSection>& modelsSchema();
 

@@ -17,6 +17,9 @@ using input::Schema;
 
 namespace {
 
+/// The attribute `type` of a <Model>.
+const std::vector<std::string> modelTypes{"PassiveScalar", "Test", "Simple_Burn", "Steady_Burn"};
+
 const Schema<ScalarRegion>& startSchema() {
   static const Schema<ScalarRegion> schema = [] {
     Schema<ScalarRegion> tags("geom_object", "A region at the start; where regions overlap, the last one counts.");
@@ -112,9 +115,9 @@ const Schema<PassiveScalarSection>& passiveScalarSchema() {
 
 const Schema<MassExchange>& massExchangeSchema() {
   static const Schema<MassExchange> schema =
-      Schema<MassExchange>("Test", "One gas becomes another one.")
+      Schema<MassExchange>("Test", "One material becomes another one.")
           .location(&MassExchange::where)
-          .required("fromMaterial", &MassExchange::from, "1", "the gas that is converted")
+          .required("fromMaterial", &MassExchange::from, "1", "the gas or the body that is converted")
           .required("toMaterial", &MassExchange::to, "1", "the gas that it becomes")
           .required("rate", &MassExchange::rate, "1/s", "fraction of it per time", input::nonNegative())
           .value("startTime", &MassExchange::startTime, 0, "s", "when that begins");
@@ -127,13 +130,25 @@ void readExchange(const Element& model, ModelsSection& models, Diagnostics& diag
   models.massExchanges.push_back(massExchangeSchema().read(*given, diagnostics));
 }
 
+/// Reads a body that burns from the tag with the name of the model.
+template <class Section>
+void readBurning(const Element& model, const Schema<Section>& schema, ModelsSection& models, Diagnostics& diagnostics) {
+  const auto given = model.child(schema.name());
+  if (!given) return diagnostics.error(model, fmt::format("missing tag <{}> in <Model>", schema.name()));
+  const Section read = schema.read(*given, diagnostics);
+  if constexpr (requires { read.isActive; })
+    if (!read.isActive) return;
+  models.burns.push_back(read.model());
+}
+
 void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
   const std::string type = model.attribute("type").value_or("");
   if (type == "Test") return readExchange(model, models, diagnostics);
+  if (type == simpleBurnSchema().name()) return readBurning(model, simpleBurnSchema(), models, diagnostics);
+  if (type == steadyBurnSchema().name()) return readBurning(model, steadyBurnSchema(), models, diagnostics);
   if (type != "PassiveScalar")
-    return diagnostics.error(model, fmt::format("of type '{}' is not available; take it out: there are PassiveScalar "
-                                                "and Test",
-                                                type));
+    return diagnostics.error(model, fmt::format("of type '{}' is not available; take it out: there are {}", type,
+                                                input::listed(modelTypes)));
   const auto given = model.child("PassiveScalar");
   if (!given) return diagnostics.error(model, "missing tag <PassiveScalar> in <Model>");
   const std::size_t before = diagnostics.size();
@@ -170,13 +185,15 @@ const Schema<ModelsSection>& modelsSchema() {
                 for (const Element& model : section.children("Model")) readModel(model, models, diagnostics);
               },
               {"Model"},
-              "type=\"PassiveScalar\": a number per mass that the gas carries along; type=\"Test\": one gas becomes "
-              "another one",
+              "type=\"PassiveScalar\": a number per mass that the gas carries along; type=\"Test\": one material "
+              "becomes another one; type=\"Simple_Burn\", type=\"Steady_Burn\": a body burns",
               [](std::ostream& out, int indent) {
                 passiveScalarSchema().describe(out, indent);
                 massExchangeSchema().describe(out, indent);
+                simpleBurnSchema().describe(out, indent);
+                steadyBurnSchema().describe(out, indent);
               })
-          .forms({{.tags = {"Model"}, .demands = {{"type", {"PassiveScalar", "Test"}}}}});
+          .forms({{.tags = {"Model"}, .demands = {{"type", modelTypes}}}});
   return schema;
 }
 

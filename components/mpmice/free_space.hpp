@@ -53,6 +53,13 @@ class FreeSpace {
     return side == 0 ? cell[axis] == level_->cells().lower[axis] : cell[axis] == level_->cells().upper[axis] - 1;
   }
 
+  /// The cell, or the one on the grid that is nearest to it.
+  Index<D> onGrid(Index<D> cell) const {
+    for (int d = 0; d < D; ++d)
+      if (!level_->isPeriodic(d)) cell[d] = std::clamp(cell[d], level_->cells().lower[d], level_->cells().upper[d] - 1);
+    return cell;
+  }
+
   /// Open share of a face.
   double aperture(const Index<D>& cell, int axis, int side) const {
     if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : roomOf(cells_.free[cell]);
@@ -88,13 +95,6 @@ class FreeSpace {
   }
 
  private:
-  /// The cell, or the one on the grid that is nearest to it.
-  Index<D> onGrid(Index<D> cell) const {
-    for (int d = 0; d < D; ++d)
-      if (!level_->isPeriodic(d)) cell[d] = std::clamp(cell[d], level_->cells().lower[d], level_->cells().upper[d] - 1);
-    return cell;
-  }
-
   const Level* level_;
   bool thin_walls_;
   GasInCells<D> cells_;

@@ -64,6 +64,30 @@ ice::HeatCoefficients heatOf(const ice::Exchange& exchange, int solids, int gase
   return heat;
 }
 
+/// The body that burns, if one does.
+std::optional<Burning> burningOf(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
+  if (scene.burns.empty()) return {};
+  if (scene.burns.size() > 1)
+    diagnostics.error(scene.burns[1].where, "Models/Model", "one body of a scene may burn; take the others out");
+  const ice::BurnModel& model = scene.burns.front();
+  Burning burning{model};
+  const auto find = [&](const std::string& name, const std::vector<std::string>& names, const char* tag) {
+    if (const std::string problem = input::choiceProblem(name, names); !problem.empty())
+      diagnostics.error(model.where, fmt::format("Models/Model/{}", tag), problem);
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  std::vector<std::string> bodies, gases;
+  const std::vector<Element> materials = root.child("MaterialProperties")->child("MPM")->children("material");
+  for (const Element& material : materials) bodies.push_back(material.attribute("name").value_or(""));
+  for (const euler::Settings& gas : scene.mixture) gases.push_back(gas.name);
+  if (gases.empty()) gases.push_back(scene.gas.name);
+  burning.body = find(model.from, bodies, "fromMaterial");
+  burning.gas = find(model.to, gases, "toMaterial");
+  if (burning.body < materials.size() && !materials[burning.body].child("specific_heat"))
+    diagnostics.error(materials[burning.body], "missing tag <specific_heat>: it burns, and gives its heat to the gas");
+  return burning;
+}
+
 int countSolids(const Element& root) {
   const auto properties = root.child("MaterialProperties");
   const auto solids = properties ? properties->child("MPM") : std::nullopt;
@@ -137,6 +161,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
     checkMomentum(*scene.exchange, solids, gases, areRigid, tag, diagnostics);
     settings.heat = heatOf(*scene.exchange, solids, gases, root, tag, diagnostics);
   }
+  settings.burning = burningOf(scene, root, diagnostics);
   checkGas(scene, root, diagnostics);
   noteConditionsOfBodies(root, solids, diagnostics);
   if (diagnostics.size() > before) return {};

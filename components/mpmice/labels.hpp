@@ -77,6 +77,25 @@ inline constexpr CellLabel<Vec<D>> massFlow{"c.massFlow", "kg/m^3",
                                             "gas that passed bodies upward through the open lower faces, over a cell"};
 inline constexpr CellLabel<double> leakSinceStart{"c.leakSinceStart", "kg/m^3",
                                                   "gas that went through bodies in the cell"};
+/// Of a body that burns.
+inline constexpr CellLabel<double> reactantMass{"c.reactantMass", "kg/m^3", "of the body that burns"};
+inline constexpr CellLabel<double> reactantVolume{"c.reactantVolume", "1", "share of the cell that it fills"};
+inline constexpr CellLabel<double> reactantTemperature{"c.reactantTemperature", "K", "of the body that burns"};
+inline constexpr CellLabel<double> otherVolume{"c.otherVolume", "1", "share of the cell that other bodies fill"};
+inline constexpr CellLabel<double> hottestBody{
+    "c.hottestBody", "K", "greatest temperature of the bodies that fill more than a fifth of the cell; 0 without any"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> burnRate{
+    "c.burnRate", "kg/(m^3 s)",
+    "mass that burns at the lower faces, over a cell's volume; negative where the gas is above"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> blowing{
+    "c.blowing", "m/s", "speed of new gas away from walls at the lower faces; negative where the gas is above"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> recoil{"c.recoil", "Pa",
+                                          "of new gas on walls at the lower faces; negative where the gas is above"};
+inline constexpr CellLabel<double> burntShare{"c.burntShare", "1", "share of c.reactantMass that burns in the step"};
+inline constexpr CellLabel<double> burntSinceStart{"c.burntSinceStart", "kg/m^3", "mass that burned in the cell"};
 inline constexpr CellLabel<double> gasDensity{"c.gasDensity", "kg/m^3", "mass per volume of the gas; 0 where none is"};
 }  // namespace c
 
@@ -85,6 +104,7 @@ using namespace mpm::solid::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> boxEdges{"p.boxEdges", "1",
                                                 "edges of the box that represents the particle, in cells"};
+inline constexpr ParticleLabel<double> unburned{"p.unburned", "1", "share of its mass at the start that is left"};
 }  // namespace p
 namespace g {
 using namespace mpm::solid::g;
@@ -103,6 +123,8 @@ inline constexpr ReductionLabel<VectorSum> impulse{"GasImpulseOnBodies", "N s",
                                                    "momentum that the gas has given to walls since the start"};
 inline constexpr ReductionLabel<Sum> work{"GasWorkOnBodies", "J", "work of the gas on walls since the start"};
 inline constexpr ReductionLabel<Sum> heat{"GasHeatToBodies", "J", "heat from the gas to bodies since the start"};
+inline constexpr ReductionLabel<Sum> burntMass{"BurntMass", "kg", "mass of bodies that burned since the start"};
+inline constexpr ReductionLabel<Sum> reactionHeat{"ReactionHeat", "J", "heat of its reaction"};
 inline constexpr ReductionLabel<Sum> leak{"GasLeak", "kg", "gas that went through bodies since the start"};
 inline constexpr ReductionLabel<Sum> mergedCells{"MergedCells", "1",
                                                  "cells that gave their gas to a neighbour in the last step"};

@@ -1,5 +1,6 @@
 #include "components/mpmice/mpmice.hpp"
 
+#include "components/mpmice/burn/gas_of_burning.hpp"
 #include "components/mpmice/tasks/add_diffusion.hpp"
 #include "components/mpmice/tasks/add_gravity.hpp"
 #include "components/mpmice/tasks/advance_gas.hpp"
@@ -35,6 +36,11 @@ GasAround<D>::GasAround(Settings settings) : settings_(std::move(settings)) {
 }
 
 template <int D>
+bool GasAround<D>::keepsStrain(const Materials& materials) const {
+  return burns() && storesStrain(materials[settings_.burning->body]);
+}
+
+template <int D>
 std::vector<std::string> GasAround<D>::gasNames() const {
   if (settings_.gases.empty()) return {settings_.gas.name};
   std::vector<std::string> names;
@@ -45,7 +51,8 @@ std::vector<std::string> GasAround<D>::gasNames() const {
 template <int D>
 void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) const {
   tasks.perMaterial("mpmice::findBoxes", findBoxes<D>, materials, requiresNew(p::size<D>),
-                    requiresNew(p::deformationMeasure), computes(p::boxEdges<D>));
+                    requiresNew(p::deformationMeasure), when(false, requiresNew(p::unburned)),
+                    computes(p::boxEdges<D>));
   tasks.acrossMaterials("mpmice::measureFreeSpace", measureFreeSpace<D>, materials, all<Boxes<D>>(readsNew),
                         withoutMaterial(all<FreeShares<D>>(&c::freeVolume)));
   if (settings_.gases.empty())
@@ -57,6 +64,10 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
   if (settings_.implicit)
     tasks.perPatch("mpmice::guessPressure", guessPressure<D>, with(settings_), gasIn(readsNew, {}),
                    computes(c::pressureAtEnd));
+  if (burns()) {
+    tasks.perMaterial("mpmice::startUnburned", startUnburned, materials, requiresNew(p::mass), computes(p::unburned));
+    tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(c::burntSinceStart));
+  }
   tasks.perPatch("mpmice::startImpulse", startSum<D, Vec<D>>, computes(c::impulseSinceStart<D>));
   for (const CellLabel<double>* sum : {&c::workSinceStart, &c::heatSinceStart, &c::leakSinceStart})
     tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(*sum));
@@ -64,12 +75,13 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
 
 template <int D>
 void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) const {
+  if (burns()) scheduleBurning(tasks, materials);
   if (settings_.implicit)
     schedulePressure(tasks, materials);
   else
     tasks.acrossMaterials("mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
                           withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})), requiresNew(g::record, 1),
-                          withoutMaterial(all<WallPressures<D>>()));
+                          withoutMaterial(all<Blowing<D>>(burns())), withoutMaterial(all<WallPressures<D>>()));
   if (isViscous())
     tasks.acrossMaterials("mpmice::computeWallFriction", computeWallFriction<D>, materials, with(settings_),
                           requiresOld(delT), withoutMaterial(gasIn(readsOld, {.mass = 1, .room = 2})),
@@ -78,6 +90,17 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
       "mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
       withoutMaterial(gasIn(readsOld, {.mass = 3, .room = 3})), withoutMaterial(all<KnownWalls<D>>(2, isViscous())),
       requiresNew(g::record, isViscous() ? 3 : 2), computes(total::forceOnBodies), computes(g::surroundingForce<D>));
+}
+
+/// What burns in the step, by the state at its start.
+template <int D>
+void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials) const {
+  tasks.acrossMaterials("mpmice::measureReactant", measureReactant<D>, materials, with(settings_),
+                        all<ParticlesAtStart>(), withoutMaterial(all<NewReactant>()));
+  tasks.perPatch("mpmice::findBurning", findBurning<D>, with(settings_),
+                 gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), all<Reactant>(1), all<NewBurning<D>>());
+  tasks.perPatch("mpmice::findBurntShare", findBurntShare<D>, with(settings_), startTime(), requiresOld(delT),
+                 requiresNew(c::burnRate<D>, 2), requiresNew(c::reactantMass, 1), computes(c::burntShare));
 }
 
 /// The pressure at the end of the step, that on walls included.
@@ -93,13 +116,18 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
                 all<ice::PressureViews>(), totals<ice::SolveTotals>());
   tasks.acrossMaterials("mpmice::takeWallPressure", takeWallPressure<D>, materials, with(settings_),
                         withoutMaterial(gas), requiresNew(g::record, 1), withoutMaterial(requiresNew(c::pressureAtEnd)),
-                        withoutMaterial(all<WallPressures<D>>()));
+                        withoutMaterial(all<Blowing<D>>(burns())), withoutMaterial(all<WallPressures<D>>()));
 }
 
 template <int D>
 void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) const {
+  if (burns())
+    tasks.perMaterial("mpmice::burnParticles", burnParticles<D>, materials, with(settings_),
+                      withoutMaterial(requiresNew(c::burntShare)), requiresOld(p::mass), requiresOld(p::unburned),
+                      computes(p::mass), computes(p::unburned));
   tasks.perMaterial("mpmice::findBoxes", findBoxes<D>, materials, requiresOld(p::size<D>),
-                    requiresNew(p::deformationMeasure), computes(p::boxEdges<D>));
+                    requiresNew(p::deformationMeasure), when(burns(), requiresNew(p::unburned)),
+                    computes(p::boxEdges<D>));
   tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, all<MovedBoxes<D>>(),
                         withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume)),
                         withoutMaterial(computes(c::swept<D>)));
@@ -121,13 +149,18 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                    with(settings_), gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), requiresOld(delT),
                    modifies(c::unsharedMomentum<D>), modifies(c::unsharedEnergy), all<RimsOfDiffusion<D>>());
   if (conductsToBodies()) scheduleConduction(tasks, materials);
+  if (burns())
+    tasks.acrossMaterials("mpmice::addBurntGas", addBurntGas<D>, materials, with(settings_),
+                          all<BurningParticles<D>>(keepsStrain(materials)),
+                          withoutMaterial(all<BurntGas<D>>(settings_.gases.size())));
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_),
                  all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
                  computes(total::mergedCells));
-  if (exchangesHeat())
+  if (hasHeat())
     tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), startTime(),
                           requiresOld(delT), withoutMaterial(all<HeatedGas<D>>(settings_.gases.size())),
-                          all<WarmBodies>(), withoutMaterial(offers(c::heat)));
+                          all<WarmBodies>(burns() ? requiresNew(p::mass) : requiresOld(p::mass)),
+                          withoutMaterial(offers(c::heat)));
   else if (settings_.heating.acts())
     tasks.perPatch("mpmice::addHeat", heatGases<D>, with(settings_), startTime(), requiresOld(delT),
                    all<HeatedGas<D>>(settings_.gases.size()));
@@ -135,6 +168,9 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
     tasks.perPatch("mpmice::addGravity", addGravity<D>, with(settings_.gravity), requiresNew(c::freeVolume),
                    requiresNew(c::density), requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
   scheduleSums(tasks, materials);
+  if (burns())
+    tasks.perMaterial("mpmice::removeBurnt", removeBurnt<D>, materials, requiresOld(p::mass), requiresNew(p::mass),
+                      modifies(p::x<D>), when(keepsStrain(materials), modifies(p::strainEnergy)));
 }
 
 /// Heat through the walls of bodies, by the state at the start of the step.
@@ -157,7 +193,7 @@ void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) con
                  requiresOld(c::impulseSinceStart<D>), computes(c::impulseSinceStart<D>));
   tasks.perPatch("mpmice::addWork", addToSum<D, double>, requiresNew(c::work), requiresOld(c::workSinceStart),
                  computes(c::workSinceStart));
-  if (exchangesHeat())
+  if (hasHeat())
     tasks.perPatch("mpmice::addHeat", addHeatToSum<D>, requiresNew(c::heat),
                    when(conductsToBodies(), requiresNew(c::wallHeat)), requiresOld(c::heatSinceStart),
                    computes(c::heatSinceStart));
@@ -215,9 +251,7 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("mpmice::computeVelocity", computeVelocity<D>, gas, computes(c::velocity<D>));
   tasks.perPatch("mpmice::computeMach", computeMach<D>, with(settings_), gas, computes(c::mach<D>));
   tasks.perPatch("mpmice::computeGasDensity", computeGasDensity<D>, gas, computes(c::gasDensity));
-  tasks.perPatch("mpmice::computeTemperature",
-                 settings_.gases.empty() ? computeTemperature<D> : computeTemperatureOfGases<D>, with(settings_), gas,
-                 computes(c::temperature));
+  tasks.perPatch("mpmice::computeTemperature", computeTemperature<D>, with(settings_), gas, computes(c::temperature));
   for (std::size_t k = 0; k < totals_.size(); ++k)
     tasks.perPatch("mpmice::sumGas", euler::sumMass<D>, requiresOld(c::massOfGas[k]), computes(totals_[k]->label()));
   tasks.perPatch("mpmice::computeSoundSpeed", computeSoundSpeed<D>, with(settings_), gas, computes(c::soundSpeed));
@@ -236,10 +270,14 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("mpmice::sumImpulse", sumVectorOverVolume<D>, requiresOld(c::impulseSinceStart<D>),
                  computes(total::impulse));
   tasks.perPatch("mpmice::sumWork", sumOverVolume<D>, requiresOld(c::workSinceStart), computes(total::work));
-  if (exchangesHeat())
+  if (hasHeat())
     tasks.perPatch("mpmice::sumHeat", sumOverVolume<D>, requiresOld(c::heatSinceStart), computes(total::heat));
   else
-    tasks.perPatch("mpmice::sumHeat", [](const Patch&, Sum&) {}, computes(total::heat));
+    tasks.perPatch(
+        "mpmice::sumHeat", [](const Patch&, Sum&) {}, computes(total::heat));
+  if (burns())
+    tasks.perPatch("mpmice::sumBurnt", sumBurnt<D>, with(settings_), requiresOld(c::burntSinceStart),
+                   computes(total::burntMass), computes(total::reactionHeat));
   tasks.perPatch("mpmice::sumLeak", sumOverVolume<D>, requiresOld(c::leakSinceStart), computes(total::leak));
 }
 

@@ -19,7 +19,7 @@ class GasAround : public mpm::solid::Surroundings {
   explicit GasAround(Settings settings);
 
   std::vector<std::string> gasNames() const;
-  bool exchangesHeat() const override { return settings_.heat.act(); }
+  bool exchangesHeat() const override { return hasHeat() || burns(); }
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
   void scheduleForces(TaskList& tasks, const Materials& materials) const override;
   void scheduleMotion(TaskList& tasks, const Materials& materials) const override;
@@ -35,11 +35,16 @@ class GasAround : public mpm::solid::Surroundings {
     reach.gases = settings_.gases.size();
     return all<GasInCells<D>>(reads, reach);
   }
-  bool conductsToBodies() const { return settings_.diffusion.conducts() && exchangesHeat(); }
+  bool hasHeat() const { return settings_.heat.act(); }
+  bool conductsToBodies() const { return settings_.diffusion.conducts() && hasHeat(); }
   void scheduleConduction(TaskList& tasks, const Materials& materials) const;
   bool isViscous() const { return settings_.diffusion.isViscous(); }
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
+  bool burns() const { return settings_.burning.has_value(); }
+  /// Whether what burns has strain energy, which the gas gets.
+  bool keepsStrain(const Materials& materials) const;
+  void scheduleBurning(TaskList& tasks, const Materials& materials) const;
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
 
   Settings settings_;

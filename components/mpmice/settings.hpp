@@ -2,12 +2,20 @@
 
 #include "components/euler/settings.hpp"
 #include "components/euler/varying_diffusion.hpp"
+#include "components/ice/burn_model.hpp"
 #include "components/ice/face_flow.hpp"
 #include "components/ice/heat_coefficients.hpp"
 #include "components/ice/heating.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpmice {
+
+/// A body that turns into a gas.
+struct Burning {
+  ice::BurnModel model;
+  std::size_t body = 0;  ///< its number among the bodies
+  std::size_t gas = 0;   ///< that of the gas among several
+};
 
 /// How the gas around bodies diffuses.
 struct GasDiffusion {
@@ -39,6 +47,7 @@ struct Settings {
   std::optional<ice::IceSettings> implicit = {};  ///< where sound does not limit the steps
   ice::Heating heating = {};                      ///< of the gases
   std::vector<euler::Settings> gases = {};        ///< each of several gases that share cells; the first is `gas`
+  std::optional<Burning> burning = {};            ///< a body that burns
 };
 
 /// How far limits of free volumes are from shares of a cell that bodies fill where they are aligned with it: round-off

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/lanes.hpp"
+#include "core/data/vanished.hpp"
 #include "core/tasks/broken_value.hpp"
 #include "core/tasks/outcome.hpp"
 
@@ -178,6 +179,7 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
 template <int D>
 void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int departed,
                       PatchMoves& moves) {
+  if (x[0] == data::vanished) return;
   const grid::Level& level = warehouse_->grid().finest();
   const int place = moves.departed[departed];
   if (level.isPeriodic()) wrap<D>(level, x);

@@ -60,7 +60,7 @@ Vec3 forceOf(Walled<D>& walled, const Settings& settings) {
   for (const Patch& patch : walled.grid.patches()) {
     std::vector<NodeView<Vec<D>>> forces;
     for (auto& field : walled.forces) forces.push_back(field.nodes());
-    computeWallPressure<D>(patch, {}, settings, walled.gas.gas(), walled.seen(),
+    computeWallPressure<D>(patch, {}, settings, walled.gas.gas(), walled.seen(), {},
                            {walled.below.cells(), walled.above.cells()});
     addWallForce<D>(patch, {}, settings, walled.gas.gas(), {walled.below.seen(), walled.above.seen()}, walled.seen(),
                     sum, forces);
@@ -124,6 +124,33 @@ TYPED_TEST(WallForceAlongAxes, IsThatOfThePressureWhateverTheReferenceIfGasIsAll
   Settings above;
   above.referencePressure = 1;
   EXPECT_NEAR((forceOf(walled, above) - Vec3(2 * side, 0, 0)).norm(), 0, 1e-14);
+}
+
+TEST(WallForce, IsPressureAndRecoilWhereNewGasLeavesAtTheSpeedOfTheOld) {
+  constexpr int D = 1;
+  Walled<D> walled;
+  for (auto& record : walled.records)
+    for (NodeRecord& one : record.values) mpm::solid::setLanes<D>(one, lane::velocity, Vec<D>::Zero());
+  Field<Vec<D>> speed(walled.level().cells(), Vec<D>::Zero()), recoil(speed);
+  // The gas below the body flows away from it along the first axis with .3, as what leaves the body does.
+  forEach<D>(walled.level().cells(), [&](const Index<D>& cell) {
+    if (cell[0] == 1) {
+      walled.gas.momentum.cells()[cell][0] = -0.3;
+      walled.gas.energy.cells()[cell] = 2.5 + 0.5 * 0.09;
+    }
+    if (cell[0] != 2) return;
+    speed.cells()[cell][0] = 0.3;
+    recoil.cells()[cell][0] = 0.25;
+  });
+  const Blowing<D> blowing{speed.seen(), recoil.seen()};
+  for (const Patch& patch : walled.grid.patches())
+    computeWallPressure<D>(patch, {}, {}, walled.gas.gas(), walled.seen(), blowing,
+                           {walled.below.cells(), walled.above.cells()});
+  Index<D> beside = Index<D>::filled(2);
+  beside[0] = 1;
+  EXPECT_NEAR(walled.above.seen()[beside][0], 1 + 0.25, 1e-14);
+  beside[0] = 4;
+  EXPECT_NEAR(walled.below.seen()[beside][0], 1, 1e-14) << "the other side does not burn";
 }
 
 }  // namespace tushar::mpmice

@@ -9,8 +9,8 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import gas_and_bodies as fsi
 from fsi_test import LIGHT, ConservationTest, also, changed, rigid
+from same_bits import SameBitsTest
 from sus import run
-from uda import FolderTest
 
 CONTACT, BUBBLE = (fsi.scene(name).read_text() for name in ("contact_of_gases", "bubble_and_body"))
 
@@ -69,21 +69,8 @@ class Conservation(ConservationTest):
         self.assertEqual(len(prints), 1)
 
 
-class Bits(FolderTest):
+class Bits(SameBitsTest):
     SPACE = ("Grid/Level/Box/resolution=[20,10,10]", "Grid/Level/Box/upper=[0.1,0.05,0.05]")
-
-    def assert_same(self, name, steps, layouts, *sets, ranks):
-        scene = name if isinstance(name, pathlib.Path) else fsi.scene(name)
-        sets = (f"Time/max_Timesteps={steps}", *sets)
-        prints = {}
-        for place, layout in enumerate(layouts):
-            done = run(scene, *sets, f"Grid/Level/Box/patches={layout}", ranks=ranks if place == 2 else 1,
-                       options=("--quiet", "-nthreads", str(1 + place % 2)))
-            self.assertIsNotNone(done.report, done.err)
-            prints.setdefault(done.report["fingerprint"], []).append(layout)
-        in_parts = self.fingerprint_of_two_parts(scene, steps, *sets)
-        prints.setdefault(in_parts, []).append("restarted")
-        self.assertEqual(len(prints), 1, f"{name}: {prints}")
 
     def test_are_the_same_on_a_line(self):
         self.assert_same("plug_of_gases", 150, ("[1,1,1]", "[7,1,1]", "[50,1,1]"), ranks=1)

@@ -13,7 +13,7 @@ from sus import ROOT
 
 PRESSURE, DENSITY, FREE = "c.pressure [Pa]", "c.density [kg/m^3]", "c.freeVolume [1]"
 # Width and height of scenes in a plane, m.
-PLANE = {"bubble_and_body": (.1, .05), "rest": (1, 1), "carried_disc": (1, 1), "cylinder": (1, .2), "wedge": (1, .8)}
+PLANE = {"bubble_and_body": (.1, .05), "rest": (1, 1), "burning_grain": (1, 1), "carried_disc": (1, 1), "cylinder": (1, .2), "wedge": (1, .8)}
 
 
 def scene(name):
@@ -175,6 +175,58 @@ def slow_piston(cells):
     found = {"ahead": [p for x, p in cut if x > 1.65], "behind": [p for x, p in cut if x < 1.35]}
     errors = {side: max(abs(p / exact[side] - 1) for p in found[side]) for side in exact}
     return {**errors, "steps": len(run_of.totals["GasMass"]) - 1}
+
+
+def burning_slab(cells):
+    """Relative error of the way that the surface of a slab has burned at constant pressure."""
+    run_of = Outcome("burning_slab", cells)
+    return {"way": run_of.last("BurntMass") / (20 * .25) - 1}
+
+
+def burnt_in_vessel(time, steps=2000):
+    """The mass that has burned in burning_vessel, kg, by Runge and Kutta's method of fourth order."""
+    def pressure(mass):
+        return .4 * (1.25 + 3.45 * mass) / (.5 + mass / 20)
+
+    mass, dt = 0, time / steps
+    for _ in range(steps):
+        a = .1 * pressure(mass) ** .778
+        b = .1 * pressure(mass + .5 * dt * a) ** .778
+        c = .1 * pressure(mass + .5 * dt * b) ** .778
+        d = .1 * pressure(mass + dt * c) ** .778
+        mass += dt / 6 * (a + 2 * b + 2 * c + d)
+    return mass, pressure(mass)
+
+
+def burning_vessel(cells):
+    """Relative errors of the mass that has burned in a closed vessel and of the mean pressure, and what changes of the
+    mass and the energy there is."""
+    run_of = Outcome("burning_vessel", cells)
+    mass, pressure = burnt_in_vessel(10)
+    gas = [(p, free) for p, free in zip(run_of.fields[PRESSURE], run_of.fields[FREE]) if free >= 1e-9]
+    mean_pressure = math.fsum(p * free for p, free in gas) / math.fsum(free for _, free in gas)
+    return {"burnt": run_of.last("BurntMass") / mass - 1, "p": mean_pressure / pressure - 1,
+            "mass": run_of.drift([line[1] for line in run_of.totals["TotalMass"]]),
+            "energy": run_of.drift(energies_of_burning(run_of))}
+
+
+def energies_of_burning(run_of):
+    """Of gas and bodies less the heat of the reaction, J, over time."""
+    names = [name for name in ("GasEnergy", "ThermalEnergy", "StrainEnergy") if name in run_of.totals]
+    sums = [math.fsum(run_of.totals[name][k][1] for name in names) - heat[1]
+            for k, heat in enumerate(run_of.totals["ReactionHeat"])]
+    bodies = run_of.of_bodies("KineticEnergy") if "KineticEnergy" in run_of.totals else [0] * len(sums)
+    return [one + body for one, body in zip(sums, bodies)]
+
+
+def burning_grain(cells, sets=()):
+    """What a burning grain and the gases around it have more or less of than at the start, of what they had, and the
+    part of it that has burned."""
+    run_of = Outcome("burning_grain", cells, sets)
+    return {"mass": run_of.drift([line[1] for line in run_of.totals["TotalMass"]]),
+            "mass of air": run_of.drift([line[1] for line in run_of.totals["TotalMass-air"]]),
+            "energy": run_of.drift(energies_of_burning(run_of)),
+            "burnt": run_of.last("BurntMass") / run_of.of_bodies("TotalMass")[0]}
 
 
 def oblique_shock(mach, angle, gamma=1.4):

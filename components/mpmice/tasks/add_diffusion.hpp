@@ -2,17 +2,11 @@
 
 #include "components/euler/boundary.hpp"
 #include "components/euler/tasks/add_diffusion.hpp"
+#include "components/mpmice/gas_temperature.hpp"
 #include "components/mpmice/tasks/compute_stable_time_step.hpp"
 #include "components/mpmice/wall_friction.hpp"
 
 namespace tushar::mpmice {
-
-/// Temperature of a gas, K, from its density and the last of its primitive variables: (p + p_inf) / (R rho), or by its
-/// own equation of state.
-inline double temperatureOf(const euler::Gas& gas, double density, double last) {
-  if (gas.law) return gas.temperature(density, gas.energyOf(density, last));
-  return (last + gas.pInfinity) / (gas.gasConstant() * density);
-}
 
 /// Viscosity and conduction through the faces beside bodies, as far as these are open. T and v count in the middle of a
 /// cell's gas; if a cell has none, they are those of its neighbour at the face.

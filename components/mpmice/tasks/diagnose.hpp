@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/euler/tasks/diagnose.hpp"
-#include "components/mpmice/gas_in_cells.hpp"
+#include "components/mpmice/gas_temperature.hpp"
 
 namespace tushar::mpmice {
 
@@ -47,34 +47,12 @@ void computeGasDensity(const Patch& patch, const GasInCells<D>& cells, CellView<
   });
 }
 
-/// T [K], the same of all gases of a cell: rho e = sum of m_k c_v,k T + z_k p_inf,k.
-template <int D>
-void computeTemperatureOfGases(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
-                               CellView<double> temperature) {
-  showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
-    temperature[cell] = 0;
-    if (!hasGas) return;
-    double heat = euler::internalEnergyIn<D, const double>(cells.held, cell), capacity = 0;
-    for (std::size_t k = 0; k < settings.gases.size(); ++k) {
-      heat -= cells.free[cell] * cells.held.shares[k][cell] * settings.gases[k].gas.pInfinity;
-      capacity += cells.held.masses[k][cell] * settings.gases[k].gas.specificHeat;
-    }
-    temperature[cell] = heat / capacity;
-  });
-}
-
-/// T = (p + p_inf) / ((gamma - 1) c_v rho), K, or that of the gas's own law.
+/// T, K.
 template <int D>
 void computeTemperature(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                         CellView<double> temperature) {
-  const euler::Gas& gas = settings.gas.gas;
   showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
-    temperature[cell] = 0;
-    if (!hasGas) return;
-    const euler::State<D> w = cells.primitive(gas, cell);
-    const double rho = w[euler::kDensity], last = w[euler::kPressure<D>];
-    temperature[cell] =
-        gas.law ? gas.temperature(rho, gas.energyOf(rho, last)) : gas.heat(rho, last) / (gas.gasConstant() * rho);
+    temperature[cell] = hasGas ? gasTemperature<D>(settings, cells, cell) : 0;
   });
 }
 

@@ -12,8 +12,9 @@ struct WarmBodies {
   ParticleView<const mpm::solid::Matrix3> deformation;
   ParticleView<double> temperature;
 
-  static WarmBodies from(auto& take) {
-    return {.mass = take(requiresOld(p::mass)),
+  /// `mass` reads the mass at the end of the step.
+  static WarmBodies from(auto& take, auto mass) {
+    return {.mass = take(mass),
             .deformation = take(requiresNew(p::deformationMeasure)),
             .temperature = take(modifies(p::temperature))};
   }

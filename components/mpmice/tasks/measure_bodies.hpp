@@ -9,11 +9,15 @@ namespace tushar::mpmice {
 /// How many cells beyond a patch hold particles whose boxes reach into it, before or after a step.
 inline constexpr int boxReach = 2;
 
-/// The box of each particle, from its size at the start, in cells, and F.
+/// The box of each particle, from its size at the start, in cells, and F; and what has not burned of it.
 template <int D>
 void findBoxes(const Patch& patch, const mpm::solid::Material&, ParticleView<const Vec<D>> size,
-               ParticleView<const mpm::solid::Matrix3> deformation, ParticleView<Vec<D>> edges) {
-  for (int p = 0; p < edges.owned(); ++p) edges[p] = edgesOf<D>(patch.level(), size[p], deformation[p]);
+               ParticleView<const mpm::solid::Matrix3> deformation,
+               const std::optional<ParticleView<const double>>& unburned, ParticleView<Vec<D>> edges) {
+  for (int p = 0; p < edges.owned(); ++p) {
+    edges[p] = edgesOf<D>(patch.level(), size[p], deformation[p]);
+    if (unburned && (*unburned)[p] < 1) edges[p] *= std::pow((*unburned)[p], 1.0 / D);
+  }
 }
 
 /// Positions and sizes of the particles of a material on a patch and around it.
@@ -64,6 +68,7 @@ struct FreeShares {
   }
   /// Takes the share of a box whose coordinates start at `origin`.
   void take(const Index<D>& origin, const ParticleBox<D>& box) const {
+    if (!(box.edges.minCoeff() > 0)) return;  // it has burned
     const Box reach = box.reach();
     const auto inside = alongAxes<D>(reach, [&](int axis, int k) { return box.lengthIn(axis, k); });
     const auto hat = alongAxes<D>(reach, [&](int axis, int k) { return box.hatAt(axis, k); });

@@ -33,8 +33,9 @@ class CellWalls {
     const double outward = side == 0 ? -relative[axis] : relative[axis];
     return slip_ * relative.dot(normal_) + (1 - slip_) * outward;
   }
-  double pressure(const euler::Gas& gas, const Vec<D>& wallVelocity, int axis, int side) const {
-    return wallPressure(gas, w_[euler::kDensity], w_[euler::kPressure<D>], closing(wallVelocity, axis, side));
+  /// `blowing` is the speed of new gas away from the wall, which the gas need not follow.
+  double pressure(const euler::Gas& gas, const Vec<D>& wallVelocity, int axis, int side, double blowing) const {
+    return wallPressure(gas, w_[euler::kDensity], w_[euler::kPressure<D>], closing(wallVelocity, axis, side) + blowing);
   }
 
  private:
@@ -42,6 +43,29 @@ class CellWalls {
   euler::State<D> w_;
   std::array<OpenFaces, D> faces_;
   double slip_ = 0;
+};
+
+/// New gas that leaves walls which burn; none elsewhere.
+template <int D>
+struct Blowing {
+  std::optional<CellView<const Vec<D>>> speeds, recoils;
+
+  static Blowing from(auto& take, bool burns) {
+    return {.speeds = take(when(burns, requiresNew(c::blowing<D>, 1))),
+            .recoils = take(when(burns, requiresNew(c::recoil<D>, 1)))};
+  }
+  /// Its speed, m/s, away from the wall of a cell at its lower (0) or upper (1) face.
+  double speed(const Index<D>& cell, int axis, int side) const { return at(speeds, cell, axis, side); }
+  /// What it exerts on that wall, Pa.
+  double recoil(const Index<D>& cell, int axis, int side) const { return at(recoils, cell, axis, side); }
+
+ private:
+  static double at(const std::optional<CellView<const Vec<D>>>& faces, const Index<D>& cell, int axis, int side) {
+    const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis);
+    if (!faces || !faces->box().contains(above)) return 0;
+    const double up = (*faces)[above][axis];  // positive where the gas is below
+    return std::max(0.0, side == 0 ? -up : up);
+  }
 };
 
 /// Fills in the pressure on all walls: `pressureOn(cell, walls of the cell, velocity of the wall, axis, side)`.
@@ -73,10 +97,12 @@ void fillWallPressure(const Patch& patch, const Settings& settings, const GasInC
 template <int D>
 void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                          const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
-                         const WallPressures<D>& walls) {
+                         const Blowing<D>& blowing, const WallPressures<D>& walls) {
   fillWallPressure<D>(patch, settings, cells, records, walls,
                       [&](const Index<D>& cell, const CellWalls<D>& ofCell, const Vec<D>& velocity, int d, int side) {
-                        return ofCell.pressure(lawAt<D>(settings, cells.held, cell), velocity, d, side);
+                        return ofCell.pressure(lawAt<D>(settings, cells.held, cell), velocity, d, side,
+                                               blowing.speed(cell, d, side)) +
+                               blowing.recoil(cell, d, side);
                       });
 }
 

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <variant>
+
+#include "core/input/diagnostics.hpp"
+#include "core/input/schema.hpp"
+
+namespace tushar::ice {
+
+/// The conditions on which a surface burns.
+struct AtSurface {
+  double pressure = 0;         ///< of the gas at the surface, Pa
+  double bodyTemperature = 0;  ///< of the body below its surface, K
+  double bodyDensity = 0;      ///< kg/m³
+};
+
+/// A rate by the pressure alone, as Uintah's Simple_Burn has it.
+struct SimpleBurn {
+  double coefficient = 0;        ///< kg/(m² s) at the reference pressure
+  double referencePressure = 0;  ///< Pa
+
+  /// kg/(m² s)
+  double rate(const AtSurface& at) const {
+    constexpr double exponent = 0.778;  // of Uintah's model, for the explosive PBX 9501
+    return coefficient * std::pow(at.pressure / referencePressure, exponent);
+  }
+};
+
+/// The steady deflagration of a solid with a reaction in it and one in the gas close to it: its surface temperature
+/// T_s and its rate m satisfy
+///
+///   m² = A R k_c rho T_s² exp(-E / (R T_s)) / (E c (T_s - T_0 - Q_c / (2 c)))
+///   T_s = T_0 + Q_c / c + Q_g / c / (1 + x m c / k_g),   x = 2 k_g / (c (sqrt(m² + 4 k_g B (W p)² / (c R²)) - m)).
+///
+/// Source: M. J. Ward, S. F. Son and M. Q. Brewster, Combust. Flame 114 (1998) 556.
+struct SteadyBurn {
+  double gasConstant = 0;        ///< R, J/(mol K)
+  double solidFactor = 0;        ///< A, 1/s
+  double activationEnergy = 0;   ///< E, J/mol
+  double gasFactor = 0;          ///< B, m³/(kg s K²)
+  double solidHeat = 0;          ///< Q_c, J/kg
+  double gasHeat = 0;            ///< Q_g, J/kg
+  double gasConductivity = 0;    ///< k_g, W/(m K)
+  double solidConductivity = 0;  ///< k_c, W/(m K)
+  double specificHeat = 0;       ///< c of both, J/(kg K)
+  double molarMass = 0;          ///< W, kg/mol
+
+  /// kg/(m² s)
+  double rate(const AtSurface& at) const { return rateAt(surfaceTemperature(at), at); }
+  /// T_s, K, by bisection to round-off.
+  double surfaceTemperature(const AtSurface& at) const {
+    const double rise = gasHeat / specificHeat;
+    double least = at.bodyTemperature + solidHeat / specificHeat, most = least + rise;
+    const double start = least;
+    const double wp = molarMass * at.pressure / gasConstant;
+    const double far = 4 * gasConductivity * gasFactor * wp * wp / specificHeat;
+    const auto isTooLow = [&](double temperature) {
+      const double m = rateAt(temperature, at), both = std::sqrt(m * m + far) + m;
+      return temperature < start + rise * far / (both * both);
+    };
+    for (int k = 0; k < 100; ++k) {
+      const double middle = 0.5 * (least + most);
+      if (middle <= least || middle >= most) break;
+      (isTooLow(middle) ? least : most) = middle;
+    }
+    return most;
+  }
+
+ private:
+  /// m of a surface of that temperature, kg/(m² s).
+  double rateAt(double surface, const AtSurface& at) const {
+    const double reaction = solidFactor * gasConstant * solidConductivity * at.bodyDensity * surface * surface *
+                            std::exp(-activationEnergy / (gasConstant * surface));
+    const double heating = surface - at.bodyTemperature - 0.5 * solidHeat / specificHeat;
+    return std::sqrt(reaction / (activationEnergy * specificHeat * heating));
+  }
+};
+
+/// `<Model type="Test">` of a body: a part of all that is left of it becomes gas per time, wherever it is.
+struct Decay {
+  double perTime = 0;    ///< 1/s
+  double startTime = 0;  ///< s
+};
+
+/// A body that turns into a gas.
+struct BurnModel {
+  Location where;                  ///< in the scene
+  std::string from, to;            ///< the materials
+  double ignitionTemperature = 0;  ///< K
+  double leastPressure = 0;        ///< below it, nothing burns, Pa
+  double heat = 0;                 ///< of the reaction, J/kg
+  std::variant<SimpleBurn, SteadyBurn, Decay> law;
+
+  /// Whether surfaces burn, rather than the whole.
+  bool burnsAtSurface() const { return !std::holds_alternative<Decay>(law); }
+  /// Rate of a surface that is alight, kg/(m² s).
+  double rate(const AtSurface& at) const {
+    return std::visit(
+        [&](const auto& model) {
+          if constexpr (requires { model.rate(at); })
+            return model.rate(at);
+          else
+            return 0.0;
+        },
+        law);
+  }
+};
+
+/// `<Simple_Burn>`.
+struct SimpleBurnSection {
+  Location where;
+  bool isActive = true;
+  std::string from, to;
+  double thresholdTemperature = 0, thresholdPressure = 0, enthalpy = 0, coefficient = 0, reference = 0;
+
+  BurnModel model() const {
+    return {where, from, to, thresholdTemperature, thresholdPressure, enthalpy, SimpleBurn{coefficient, reference}};
+  }
+};
+const input::Schema<SimpleBurnSection>& simpleBurnSchema();
+
+/// `<Steady_Burn>`.
+struct SteadyBurnSection : SteadyBurn {
+  Location where;
+  std::string from, to;
+  double ignitionTemperature = 0, thresholdPressure = 0;
+
+  BurnModel model() const {
+    return {where, from, to, ignitionTemperature, thresholdPressure, solidHeat + gasHeat, SteadyBurn(*this)};
+  }
+};
+const input::Schema<SteadyBurnSection>& steadyBurnSchema();
+
+}  // namespace tushar::ice

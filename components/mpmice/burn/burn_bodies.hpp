@@ -1,0 +1,94 @@
+#pragma once
+
+#include "components/mpmice/burn/burning_surface.hpp"
+#include "components/mpmice/tasks/advance_gas.hpp"
+#include "core/data/vanished.hpp"
+
+namespace tushar::mpmice {
+
+/// The mass that burns in a step: surfaces burn what is in their gas's cell and, if that is not enough, what is in the
+/// cell beyond. So a body recedes at its rate, and vanishes cell by cell.
+template <int D>
+class BurntMass {
+ public:
+  BurntMass(const Level& level, CellView<const Vec<D>> rate, CellView<const double> mass, double dt)
+      : level_(level), rate_(rate), mass_(mass), dt_(dt) {}
+
+  /// The share of a cell's mass that burns.
+  double shareOf(const Index<D>& cell) const {
+    if (!(mass_[cell] > 0)) return 0;
+    double wanted = wantedFrom(cell);
+    forEachFace(cell, [&](const Index<D>& next, double burnt) {
+      if (burnt < 0) wanted -= burnt * (1 - coveredBy(next));
+    });
+    return wanted < mass_[cell] ? wanted / mass_[cell] : 1;
+  }
+
+ private:
+  /// Calls `visit(neighbour, mass)` for the faces of a cell, with what burns there: positive where its own gas does it.
+  template <class Visit>
+  void forEachFace(const Index<D>& cell, Visit&& visit) const {
+    for (int d = 0; d < D; ++d) {
+      const Index<D> below = cell - Index<D>::unit(d), above = cell + Index<D>::unit(d);
+      if (level_.isPeriodic(d) || level_.cells().lower[d] < cell[d]) visit(below, -dt_ * rate_[cell][d]);
+      if (level_.isPeriodic(d) || above[d] < level_.cells().upper[d]) visit(above, dt_ * rate_[above][d]);
+    }
+  }
+  double wantedFrom(const Index<D>& cell) const {
+    double wanted = 0;
+    forEachFace(cell, [&](const Index<D>&, double burnt) { wanted += std::max(0.0, burnt); });
+    return wanted;
+  }
+  /// The part of what a cell's gas burns that its own particles give.
+  double coveredBy(const Index<D>& cell) const {
+    const double wanted = wantedFrom(cell);
+    return wanted > mass_[cell] ? mass_[cell] / wanted : 1;
+  }
+
+  const Level& level_;
+  CellView<const Vec<D>> rate_;
+  CellView<const double> mass_;
+  double dt_;
+};
+
+/// Finds the share of each cell's mass that burns in a step.
+template <int D>
+void findBurntShare(const Patch& patch, const Settings& settings, double start, double dt, CellView<const Vec<D>> rate,
+                    CellView<const double> mass, CellView<double> share) {
+  const BurntMass<D> burnt(patch.level(), rate, mass, dt);
+  const auto* decay = std::get_if<ice::Decay>(&settings.burning->model.law);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (decay)
+      share[cell] = start < decay->startTime ? 0 : std::min(1.0, decay->perTime * dt);
+    else
+      share[cell] = burnt.shareOf(cell);
+  });
+}
+
+/// The mass of particles after a step: those of a cell burn by the same share.
+template <int D>
+void burnParticles(const Patch& patch, const mpm::solid::Material& material, const Settings& settings,
+                   CellView<const double> share, ParticleView<const double> mass, ParticleView<const double> unburned,
+                   ParticleView<double> newMass, ParticleView<double> newUnburned) {
+  const bool burns = static_cast<std::size_t>(material.index) == settings.burning->body;
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const double left = burns ? 1 - share[cell] : 1;
+    for (const int p : mass.template in<D>(cell)) {
+      newMass[p] = left * mass[p];
+      newUnburned[p] = left * unburned[p];
+    }
+  });
+}
+
+/// Takes particles of which nothing is left out of the run; the others keep the strain energy [J] of what is left.
+template <int D>
+void removeBurnt(const Patch&, const mpm::solid::Material&, ParticleView<const double> massBefore,
+                 ParticleView<const double> mass, ParticleView<Vec<D>> position,
+                 const std::optional<ParticleView<double>>& strainEnergy) {
+  for (int p = 0; p < mass.owned(); ++p) {
+    if (mass[p] == 0) position[p][0] = data::vanished;
+    if (strainEnergy && mass[p] != massBefore[p]) (*strainEnergy)[p] *= mass[p] / massBefore[p];
+  }
+}
+
+}  // namespace tushar::mpmice

@@ -1,0 +1,137 @@
+#pragma once
+
+#include "components/mpmice/burn/reactant.hpp"
+#include "components/mpmice/free_space.hpp"
+#include "components/mpmice/gas_temperature.hpp"
+#include "components/mpmice/near_bodies.hpp"
+
+namespace tushar::mpmice {
+
+/// The surface of bodies at the faces between cells.
+///
+/// Each cell has an area along an axis, open or wall (see FreeSpace). Through a surface it falls from 1 to 0, so its
+/// steps from cell to cell add up to the area that the surface shows along the axis, wherever it lies; times the
+/// components of the normal they add up to the area itself.
+template <int D>
+class SurfaceAtFaces {
+ public:
+  SurfaceAtFaces(const Level& level, const Settings& settings, const GasInCells<D>& cells)
+      : level_(level), cells_(cells), space_(level, settings, cells) {}
+
+  const FreeSpace<D>& space() const { return space_; }
+  /// By how much the cell below a face has more area along the axis than the one above.
+  double step(const Index<D>& above, int axis) const {
+    return space_.faces(above - Index<D>::unit(axis), axis).area - space_.faces(above, axis).area;
+  }
+  /// The component along the axis, without its sign, of the unit normal at the lower face of a cell: that of the
+  /// gradient of the free volume, weighted 1 2 1 across the axis.
+  double normalAlong(const Index<D>& above, int axis) const {
+    Vec<D> gradient = Vec<D>::Zero();
+    for (int side = 0; side < 2; ++side) {
+      const Index<D> cell = side == 0 ? above - Index<D>::unit(axis) : above;
+      Box layer = cellsAround<D>(cell, 1);
+      layer.lower[axis] = cell[axis];
+      layer.upper[axis] = cell[axis] + 1;
+      forEach<D>(layer, [&](const Index<D>& at) {
+        const double free = cells_.free[space_.onGrid(at)];
+        for (int d = 0; d < D; ++d) {
+          const double factor = d == axis ? (side == 0 ? -1 : 1) : 0.5;
+          gradient[d] += factor * weight(at - cell, axis, d) * free * level_.inverseSpacing(d);
+        }
+      });
+    }
+    const double length = gradient.norm();
+    return length > 0 ? std::abs(gradient[axis]) / length : 0;
+  }
+
+ private:
+  /// Of a cell `offset` away from the face's, in the derivative along `d`.
+  static double weight(const Index<D>& offset, int axis, int d) {
+    double product = 1;
+    for (int k = 0; k < D; ++k)
+      if (k != axis) product *= k == d ? 0.5 * offset[k] : 0.25 * (2 - std::abs(offset[k]));
+    return product;
+  }
+
+  const Level& level_;
+  GasInCells<D> cells_;
+  FreeSpace<D> space_;
+};
+
+/// What burns at the lower faces of cells.
+template <int D>
+struct NewBurning {
+  CellView<Vec<D>> rate, blowing, recoil;
+
+  static NewBurning from(auto& take) {
+    return {.rate = take(computes(c::burnRate<D>)),
+            .blowing = take(computes(c::blowing<D>)),
+            .recoil = take(computes(c::recoil<D>))};
+  }
+  void clear() const {
+    for (const auto& field : {rate, blowing, recoil}) field.fill(Vec<D>::Zero());
+  }
+};
+
+/// The burning of a body's surface, by the state at the start of the step.
+template <int D>
+class BurningSurface {
+ public:
+  BurningSurface(const Level& level, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant)
+      : level_(level), settings_(settings), cells_(cells), reactant_(reactant), surface_(level, settings, cells) {}
+
+  /// Adds what burns at the lower face of a cell. The new gas leaves the body with the speed u = m (1/rho - 1/rho_s),
+  /// and its recoil is m u: mass and momentum across the surface.
+  void burn(const Index<D>& above, int axis, const NewBurning<D>& fresh) const {
+    const Index<D> below = above - Index<D>::unit(axis);
+    const double share = reactant_.shareIn(below, above), step = share > 0 ? surface_.step(above, axis) : 0;
+    if (step == 0) return;
+    const Index<D>&gas = step > 0 ? below : above, &body = step > 0 ? above : below;
+    const euler::Gas law = lawAt<D>(settings_, cells_.held, gas);
+    const euler::State<D> w = cells_.primitive(law, gas);
+    const double density = w[euler::kDensity], pressure = law.pressureOf(density, w[euler::kPressure<D>]);
+    const ice::BurnModel& model = settings_.burning->model;
+    if (!(pressure > model.leastPressure) || !(hottestAt(gas, body) > model.ignitionTemperature)) return;
+    const Index<D>& main = reactant_.mass[body] > reactant_.mass[gas] ? body : gas;
+    const double bodyDensity = reactant_.mass[main] / reactant_.volume[main];
+    const double rate = model.rate({pressure, reactant_.temperature[main], bodyDensity});
+    fresh.rate[above][axis] = rate * share * step * surface_.normalAlong(above, axis) * level_.inverseSpacing(axis);
+    const double wall = surface_.space().faces(gas, axis).wall(step > 0 ? 1 : 0);
+    if (!(wall > 0)) return;
+    const double part = share * std::clamp(step / wall, -1.0, 1.0);
+    const double speed = std::max(0.0, rate * (1 / density - 1 / bodyDensity));
+    fresh.blowing[above][axis] = part * speed;
+    fresh.recoil[above][axis] = part * rate * speed;
+  }
+
+ private:
+  /// The greatest temperature of what fills more than a fifth of one of the cells at a face.
+  double hottestAt(const Index<D>& gas, const Index<D>& body) const {
+    double hottest = std::max(reactant_.hottest[gas], reactant_.hottest[body]);
+    if (cells_.free[gas] > leastVisible) hottest = std::max(hottest, gasTemperature<D>(settings_, cells_, gas));
+    return hottest;
+  }
+
+  const Level& level_;
+  const Settings& settings_;
+  GasInCells<D> cells_;
+  const Reactant& reactant_;
+  SurfaceAtFaces<D> surface_;
+};
+
+/// Finds what burns at the faces of a patch's cells.
+template <int D>
+void findBurning(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant,
+                 const NewBurning<D>& fresh) {
+  fresh.clear();
+  if (!settings.burning->model.burnsAtSurface()) return;
+  const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
+  const BurningSurface<D> surface(patch.level(), settings, cells, reactant);
+  const FreeSpace<D> space(patch.level(), settings, cells);
+  near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
+    for (int d = 0; d < D; ++d)
+      if (!space.isAtSide(cell, d, 0)) surface.burn(cell, d, fresh);
+  });
+}
+
+}  // namespace tushar::mpmice

@@ -1,0 +1,159 @@
+#include "components/mpmice/burn/burn_bodies.hpp"
+#include "components/mpmice/tasks/measure_bodies.hpp"
+#include "tests/mpmice/fields.hpp"
+
+namespace tushar::mpmice {
+
+namespace {
+
+template <class T>
+class BurningAlongAxes : public testing::Test {};
+TYPED_TEST_SUITE(BurningAlongAxes, AllAxes);
+
+/// Gas beside a body of boxes, four for each axis of a cell, that are on one side of a plane.
+template <int D, int Size = 8>
+struct HalfSpace {
+  static constexpr int size = Size, perCell = 4;
+
+  /// Boxes whose middle is beyond the plane through `corner` + `shift` cells, with the normal `into`.
+  HalfSpace(const Vec<D>& into, double shift) : fields(level.cells()) {
+    const FreeShares<D> shares{fields.free.cells(), fields.coverage.cells()};
+    forEach<D>(cube<D>(size * perCell), [&](const Index<D>& at) {
+      Index<D> cell;
+      ParticleBox<D> box;
+      double along = 0;
+      for (int d = 0; d < D; ++d) {
+        cell[d] = at[d] / perCell;
+        box.middle[d] = (at[d] % perCell + 0.5) / perCell;
+        box.edges[d] = 1.0 / perCell;
+        along += into[d] * (cell[d] + box.middle[d] - 0.5 * size);
+      }
+      if (!(along > 0)) return;
+      box.middle[0] += shift;
+      shares.take(cell, box);
+    });
+    shares.settle();
+  }
+  /// The sum over faces of the cells of a box, in faces of a cell.
+  double areaIn(const Box& cells) const {
+    const SurfaceAtFaces<D> surface(level, settings, fields.gas());
+    double sum = 0;
+    forEach<D>(cells, [&](const Index<D>& cell) {
+      for (int d = 0; d < D; ++d)
+        if (cell[d] > 0) sum += std::abs(surface.step(cell, d)) * surface.normalAlong(cell, d);
+    });
+    return sum;
+  }
+
+  Level level{euler::closedBox(D, size)};
+  Settings settings;
+  GasFields<D> fields;
+};
+
+/// Four cells on a line: gas, then a body, of which what burns is wanted at each face.
+struct Line {
+  Level level{euler::closedBox(1, 4)};
+  Field<Vec<1>> rate{level.cells(), Vec<1>::Zero()};
+  Field<double> mass{level.cells(), 0};
+
+  std::vector<double> shares(double dt) const {
+    const BurntMass<1> burnt(level, rate.seen(), mass.seen(), dt);
+    std::vector<double> all;
+    for (int k = 0; k < 4; ++k) all.push_back(burnt.shareOf({k}));
+    return all;
+  }
+};
+
+}  // namespace
+
+TYPED_TEST(BurningAlongAxes, HaveTheAreaOfAPlaneWhereverItCutsCells) {
+  constexpr int D = TypeParam::value;
+  Vec<D> into = Vec<D>::Zero();
+  into[0] = 1;
+  for (int k = 0; k <= 20; ++k) {
+    const HalfSpace<D> half(into, 0.05 * k);
+    EXPECT_NEAR(half.areaIn(half.level.cells()) / std::pow(8, D - 1), 1, 1e-12) << k;
+  }
+}
+
+TEST(SurfaceAtFaces, HaveTheAreaOfAnObliquePlane) {
+  for (const double slope : {0.1, 0.25, 0.3, 0.5, 0.7, 0.9, 1.0})
+    for (const double shift : {0.0, 0.3, 0.6}) {
+      const HalfSpace<2, 24> half({1, slope}, shift);
+      Box rows = half.level.cells();  // away from the sides, where the normal is not that of the plane
+      rows.lower[1] = 6;
+      rows.upper[1] = 18;
+      // Boxes are steps: the normal that they show is not quite that of the plane, except at 45 degrees.
+      EXPECT_NEAR(half.areaIn(rows) / (12 * std::sqrt(1 + slope * slope)), 1, slope < 1 ? 0.03 : 1e-14)
+          << slope << ' ' << shift;
+    }
+}
+
+TEST(SurfaceAtFaces, HaveBothSidesOfASlotOfOneCell) {
+  const Level level(euler::closedBox(1, 5));
+  GasFields<1> fields(level.cells());
+  for (const int full : {1, 3}) fields.free.values[full] = fields.density.values[full] = 0;
+  const SurfaceAtFaces<1> surface(level, {}, fields.gas());
+  for (int k = 1; k < 5; ++k) {
+    EXPECT_EQ(std::abs(surface.step({k}, 0)), 1);
+    EXPECT_EQ(surface.normalAlong({k}, 0), 1);
+  }
+}
+
+TEST(BurntMass, ComesFromTheCellOfTheGasFirst) {
+  Line line;
+  line.mass.values = {0, 3, 8, 8};
+  line.rate.values[2][0] = 10;  // by the gas of cell 1
+  EXPECT_EQ(line.shares(0.1), (std::vector<double>{0, 1.0 / 3, 0, 0}));
+  EXPECT_EQ(line.shares(0.5), (std::vector<double>{0, 1, 2.0 / 8, 0}));
+  EXPECT_EQ(line.shares(2), (std::vector<double>{0, 1, 1, 0}));
+}
+
+TEST(BurntMass, IsWhatIsWantedFromBothSides) {
+  Line line;
+  line.mass.values = {0, 0, 8, 0};
+  line.rate.values[2][0] = 2;   // by the gas of cell 1
+  line.rate.values[3][0] = -6;  // by that of cell 3
+  const std::vector<double> shares = line.shares(0.5);
+  EXPECT_DOUBLE_EQ(shares[2] * 8, 4);
+  EXPECT_EQ(shares[1] + shares[3], 0);
+}
+
+TEST(SimpleBurn, FollowsThePressure) {
+  const ice::SimpleBurn law{75.3, 101325};
+  EXPECT_DOUBLE_EQ(law.rate({.pressure = 101325}), 75.3);
+  EXPECT_NEAR(law.rate({.pressure = 10 * 101325.0}) / 75.3, 5.99791, 1e-5);  // 10^.778
+}
+
+/// The explosive PBX 9501, of Uintah's scenes.
+const ice::SteadyBurn explosive{8.314, 1.637e15, 1.76e5, 1.6e-3, 4e5, 3.018e6, 0.07, 0.2, 1.4e3, 0.0342};
+
+TEST(SteadyBurn, SatisfiesTheEquationsOfItsSource) {
+  for (const double pressure : {1e5, 1e6, 1e7, 1e8})
+    for (const double cold : {250.0, 298.0, 400.0}) {
+      const ice::AtSurface at{pressure, cold, 1832};
+      const double c = explosive.specificHeat, kg = explosive.gasConductivity, r = explosive.gasConstant;
+      const double m = explosive.rate(at), ts = explosive.surfaceTemperature(at);
+      const double wp = explosive.molarMass * pressure / r;
+      const double x = 2 * kg / (c * (std::sqrt(m * m + 4 * kg * explosive.gasFactor * wp * wp / c) - m));
+      const double back = cold + explosive.solidHeat / c + explosive.gasHeat / c / (1 + x * m * c / kg);
+      EXPECT_NEAR(back / ts, 1, 1e-9);
+      const double heating = ts - cold - 0.5 * explosive.solidHeat / c;
+      const double square = explosive.solidFactor * r * explosive.solidConductivity * at.bodyDensity * ts * ts *
+                            std::exp(-explosive.activationEnergy / (r * ts)) /
+                            (explosive.activationEnergy * c * heating);
+      EXPECT_NEAR(m * m / square, 1, 1e-9);
+    }
+}
+
+TEST(SteadyBurn, IsFasterUnderPressureAndWhereTheBodyIsWarm) {
+  double last = 0;
+  for (const double pressure : {1e5, 1e6, 1e7, 1e8}) {
+    const double rate = explosive.rate({pressure, 298, 1832});
+    EXPECT_GT(rate, last);
+    EXPECT_GT(explosive.rate({pressure, 350, 1832}), rate);
+    last = rate;
+  }
+}
+
+}  // namespace tushar::mpmice

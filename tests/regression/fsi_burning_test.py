@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""Bodies that burn: rates against closed forms, what is conserved, the same bits on any layout, wrong scenes."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import gas_and_bodies as fsi
+from same_bits import SameBitsTest
+from solids import SceneTest, globals_of
+from sus import run
+
+SLAB, GRAIN = (fsi.scene(name).read_text() for name in ("burning_slab", "burning_grain"))
+RIGID = ("SimulationComponent/@type=rmpmice",)
+GONE = ("Models/Model/Simple_Burn/BurnCoeff=3", "Time/maxTime=3", "Grid/Level/Box/resolution=[20,20,1]",
+        "Grid/Level/Box/upper=[1,1,0.05]")
+
+
+class References(unittest.TestCase):
+    """Half as much again as the table of ups/fsi/README.md."""
+
+    def assert_within(self, errors, limit, *names):
+        for name in names:
+            self.assertLess(abs(errors[name]), limit, errors)
+
+    def test_a_slab_recedes_at_its_rate(self):
+        self.assert_within(fsi.burning_slab(50), 1.5 * SLAB_ERROR, "way")
+
+    def test_the_pressure_of_a_closed_vessel_rises_as_it_must(self):
+        errors = fsi.burning_vessel(50)
+        self.assert_within(errors, 1.5 * VESSEL_ERROR, "burnt", "p")
+        self.assert_within(errors, 1e-14, "mass", "energy")
+
+
+class Conservation(SceneTest):
+    def assert_kept(self, errors):
+        for name in ("mass", "mass of air", "energy"):
+            self.assertLess(errors[name], 1e-14, errors)
+
+    def test_a_grain_that_does_not_move_keeps_mass_and_energy(self):
+        errors = fsi.burning_grain(25, RIGID)
+        self.assert_kept(errors)
+        self.assertGreater(errors["burnt"], .03)
+
+    def test_a_grain_that_moves_loses_what_its_particles_own_update_does(self):
+        errors = fsi.burning_grain(25)
+        self.assertLess(errors["energy"], 1.5 * GRAIN_ERROR)
+        self.assert_kept(errors | {"energy": 0})
+
+    def test_a_grain_burns_until_nothing_is_left_of_it(self):
+        errors = fsi.burning_grain(20, (*RIGID, *GONE))
+        self.assert_kept(errors)
+        self.assertAlmostEqual(errors["burnt"], 1, delta=1e-12)
+        done = run(fsi.scene("burning_grain"), *RIGID, *GONE, options=("--quiet",))
+        self.assertEqual(done.report["particles"], 0)
+
+    def test_a_part_of_a_body_becomes_gas_per_time(self):
+        model = "<Test><fromMaterial>reactant</fromMaterial><toMaterial>product</toMaterial><rate>0.3</rate></Test>"
+        start, _, end = GRAIN.partition('<Model type="Simple_Burn">')
+        text = start + '<Model type="Test">' + model + end[end.index("</Simple_Burn>") + len("</Simple_Burn>"):]
+        totals = globals_of(self.scene(text), "BurntMass", "TotalMass", "GasMass", sets=("Time/maxTime=0.5", *RIGID))
+        before = totals["TotalMass"][0][1] - totals["GasMass"][0][1]
+        # Each step takes .3 dt of what is left; steps are less than 1e-2.
+        self.assertAlmostEqual(totals["BurntMass"][-1][1] / before, 1 - 2.718281828459045 ** -.15, delta=1e-3)
+
+
+class Bits(SameBitsTest):
+    def test_are_the_same_on_a_line(self):
+        self.assert_same("burning_slab", 400, ("[1,1,1]", "[7,1,1]", "[50,1,1]"),
+                         "Models/Model/Simple_Burn/BurnCoeff=10", ranks=1)
+
+    def test_are_the_same_in_a_plane(self):
+        self.assert_same("burning_grain", 60, ("[1,1,1]", "[5,3,1]", "[20,4,1]"),
+                         "Models/Model/Simple_Burn/BurnCoeff=10", ranks=3)
+
+
+class WrongScenes(SceneTest):
+    def assert_refused(self, text, sentence):
+        done = run(self.scene(text), "Time/max_Timesteps=1")
+        self.assertEqual(done.code, 3, done.err)
+        self.assertIn(sentence, done.err)
+        self.assertRegex(done.err, r"scene\.ups:\d+:\d+: ")
+
+    def test_names_of_materials(self):
+        self.assert_refused(SLAB.replace("<fromMaterial>reactant", "<fromMaterial>wood"), "'wood'")
+        self.assert_refused(SLAB.replace("<toMaterial>product", "<toMaterial>smoke"), "'smoke'")
+
+    def test_what_burns_has_a_specific_heat(self):
+        self.assert_refused(SLAB.replace("<specific_heat>1</specific_heat>", ""),
+                            "missing tag <specific_heat>: it burns")
+
+    def test_a_model_that_is_not_there(self):
+        self.assert_refused(SLAB.replace("Simple_Burn", "Complex_Burn"), "of type 'Complex_Burn' is not available")
+
+    def test_one_body_burns(self):
+        model = SLAB[SLAB.index("    <Model "):SLAB.index("  </Models>")]
+        self.assert_refused(SLAB.replace(model, 2 * model), "one body of a scene may burn")
+
+
+if __name__ == "__main__":
+    unittest.main()
