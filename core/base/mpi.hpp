@@ -75,7 +75,8 @@ class Communicator {
   /// The value of rank `from`, on every rank; it holds no pointers.
   template <class T>
   T broadcast(T value, int from = 0) const {
-    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>, "another rank has no use for addresses");
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>,
+                  "a value that contains pointers has no meaning on another rank");
     Bytes bytes(sizeof(T));
     std::memcpy(bytes.data(), &value, sizeof(T));
     bytes = broadcast(std::move(bytes), from);

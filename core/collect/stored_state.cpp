@@ -192,7 +192,7 @@ class StateReader : StateWalk {
 
  private:
   [[noreturn]] void refuse(const std::string& what) const {
-    throw InputError({{{file_.path().string(), 0, 0}, "", what + "; undo what was changed in the scene since"}});
+    throw InputError({{{file_.path().string(), 0, 0}, "", what + "; undo the changes made to the scene since then"}});
   }
 
   bool isStored(const Label& label, const std::string& path) const {
@@ -205,7 +205,7 @@ class StateReader : StateWalk {
   /// Refuses a dataset whose size or type differs from what the scene needs.
   void check(const std::string& path, const Array::Values& found, std::size_t size, const Array::Values& type,
              std::size_t count) const {
-    if (found.index() != type.index()) refuse(fmt::format("the checkpoint has another type of number for {}", path));
+    if (found.index() != type.index()) refuse(fmt::format("the checkpoint stores {} as another type of number", path));
     if (size != count)
       refuse(fmt::format("the checkpoint has {} numbers for {}, but the scene needs {}", size, path, count));
   }

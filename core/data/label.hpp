@@ -79,7 +79,7 @@ struct FieldLabel : Label {
   }
   constexpr FieldLabel(std::string_view called, std::string_view inUnit, std::string_view meaning, Counts where)
       : FieldLabel(called, inUnit, meaning) {
-    if (C != Centring::node) throw std::invalid_argument("only nodes are near particles");
+    if (C != Centring::node) throw std::invalid_argument("Counts::nearParticles is for node labels only");
     counts = where;
   }
   /// Keeps `count` values of T for each particle, node or cell.
@@ -114,6 +114,7 @@ struct ReductionLabel : Label {
 inline constexpr std::string_view positionName = "p.x";
 
 /// Names every particle; kept by the framework in every particle set.
-inline constexpr ParticleLabel<ParticleId> particleId{"p.particleID", "1", "name of the particle, which never changes"};
+inline constexpr ParticleLabel<ParticleId> particleId{"p.particleID", "1",
+                                                      "identifier of the particle, which never changes"};
 
 }  // namespace tushar::data

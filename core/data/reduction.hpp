@@ -20,7 +20,7 @@ class Reason {
   /// Takes a literal of at most 31 characters.
   template <std::size_t N>
   constexpr Reason(const char (&words)[N]) {
-    static_assert(N <= std::tuple_size_v<decltype(letters_)>, "a reason has at most 31 letters");
+    static_assert(N <= std::tuple_size_v<decltype(letters_)>, "a reason has at most 31 characters");
     for (std::size_t k = 0; k < N; ++k) letters_[k] = words[k];
   }
   /// Takes any text, cut off after 31 characters.
@@ -165,7 +165,7 @@ inline constexpr ReductionLabel<Minimum> delT{"delT", "s", "time step"};
 /// The factor by which the time step may be multiplied without breaking a bound. If a task of scheduleTimeAdvance
 /// computes less than 1, the step is undone and repeated with a smaller one; the reason names the bound. The step ends
 /// with that task, so that no later one sees the invalid values. The old state stays as it is.
-inline constexpr ReductionLabel<Minimum> recomputeTimeStep{"recomputeTimeStep", "1",
-                                                           "factor on the time step that keeps every bound"};
+inline constexpr ReductionLabel<Minimum> recomputeTimeStep{
+    "recomputeTimeStep", "1", "factor by which to multiply the time step so that every bound holds"};
 
 }  // namespace tushar::data

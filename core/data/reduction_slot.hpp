@@ -28,7 +28,7 @@ class ReductionSlot {
 
 template <class R>
 class TypedReduction : public ReductionSlot {
-  static_assert(std::is_trivially_copyable_v<R>, "a checkpoint and a message keep a reducer as bytes");
+  static_assert(std::is_trivially_copyable_v<R>, "checkpoints and messages copy the bytes of a reducer");
 
  public:
   R reducer;

@@ -70,8 +70,8 @@ Schema<Operands> operandsSchema(const std::string& name, const std::string& sent
     diagnostics.error(element, fmt::format("expected {} in <{}>, found {}", expected, element.name(), count));
   };
   Schema<Operands> schema(name, sentence);
-  schema.foreignAttribute("label", "an empty tag with this label, further down, refers to this shape")
-      .foreignAttribute("name", "another word for label")
+  schema.foreignAttribute("label", "a name by which an empty tag further down refers to this shape")
+      .foreignAttribute("name", "a synonym of label")
       .custom("shapes", readOperands, geometryNames(), exactlyTwo ? "two shapes" : "any number of shapes")
       .forms(geometryForms(), exactlyTwo ? 2 : 1)
       .check(checkCount);
@@ -93,8 +93,8 @@ Kind combined(Schema<Operands> declared, const std::function<PiecePtr(std::vecto
 Kind nothing() {
   struct Tag {};
   static const Schema<Tag> schema =
-      Schema<Tag>("null", "No point: a body without particles.")
-          .foreignAttribute("label", "an empty tag with this label, further down, refers to this shape");
+      Schema<Tag>("null", "The empty shape: a body without particles.")
+          .foreignAttribute("label", "a name by which an empty tag further down refers to this shape");
   const auto read = [](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
     schema.read(element, diagnostics);
     return std::make_shared<Nothing>();
@@ -112,7 +112,7 @@ Kind fromFile(const std::string& name, const std::string& sentence, const std::s
               const std::function<PiecePtr(const std::string&, const Element&, Diagnostics&)>& load) {
   const auto schema = std::make_shared<const Schema<FileTag>>(
       Schema<FileTag>(name, sentence)
-          .foreignAttribute("label", "an empty tag with this label, further down, refers to this shape")
+          .foreignAttribute("label", "a name by which an empty tag further down refers to this shape")
           .required("name", &FileTag::file, "m", whatFile));
   const auto read = [schema, load](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
     const std::size_t before = diagnostics.size();
@@ -258,8 +258,8 @@ PiecePtr readReference(const Element& reference, const std::string& label, Diagn
 void noteIfTaken(const Element& shape, const std::string& label, Diagnostics& diagnostics) {
   const std::vector<Element> others = definitions(label, labelledAbove(shape));
   if (others.empty()) return;
-  diagnostics.note(shape, fmt::format("the label '{}' is that of the <{}> at {}, too, so no tag can refer to it", label,
-                                      others.front().name(), others.front().where().text()));
+  diagnostics.note(shape, fmt::format("the label '{}' is that of the <{}> at {} as well, so no tag can refer to either",
+                                      label, others.front().name(), others.front().where().text()));
 }
 
 /// An empty tag that refers to a shape further up.
@@ -268,7 +268,7 @@ struct Reference {
 };
 
 Schema<Reference> referenceSchema(const std::string& attribute) {
-  return Schema<Reference>("label", "Stands for the shape with this label, further up.")
+  return Schema<Reference>("label", "Refers to the shape further up that has this label.")
       .requiredAttribute(attribute, &Reference::label, "1", "the label of that shape");
 }
 

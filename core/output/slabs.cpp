@@ -10,7 +10,7 @@
 
 namespace tushar::output {
 
-static_assert(std::endian::native == std::endian::little, "files have the bytes of memory");
+static_assert(std::endian::native == std::endian::little, "files store numbers as in memory, in little-endian order");
 
 namespace {
 

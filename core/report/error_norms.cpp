@@ -38,7 +38,7 @@ std::optional<std::string> unmeasurable(const std::vector<ErrorNorms>& errors) {
   for (const ErrorNorms& error : errors)
     for (const auto& [norm, value] : error.norms)
       if (!std::isfinite(value))
-        return fmt::format("the end of the run cannot be measured: {} of the error of {}, {}, is not finite", norm,
+        return fmt::format("no errors at the end of the run: the {} norm of the error of {}, {}, is not finite", norm,
                            error.field, error.place);
   return std::nullopt;
 }

@@ -111,10 +111,8 @@ DryRun dryRun(const std::string& scene, const std::vector<std::string>& override
 
 std::string toText(const DryRun& result) {
   return fmt::format(
-      "rank {} of {}: {} of {} patches\n"
-      "  a step: {} tasks, run {} times; {} messages to {} neighbours, {:.4g} kB and particles; {} agreements of all "
-      "ranks\n"
-      "  compiled in {:.2f} ms of processor time with {:.2f} MB\n",
+      "rank {} of {}: {} of {} patches\n  a step: {} tasks, run {} times; {} messages to {} neighbours, {:.4g} kB and "
+      "particles; {} reductions over all ranks\n  compiled in {:.2f} ms of processor time with {:.2f} MB\n",
       result.rank, result.ranks, result.patches, result.patchesOfAll, result.tasks, result.placements, result.messages,
       result.neighbours, 1e-3 * result.bytes, result.agreements, 1e3 * result.seconds, result.megabytes);
 }

@@ -55,7 +55,7 @@ std::vector<int> candidatesOf(const std::string& uda, const fs::path& archive, s
 void restoreScene(simulation::Restart& restart) {
   if (!output::textOf(restart.scene()).value_or("").empty()) return;
   output::replaceFileOnDisk(restart.scene(), output::Hdf5Input(restart.state()).text("/scene"));
-  restart.notes.push_back(fmt::format("{} was lost and is that of the checkpoint now", restart.scene().string()));
+  restart.notes.push_back(fmt::format("{} was missing; it was restored from the checkpoint", restart.scene().string()));
 }
 
 }  // namespace

@@ -39,17 +39,17 @@ struct Meta {
   std::string title;
 };
 const input::Schema<Meta>& metaSchema() {
-  static const input::Schema<Meta> schema = input::Schema<Meta>("Meta", "About the scene.")
+  static const input::Schema<Meta> schema = input::Schema<Meta>("Meta", "A description of the scene.")
                                                 .custom(
                                                     "title",
                                                     [](Meta& meta, const Element& element, Diagnostics&) {
                                                       if (const auto title = element.child("title"))
                                                         meta.title = title->text();
                                                     },
-                                                    {"title"}, "its name")
+                                                    {"title"}, "title")
                                                 .forms({input::patternForm({"title"}, ".*")})
-                                                .ignored("info", "for readers")
-                                                .ignored("description", "for readers");
+                                                .ignored("info", "a note for readers")
+                                                .ignored("description", "a note for readers");
   return schema;
 }
 

@@ -90,36 +90,37 @@ void checkThresholds(const VariableTag& tag, const Element& element, Diagnostics
   if (!tag.coarsen) return;
   if (!isValue(tag.indicator) && *tag.coarsen < 0) refuse("coarsen", *tag.coarsen, "a value of at least 0");
   if (isLower(tag.indicator) ? *tag.coarsen < refine : *tag.coarsen > refine)
-    refuse("coarsen", *tag.coarsen,
-           fmt::format("a value {} that of value, {:g}", isLower(tag.indicator) ? "not below" : "not above", refine));
+    refuse(
+        "coarsen", *tag.coarsen,
+        fmt::format("a value {} the attribute 'value', {:g}", isLower(tag.indicator) ? "at least" : "at most", refine));
 }
 
 const Schema<VariableTag>& variableSchema() {
   static const Schema<VariableTag> schema =
-      Schema<VariableTag>("Variable", "A reason for finer cells.")
+      Schema<VariableTag>("Variable", "A refinement criterion.")
           .location(&VariableTag::where)
           .requiredAttribute("name", &VariableTag::name, "1",
-                             "a variable of cells, such as c.density; or particles, which need nothing else: the "
+                             "a cell variable, such as c.density; or particles, which takes no other attribute: the "
                              "finest level follows them in any case")
           .optionalAttribute("value", &VariableTag::refine, "1",
-                             "finer cells where the indicator is above this (of type below: where it is below); all "
-                             "but particles must have it")
+                             "cells are refined where the indicator is above this (for type below: where it is below); "
+                             "required, except for particles")
           .attributeValue("matl", &VariableTag::material, "all", "1", "name or number of the material, or all")
-          .choiceAttribute("type", &VariableTag::indicator,
-                           {{"jump", Indicator::jump},
-                            {"second_derivative", Indicator::secondDerivative},
-                            {"gradient", Indicator::gradient},
-                            {"above", Indicator::above},
-                            {"below", Indicator::below}},
-                           Indicator::jump,
-                           "the indicator: half the difference of the neighbours over the least magnitude of the three "
-                           "cells, for quantities that stay away from 0, where it is infinite; Löhner's second "
-                           "difference, from 0 to 1; the gradient, unit of the variable over m, which is Uintah's; "
-                           "the value itself")
+          .choiceAttribute(
+              "type", &VariableTag::indicator,
+              {{"jump", Indicator::jump},
+               {"second_derivative", Indicator::secondDerivative},
+               {"gradient", Indicator::gradient},
+               {"above", Indicator::above},
+               {"below", Indicator::below}},
+              Indicator::jump,
+              "the indicator. jump: half the difference of the neighbours over the smallest magnitude in the three "
+              "cells (for quantities that stay away from 0); second_derivative: Löhner's, from 0 to 1; gradient: in "
+              "the unit of the variable per m, as in Uintah; above, below: the value itself")
           .ours()
           .optionalAttribute("coarsen", &VariableTag::coarsen, "1",
-                             "no coarser cells where the indicator is above this (of type below: where it is below); "
-                             "half of value")
+                             "cells are not coarsened where the indicator is above this (for type below: where it is "
+                             "below); half of value by default")
           .ours()
           .check(checkThresholds);
   return schema;
@@ -127,9 +128,10 @@ const Schema<VariableTag>& variableSchema() {
 
 const Schema<CriteriaSection>& criteriaSchema() {
   static const Schema<CriteriaSection> schema =
-      Schema<CriteriaSection>("Refinement_Criteria_Thresholds",
-                              "Where finer cells are needed; of several reasons, the one for the finest cells decides.")
-          .list("Variable", &CriteriaSection::variables, variableSchema(), "a reason for finer cells");
+      Schema<CriteriaSection>(
+          "Refinement_Criteria_Thresholds",
+          "Where finer cells are needed; of several criteria, the one that requests the finest cells decides.")
+          .list("Variable", &CriteriaSection::variables, variableSchema(), "a refinement criterion");
   return schema;
 }
 
@@ -140,7 +142,7 @@ const Schema<ThresholdsSection>& thresholdsSchema() {
         .value("do_Refluxing", &ThresholdsSection::refluxes, true, "1",
                "the flux out of coarse cells equals that into finer ones, to round-off; otherwise totals drift")
         .section("Refinement_Criteria_Thresholds", &ThresholdsSection::criteria, criteriaSchema());
-    const std::string order = "values between levels are of second order";
+    const std::string order = "interpolation between levels is of second order";
     input::noteTag(section, "orderOfInterpolation", order);
     input::noteTag(section, "orderOf_CFI_Interpolation", order);
     input::noteTag(section, "CFI_interpolator", order);
@@ -154,15 +156,15 @@ const Schema<ThresholdsSection>& thresholdsSchema() {
 }
 
 void noteOldRegridderTags(Schema<RegridderSection>& section) {
-  input::noteTag(section, "max_timestep_interval", "every regrid is due by <min_timestep_interval>");
+  input::noteTag(section, "max_timestep_interval", "<min_timestep_interval> alone determines when to regrid");
   const std::string buffer =
-      "<cell_stability_dilation> alone widens the refined region, besides the distance that signals travel";
+      "<cell_stability_dilation> alone widens the refined region, in addition to the distance that signals travel";
   for (const char* tag :
        {"cell_regrid_dilation", "cell_deletion_dilation", "min_boundary_cells", "dynamic_dilation", "max_dilation"})
     input::noteTag(section, tag, buffer);
   const std::string cost = "the refinement does not depend on its cost";
   for (const char* tag : {"amr_overhead_low", "amr_overhead_high"}) input::noteTag(section, tag, cost);
-  input::noteTag(section, "patches_per_level_per_proc", "patches are boxes of blocks; -layout sets how many");
+  input::noteTag(section, "patches_per_level_per_proc", "patches are boxes of blocks; --layout sets their size");
 }
 
 const Schema<RegridderSection>& regridderSchema() {
@@ -170,33 +172,30 @@ const Schema<RegridderSection>& regridderSchema() {
     Schema<RegridderSection> section("Regridder", "How the grid is refined, and when.");
     section
         .choiceAttribute("type", &RegridderSection::type, {{"Tiled", "Tiled"}, {"BNR", "BNR"}}, "Tiled",
-                         "Uintah's ways to choose patches; both mean blocks here")
-        .elsewhere("SingleLevel", "patches of one level are chosen by <patches> of its Box, or -layout")
+                         "Uintah's algorithms for choosing patches; both mean blocks here")
+        .elsewhere("SingleLevel", "the patches of a single level are set by <patches> in its Box, or by --layout")
         .optional("adaptive", &RegridderSection::adaptive, "1",
-                  "whether the refinement follows the state; by default, whether there is a <Variable> or, for mpm, "
-                  "<max_levels> above 1. Without a <Variable>, euler takes jumps above 0.02 of c.density, c.pressure "
-                  "and c.mach; mpm needs none, as "
-                  "the finest level follows its particles")
-        .value("regrid_once", &RegridderSection::once, false, "1", "only at the start")
-        .optional(
-            "max_levels", &RegridderSection::maxLevels, "1",
-            "the most levels, including the coarsest; by default as many as the Levels of Grid make, but at least "
-            "2 if it is adaptive",
-            input::between(1, 16))
+                  "whether the refinement follows the state; true by default if there is a <Variable> or, for mpm, if "
+                  "<max_levels> is above 1. Without a <Variable>, euler refines at jumps of c.density, c.pressure and "
+                  "c.mach above 0.02; mpm needs none, as the finest level follows its particles")
+        .value("regrid_once", &RegridderSection::once, false, "1", "refine only at the start")
+        .optional("max_levels", &RegridderSection::maxLevels, "1",
+                  "largest number of levels, including the coarsest; by default the number that the Levels of Grid "
+                  "make, but at least 2 if the grid is adaptive",
+                  input::between(1, 16))
         .optional("cell_refinement_ratio", &RegridderSection::ratios, "1",
-                  "from each level to the next; the last one also holds for further levels. 2, 4, 8 … along all axes "
-                  "that the "
-                  "grid uses; 4 counts as two levels",
+                  "ratio of cell widths from each level to the next; the last one also holds for further levels. 2, 4, "
+                  "8 … along all axes that the grid uses; 4 counts as two levels",
                   input::atLeast(1))
         .optional("min_patch_size", &RegridderSection::blocks, "1",
-                  "cells of a block, which is refined as a whole: an even number from 4 on that divides the "
-                  "resolution, the same for all levels; without it the greatest up to 8, in one dimension 16",
+                  "cells in a block, which is refined as a whole: an even number of at least 4 that divides the "
+                  "resolution, the same for all levels; by default the largest up to 8 (in one dimension, up to 16)",
                   input::atLeast(1))
         .value("min_timestep_interval", &RegridderSection::interval, 8, "1", "steps from one regridding to the next",
                input::atLeast(1))
         .value("cell_stability_dilation", &RegridderSection::dilation, Index3::filled(1), "1",
-               "cells to refine around those that signals can reach until the next regridding; the greatest of the "
-               "three holds along all axes",
+               "number of cells to refine around those that signals can reach until the next regridding; the largest "
+               "of the three numbers is used along all axes",
                input::nonNegative());
     input::refuseOtherValues(section, "simple_refinement_ratio", {"2"}, "give one more level instead");
     noteOldRegridderTags(section);
@@ -218,15 +217,14 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
     for (const std::string& name : names)
       for (const Element& given : element.children(name)) read.components.push_back(readThresholds(given, diagnostics));
   };
-  section.ignoredAttribute("type", "a grid is adaptive where <Regridder> says so")
+  section.ignoredAttribute("type", "<adaptive> in <Regridder> determines whether a grid is adaptive")
       .value("useLockStep", &AmrSection::usesLockStep, true, "1",
-             "all levels take the same time step; false: finer ones take several smaller steps for each of the next "
-             "coarser level, if no task of a step needs new values of other cells or sums over the grid")
+             "true: all levels take the same time step; false: finer levels take several smaller steps for each step "
+             "of the next coarser level, if no task of a step needs new values of other cells or sums over the grid")
       .section("Regridder", &AmrSection::regridder, regridderSchema());
   if (!names.empty()) {
-    input::TagForm form = input::sectionForm(names, [] {
-      return std::vector<input::Alternative>{{&thresholdsSchema(), {}}};
-    });
+    input::TagForm form =
+        input::sectionForm(names, [] { return std::vector<input::Alternative>{{&thresholdsSchema(), {}}}; });
     form.repeats = false;
     section
         .custom(names.front(), readComponents, names, "how the component runs on several levels",
@@ -234,7 +232,7 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
         .forms({std::move(form)});
   }
   input::noteTag(section, "doMultiTaskgraphing", "all levels are in one graph of tasks");
-  input::noteTag(section, "FineCoarseInterfaces", "values between levels are of second order");
+  input::noteTag(section, "FineCoarseInterfaces", "interpolation between levels is of second order");
   return section;
 }
 
@@ -288,7 +286,7 @@ void checkBlocks(const Element& amr, const std::optional<std::vector<Index3>>& b
     diagnostics.error(
         *amr.child("Regridder")->child("min_patch_size"),
         fmt::format(
-            "found {}, expected the same for all levels: a block is refined into blocks with as many cells as it has",
+            "found {}, expected the same for all levels: a block is refined into blocks with the same number of cells",
             input::toText(*blocks)));
 }
 

@@ -35,11 +35,7 @@ void addTag(Schema<Unread>& parent, const TagForm& form, const std::string& sent
 void addSection(Schema<Unread>& root, const std::string& tag, const SchemaBase& schema, bool isRequired,
                 const std::vector<Demand>& demands = {}) {
   TagForm form = input::sectionForm(
-      {tag},
-      [&schema, demands] {
-        return std::vector<Alternative>{{&schema, demands}};
-      },
-      isRequired ? 1 : 0);
+      {tag}, [&schema, demands] { return std::vector<Alternative>{{&schema, demands}}; }, isRequired ? 1 : 0);
   form.repeats = false;
   addTag(root, form, schema.sentence());
 }
@@ -62,7 +58,7 @@ const SchemaBase& analysisForm(const Catalogue& catalogue, Schemas& schemas) {
   TagForm form = input::sectionForm({"Module"}, [modules] { return modules; });
   Schema<Unread>& all = schemas.emplace_back("DataAnalysis", "What is measured while a scene runs.");
   const bool hasUnknown = modules.size() < kinds.size();
-  addTag(all, hasUnknown ? input::anyForm({"Module"}) : form, "a module; its name says which");
+  addTag(all, hasUnknown ? input::anyForm({"Module"}) : form, "an analysis module, selected by its name");
   return all;
 }
 

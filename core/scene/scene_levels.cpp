@@ -15,20 +15,21 @@ namespace {
 const Schema<GridBox>& boxSchema() {
   static const Schema<GridBox> schema =
       Schema<GridBox>("Box", "The box that is divided into cells.")
-          .attributeValue("label", &GridBox::label, "", "1", "its name")
-          .required("lower", &GridBox::lower, "m", "its lower corner")
-          .required("upper", &GridBox::upper, "m", "its upper corner")
+          .attributeValue("label", &GridBox::label, "", "1", "name")
+          .required("lower", &GridBox::lower, "m", "lower corner")
+          .required("upper", &GridBox::upper, "m", "upper corner")
           .optional("resolution", &GridBox::resolution, "1", "cells along x, y, z (or give <spacing> of the Level)",
                     input::atLeast(1))
           .optional(
               "patches", &GridBox::patches, "1",
-              "patches along x, y, z; where neither this nor autoPatch is given, as many as the threads and ranks need",
+              "patches along x, y, z; if neither this nor autoPatch is given, as many as the threads and ranks need",
               input::atLeast(1))
-          .optional("autoPatch", &GridBox::autoPatch, "1", "approximate number of patches, in place of patches",
+          .optional("autoPatch", &GridBox::autoPatch, "1", "approximate number of patches, instead of <patches>",
                     input::atLeast(1))
-          .value("extraCells", &GridBox::extraCells, Index3{}, "1",
-                 "accepted for Uintah's sake: the shape function determines the extra cells around the grid",
-                 input::nonNegative())
+          .value(
+              "extraCells", &GridBox::extraCells, Index3{}, "1",
+              "accepted for compatibility with Uintah: the shape function determines the extra cells around the grid",
+              input::nonNegative())
           .check([](const GridBox& box, const Element& element, Diagnostics& diagnostics) {
             if (box.patches && box.autoPatch) diagnostics.error(element, "gives both patches and autoPatch; keep one");
             for (int axis = 0; axis < 3; ++axis)
@@ -49,10 +50,10 @@ const Schema<LevelSection>& levelSchema() {
                 "the box that is divided into cells; further Levels may have any number of them, each grown to whole "
                 "blocks (see AMR/Regridder/min_patch_size)",
                 1)
-          .optional("spacing", &LevelSection::spacing, "m", "cell widths, in place of the resolution of the Box",
+          .optional("spacing", &LevelSection::spacing, "m", "cell widths, instead of the resolution of the Box",
                     input::positive())
-          .value("periodic", &LevelSection::periodic, Index3{}, "1",
-                 "1 along axes where the grid repeats without end; the same for all Levels", input::between(0, 1))
+          .value("periodic", &LevelSection::periodic, Index3{}, "1", "1 along periodic axes; the same for all Levels",
+                 input::between(0, 1))
           .check([](const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
             for (const GridBox& box : level.boxes)
               if (box.resolution.has_value() == level.spacing.has_value())
@@ -241,7 +242,8 @@ class Refiner {
     else if (isAdaptive && asked < 2)
       diagnostics_.error(place, "found 1, expected at least 2, since the grid is <adaptive>");
     else if (!isAdaptive && asked > given)
-      diagnostics_.note(place, "does nothing: where the grid is not <adaptive>, its Levels say what is refined");
+      diagnostics_.note(place,
+                        "does nothing: the grid is not <adaptive>, so its Levels alone determine what is refined");
     if (asked > mostLevels)
       diagnostics_.error(place, fmt::format("found {}, which by <cell_refinement_ratio> are {} levels of ratio 2; the "
                                             "most is {}",

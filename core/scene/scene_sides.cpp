@@ -39,7 +39,7 @@ void errorOf(const std::string& attribute, const Element& element, const std::st
 
 Schema<ConditionSection> conditionTag() {
   return Schema<ConditionSection>("BCType", "The condition for a variable at a face.")
-      .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material that it holds for, or all");
+      .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material for which it holds, or all");
 }
 
 /// The words that `var` may have: those of all components, and further ones.
@@ -104,31 +104,30 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
   const auto point = [](const char* what) { return std::string(what) + ", as 0 0.5 0.5"; };
   return Schema<FaceSection>("Face", "A side of the grid, or a part of one.")
       .optionalChoiceAttribute("side", &FaceSection::side, sides, "all of this side except its parts")
-      .optionalChoiceAttribute("circle", &FaceSection::circle, sides, "the part of this side in a circle")
+      .optionalChoiceAttribute("circle", &FaceSection::circle, sides, "the part of this side inside a circle")
       .optionalChoiceAttribute("annulus", &FaceSection::annulus, sides, "the part between two circles")
-      .optionalChoiceAttribute("ellipse", &FaceSection::ellipse, sides, "the part in an ellipse")
-      .optionalChoiceAttribute("rectangle", &FaceSection::rectangle, sides, "the part in a rectangle")
+      .optionalChoiceAttribute("ellipse", &FaceSection::ellipse, sides, "the part inside an ellipse")
+      .optionalChoiceAttribute("rectangle", &FaceSection::rectangle, sides, "the part inside a rectangle")
       .optionalChoiceAttribute("rectangulus", &FaceSection::rectangulus, sides, "the part between two rectangles")
       .oneOfLast(6)
-      .optionalAttribute("origin", &FaceSection::origin, "m", point("the middle of a circle, annulus or ellipse"))
-      .optionalAttribute("radius", &FaceSection::radius, "m", "of a circle", input::positive())
+      .optionalAttribute("origin", &FaceSection::origin, "m", point("the centre of a circle, annulus or ellipse"))
+      .optionalAttribute("radius", &FaceSection::radius, "m", "radius of a circle", input::positive())
       .optionalAttribute("inner_radius", &FaceSection::innerRadius, "m", "of an annulus", input::positive())
       .optionalAttribute("outer_radius", &FaceSection::outerRadius, "m", "of an annulus", input::positive())
-      .optionalAttribute("minor_radius", &FaceSection::minorRadius, "m", "of an ellipse, half its shorter axis",
+      .optionalAttribute("minor_radius", &FaceSection::minorRadius, "m", "shorter semi-axis of an ellipse",
                          input::positive())
-      .optionalAttribute("major_radius", &FaceSection::majorRadius, "m", "of an ellipse, half its longer axis",
+      .optionalAttribute("major_radius", &FaceSection::majorRadius, "m", "longer semi-axis of an ellipse",
                          input::positive())
-      .optionalAttribute(
-          "angle", &FaceSection::angle, "degree",
-          "of the longer axis of an ellipse, seen from outside, to y on x+ and x-, to z on y+ and y-, to "
-          "x on z+ and z-")
+      .optionalAttribute("angle", &FaceSection::angle, "degree",
+                         "between the longer axis of an ellipse, seen from outside, and y on x+ and x-, z on y+ and "
+                         "y-, x on z+ and z-")
       .optionalAttribute("lower", &FaceSection::lower, "m", point("a corner of a rectangle"))
-      .optionalAttribute("upper", &FaceSection::upper, "m", point("the opposite one"))
+      .optionalAttribute("upper", &FaceSection::upper, "m", point("the opposite corner"))
       .optionalAttribute("inner_lower", &FaceSection::innerLower, "m", point("a corner of the hole of a rectangulus"))
-      .optionalAttribute("inner_upper", &FaceSection::innerUpper, "m", point("the opposite one"))
+      .optionalAttribute("inner_upper", &FaceSection::innerUpper, "m", point("the opposite corner"))
       .optionalAttribute("outer_lower", &FaceSection::outerLower, "m", point("a corner of a rectangulus"))
-      .optionalAttribute("outer_upper", &FaceSection::outerUpper, "m", point("the opposite one"))
-      .ignoredAttribute("name", "for readers")
+      .optionalAttribute("outer_upper", &FaceSection::outerUpper, "m", point("the opposite corner"))
+      .ignoredAttribute("name", "a note for readers")
       .list("BCType", &FaceSection::conditions, condition, "the condition for a variable there");
 }
 
@@ -238,7 +237,7 @@ void readCondition(const ConditionSection& given, const Element& tag, bool onPla
     return;
   }
   if (!label && isOfFlow(given.label))
-    diagnostics.note(tag, given.label + " is for components of flow: nothing here depends on it");
+    diagnostics.note(tag, given.label + " is for flow components: nothing here depends on it");
   else if (!label && !labels.empty())
     errorOf("label", tag, input::choiceProblem(given.label, namesOf(labels)), diagnostics);
   const auto& further = face.words.own.vars;

@@ -58,7 +58,7 @@ std::string accessAgainstSmallerSteps(const tasks::Access& access) {
 
 std::string taskAgainstSmallerSteps(const tasks::Task& task) {
   if (task.kind != tasks::TaskKind::work) return "moves particles";
-  if (task.perRank) return "sees all patches at once";
+  if (task.perRank) return "needs all patches at once";
   for (const tasks::Access& access : task.accesses)
     if (std::string problem = accessAgainstSmallerSteps(access); !problem.empty()) return problem;
   return "";
@@ -84,7 +84,7 @@ std::vector<InputProblem> problemsOnLevels(const std::vector<tasks::Task>& tasks
     const bool seesTooMuch = task.perRank && task.perMaterial();
     if (seesTooMuch)
       problems.push_back(
-          {where, "", fmt::format("task {} sees all patches at once, which needs a grid of one level", task.name)});
+          {where, "", fmt::format("task {} needs all patches at once, and hence a grid of one level", task.name)});
     for (const tasks::Access& access : task.accesses)
       if (std::string problem = seesTooMuch ? "" : accessProblem(task, access, grid); !problem.empty())
         problems.push_back({where, "", std::move(problem)});

@@ -95,7 +95,7 @@ void Simulation::saveEnd() {
 
 void Simulation::saveNow() {
   if (outputs_.folder().empty())
-    return run_.progress.line("nothing is saved: the scene asks for no outputs, globals or checkpoints");
+    return run_.progress.line("nothing is saved: the scene has no outputs, saved totals or checkpoints");
   outputs_.save();
   checkpoints_.write();
   run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} saved on request; sus --restart {} continues from here",
@@ -152,8 +152,8 @@ void Simulation::refuseCoarseParticles() {
   }
   if (!outside.empty())
     throw InputError({{run_.problem.regrid.where, "",
-                       fmt::format("particles of {} are in coarser cells, or too close to them; particles live on the "
-                                   "finest level only: give a larger <Level>, or <adaptive> in <AMR>",
+                       fmt::format("particles of {} are in coarser cells, or too close to them; particles must be on "
+                                   "the finest level: give a larger <Level>, or <adaptive> in <AMR>",
                                    outside)}});
 }
 

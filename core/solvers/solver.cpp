@@ -43,7 +43,7 @@ const Solver& solver() {
 }
 
 std::string petscVersion() try { return load().version(); } catch (const std::runtime_error& error) {
-  return fmt::format("not there: {}", error.what());
+  return fmt::format("not available: {}", error.what());
 }
 
 bool isLoaded() { return wasLoaded; }

@@ -171,7 +171,7 @@ struct FluxAccess {
 /// whose change of a cell is dt times the difference of such fluxes over h.
 template <class T>
 FluxAccess<T> keepsFlux(const data::CellLabel<T>& label) {
-  static_assert(data::Stored<T>::number == data::Number::real, "only real numbers flow");
+  static_assert(data::Stored<T>::number == data::Number::real, "keepsFlux(...) takes labels of real numbers");
   return {&label};
 }
 

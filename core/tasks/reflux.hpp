@@ -16,8 +16,8 @@ namespace tushar::tasks {
 TaskList withRefluxing(const TaskList& list);
 
 /// The part of the step of the next coarser level that is over when a level's step begins.
-inline constexpr data::ReductionLabel<data::Minimum> partOfStep{"partOfStep", "1",
-                                                                "part of the next coarser level's step that is over"};
+inline constexpr data::ReductionLabel<data::Minimum> partOfStep{
+    "partOfStep", "1", "fraction of the next coarser level's step that has elapsed"};
 
 /// The lists of a step in which finer levels make several smaller steps.
 struct SteppedByLevel {

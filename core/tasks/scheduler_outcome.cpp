@@ -43,7 +43,7 @@ void Scheduler::noteBroken(const CompiledTask& task, int first, int end) {
 /// Merges the outcome and the reductions of all ranks, in one message to each.
 void Scheduler::agree(const TaskGraph& graph) {
   if (warehouse_->ranks().isAlone()) return;
-  const trace::Span span(trace::Kind::wait, "agree on how it went");
+  const trace::Span span(trace::Kind::wait, "agree on the outcome");
   mpi::Bytes mine(forEachReduction(*warehouse_, graph, [](auto&, std::size_t) {}));
   std::memcpy(mine.data(), &outcome_, sizeof(Outcome));
   forEachReduction(*warehouse_, graph, [&](data::ReductionSlot& slot, std::size_t place) {
