@@ -186,11 +186,11 @@ ExitCode dispatch(const Arguments& arguments, const OpenCatalogue& open,
   if (!arguments.restart && std::filesystem::is_directory(arguments.scene + "/checkpoints"))
     return refuse(fmt::format("{0} is the folder of a run; sus --restart {0} continues it", arguments.scene));
   if (arguments.asksForJson && !arguments.check && arguments.run.jsonPath.empty())
-    return refuse("--json needs the name of a file for the report");
+    return refuse("--json needs a file name for the report");
   if (arguments.check && arguments.asksForJson && !arguments.showsJson() && launchedRank() == 0)
     checkWritable(arguments.run.jsonPath);
   if (arguments.restart && !arguments.run.outputFolder.empty())
-    return refuse("--output has no meaning with --restart: a run continues in its own folder");
+    return refuse("--output cannot be used with --restart: a run continues in its own folder");
   if (arguments.dryRun) {
     const grid::Workers workers{arguments.workers.threads, true, *arguments.dryRun, arguments.workers.layout};
     if (launchedRank() == 0)

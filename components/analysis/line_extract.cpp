@@ -17,8 +17,8 @@ namespace {
 
 const input::Schema<ExtentSettings>& lineSchema() {
   static const input::Schema<ExtentSettings> schema =
-      samplingSchema<ExtentSettings>("lineExtract", "Variables on lines over time, in a file for each cell.")
-          .requiredSection("lines", &ExtentSettings::extents, linesSchema(), "where it samples");
+      samplingSchema<ExtentSettings>("lineExtract", "Variables on lines over time, one file per cell.")
+          .requiredSection("lines", &ExtentSettings::extents, linesSchema(), "the lines to sample");
   return schema;
 }
 
@@ -88,7 +88,7 @@ class LineExtract : public ExtentModule {
     const bool isMixed = columns.back().field->centring != columns.front().field->centring;
     const std::string_view centre = isOfNodes ? "NC" : "CC";
     std::string text;
-    if (isMixed) text = "# positions are the middles of cells; nodes are at their lower corners\n";
+    if (isMixed) text = "# positions are the centres of cells; nodes are at their lower corners\n";
     text += fmt::format("{:<16} {:<16} {:<16} {:<16} {:<16}", fmt::format("# X_{}", centre),
                         fmt::format("Y_{}", centre), fmt::format("Z_{}", centre), "Timestep", "Time [s]");
     for (const Found& column : columns) {
@@ -105,7 +105,7 @@ class LineExtract : public ExtentModule {
 }  // namespace
 
 AnalysisKind lineExtractKind() {
-  return simulation::moduleWithTags<LineExtract>("lineExtract", "variables on lines over time, in a file for each cell",
+  return simulation::moduleWithTags<LineExtract>("lineExtract", "variables on lines over time, one file per cell",
                                                  lineSchema());
 }
 

@@ -47,14 +47,14 @@ void checkTimes(const Times& times, const input::Element& module, input::Diagnos
 /// Adds the tags of times.
 template <class Settings>
 void addTimes(input::Schema<Settings>& schema) {
-  double Settings::*const frequency = &Times::frequency;
-  double Settings::*const start = &Times::start;
-  double Settings::*const stop = &Times::stop;
+  double Settings::* const frequency = &Times::frequency;
+  double Settings::* const start = &Times::start;
+  double Settings::* const stop = &Times::stop;
   schema
       .required("samplingFrequency", frequency, "1/s", "samples per second of simulated time; never more than steps",
                 input::positive())
-      .required("timeStart", start, "s", "no sample before")
-      .required("timeStop", stop, "s", "no sample after")
+      .required("timeStart", start, "s", "no samples before this time")
+      .required("timeStop", stop, "s", "no samples after this time")
       .check([](const Settings& read, const input::Element& module, input::Diagnostics& diagnostics) {
         checkTimes(read, module, diagnostics);
       });
@@ -64,16 +64,16 @@ void addTimes(input::Schema<Settings>& schema) {
 template <class Settings>
 input::Schema<Settings> samplingSchema(const std::string& name, const std::string& sentence,
                                        const input::Schema<AnalyzedList>& list = analyzedSchema()) {
-  std::string Settings::*const called = &Sampling::name;
-  std::string Settings::*const material = &Sampling::material;
-  AnalyzedList Settings::*const variables = &Sampling::variables;
-  Location Settings::*const where = &Sampling::where;
+  std::string Settings::* const called = &Sampling::name;
+  std::string Settings::* const material = &Sampling::material;
+  AnalyzedList Settings::* const variables = &Sampling::variables;
+  Location Settings::* const where = &Sampling::where;
   input::Schema<Settings> schema("Module", sentence);
   schema.requiredAttribute("name", called, "1", name)
       .location(where)
-      .value("material", material, "", "1", "name of the material of variables that name none; the first");
+      .value("material", material, "", "1", "name of the material of variables without matl; the first by default");
   addTimes(schema);
-  return schema.requiredSection("Variables", variables, list, "what it samples");
+  return schema.requiredSection("Variables", variables, list, "the variables to sample");
 }
 
 /// When samples are due: after the first step in the time from `start` to `stop`, and then after each that passes a

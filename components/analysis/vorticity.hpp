@@ -10,7 +10,7 @@ namespace tushar::analysis {
 simulation::AnalysisKind vorticityKind();
 
 /// It always has three components: those across the axes that the grid uses are the others.
-inline constexpr CellLabel<Vec3> vorticityLabel{"c.vorticity", "1/s", "rotation of the velocity"};
+inline constexpr CellLabel<Vec3> vorticityLabel{"c.vorticity", "1/s", "vorticity, the curl of the velocity"};
 
 /// curl v by differences over the two neighbours of a cell, over one at a side of the grid. The velocity has a layer of
 /// ghosts; along the axes that the grid leaves out nothing varies, and it has no component.

@@ -168,8 +168,8 @@ const input::Schema<Settings>& schema() {
           .allOurs()
           .value("viscosity", &Settings::viscosity, 0, "m^2/s", "nu", input::nonNegative())
           .choice("limiter", &Settings::limiter, {{"first_order", 0}, {"minmod", 1}, {"van_leer", 2}, {"mc", 3}}, 2,
-                  "of the slopes within cells; first_order has none")
-          .value("cfl", &Settings::cfl, 0.5, "1", "dt times the greatest sum of |u| / h + 2 nu / h^2 over the axes",
+                  "limiter of the slopes within cells; first_order has no slopes")
+          .value("cfl", &Settings::cfl, 0.5, "1", "dt times the largest sum of |u| / h + 2 nu / h^2 over the axes",
                  input::positive(), input::atMost(1))
           .required("velocity", &Settings::velocity, "m/s", "u at the start");
   return schema;

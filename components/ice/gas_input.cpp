@@ -34,7 +34,7 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   if (var == nameOf(BoundaryKind::neumann)) {
     if ((number && *number != 0) || (vector && *vector != Vec3::Zero()))
       diagnostics.error(
-          *text, fmt::format("found '{}', expected 0: a Neumann condition only extends {} beyond the grid as it is",
+          *text, fmt::format("found '{}', expected 0: a Neumann condition continues {} unchanged beyond the grid",
                              text->text(), label));
     return;
   }
@@ -72,9 +72,9 @@ void checkBeside(const Element& condition, bool slips, bool relaxes, Diagnostics
   const bool isWall = var == "FreeSlipWall" || var == nameOf(BoundaryKind::symmetry);
   const bool acts = isGiven || isWall || var == "Sine";
   if (slips && !isWall && (acts || var == "LODI"))
-    diagnostics.error(condition, "a FreeSlipWall takes no other value: it is a plane of symmetry");
+    diagnostics.error(condition, "a FreeSlipWall is a plane of symmetry, so it takes no other condition");
   if (relaxes && !slips && acts && !(isGiven && label == euler::boundary::temperature.name))
-    diagnostics.error(condition, "beside LODI of the Pressure only a Temperature may be given");
+    diagnostics.error(condition, "with var LODI for the Pressure, only a Temperature may be given as well");
 }
 
 /// Reports conditions of faces that contradict one another, or that need another one.
@@ -88,10 +88,11 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
       });
     };
     const bool slips = has("FreeSlipWall", ""), relaxes = has("LODI", euler::boundary::pressure.name);
-    if (!relaxes && has("LODI", "")) diagnostics.error(face, "var LODI of another variable needs that of the Pressure");
+    if (!relaxes && has("LODI", ""))
+      diagnostics.error(face, "var LODI for another variable needs var LODI for the Pressure");
     if (has("Sine", euler::boundary::temperature.name) && !has("Sine", euler::boundary::pressure.name) &&
         !has("Sine", euler::boundary::velocity.name))
-      diagnostics.error(face, "var Sine of the Temperature needs that of the Pressure or of the Velocity");
+      diagnostics.error(face, "var Sine for the Temperature needs var Sine for the Pressure or the Velocity");
     for (const Element& condition : face.children("BCType")) checkBeside(condition, slips, relaxes, diagnostics);
   }
 }
@@ -195,8 +196,8 @@ void readOneGas(const GasMaterial& material, const Element& element, GasScene& s
   checkShares(material, diagnostics);
   if (scene.implicit && scene.gas.gas.isBarotropic())
     diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "not with JWLC or Murnaghan, whose pressure does not depend on the energy: take it out, or run "
-                      "with --set CFD/ICE/explicit=true");
+                      "is not available with JWLC or Murnaghan, whose pressure does not depend on the energy: remove "
+                      "it, or run with --set CFD/ICE/explicit=true");
 }
 
 void readGases(const std::vector<GasMaterial>& materials, const Element& root, GasScene& scene,
@@ -219,11 +220,11 @@ bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit;
 /// Sections of implicit steps that do nothing here.
 void noteIdle(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   if (const auto solver = root.child(solverTag))
-    diagnostics.note(*solver, isImplicit(ice) ? "does nothing: <ImplicitSolver> has what its solve needs"
+    diagnostics.note(*solver, isImplicit(ice) ? "does nothing: the settings of the solve are in <ImplicitSolver>"
                                               : "does nothing: steps are explicit, without a system of equations");
   if (ice.steps && !isImplicit(ice))
     diagnostics.note(*root.child("CFD")->child("ICE")->child("TimeStepControl"),
-                     "does nothing: steps follow from <cfl>, the sound and the diffusion in each cell");
+                     "does nothing: steps follow from <cfl>, and from the sound speed and the diffusion in each cell");
 }
 
 /// Uintah's scenes require residuals as small as 1e-22; rounding leaves more.
@@ -246,7 +247,7 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
 /// Refuses what a gas can have only without bodies.
 void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   const Element tag = *root.child("CFD")->child("ICE");
-  const char* sentence = "is not available beside bodies: take it out, or keep only the gas";
+  const char* sentence = "is not available beside bodies: remove it, or keep only the gas";
   if (ice.push) diagnostics.error(*tag.child("fixedPressureGradient"), sentence);
   if (ice.eddies) diagnostics.error(*tag.child("turbulence"), sentence);
   for (const Element& material : root.child("MaterialProperties")->child("ICE")->children("material"))

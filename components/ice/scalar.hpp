@@ -58,7 +58,7 @@ class CarriedScalar {
   std::array<std::string, 4> words_;
   BoundaryLabel<double> atSides_{words_[0]};
   CellLabel<double> value_{words_[1], "1", "a number per mass that the gas carries along"};
-  CellLabel<double> held_{words_[2], "kg/m^3", "amount of the scalar per volume"};
+  CellLabel<double> held_{words_[2], "kg/m^3", "the scalar times density"};
   ReductionLabel<Sum> total_{words_[3], "kg", "amount of the scalar in all cells"};
 };
 

@@ -62,9 +62,9 @@ std::vector<double> heatOf(const ice::Exchange& exchange, int solids, int gases,
   if (gases > 1) {
     const std::size_t ofGases = static_cast<std::size_t>(gases) * (gases - 1) / 2;  // the last pairs
     if (std::any_of(heat.begin(), heat.end() - ofGases, [](double h) { return h != 0; }))
-      diagnostics.error(tag.child("heat").value_or(tag),
-                        "heat of bodies is not available where there are several gases: set it to 0 for all pairs "
-                        "with a body");
+      diagnostics.error(
+          tag.child("heat").value_or(tag),
+          "heat exchange with bodies is not available with several gases: set it to 0 for all pairs with a body");
     return {};
   }
   for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material"))
@@ -82,10 +82,10 @@ int countSolids(const Element& root) {
 void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
   const auto mpm = root.child("MPM");
   if (const auto radial = mpm ? mpm->child("axisymmetric") : std::nullopt; radial && radial->text() == "true")
-    diagnostics.error(*radial, "not beside a gas, whose grid is Cartesian");
+    diagnostics.error(*radial, "is not available with a gas, whose grid is Cartesian");
   if (scene.gas.cfl > greatestCfl)
     diagnostics.error(*root.child("CFD")->child("cfl"),
-                      fmt::format("found {:g}, expected at most {:g} beside bodies: cells may be half full",
+                      fmt::format("found {:g}, expected at most {:g} with bodies, as cells may be half full",
                                   scene.gas.cfl, greatestCfl));
 }
 
@@ -100,7 +100,7 @@ void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagno
       const bool isOfGas = label == euler::boundary::density.name || label == euler::boundary::pressure.name;
       const int material = input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
       if (isOfGas || material >= solids || condition.attribute("var") == nameOf(BoundaryKind::neumann)) continue;
-      diagnostics.note(condition, "holds for the gas alone: bodies have the conditions of whole sides");
+      diagnostics.note(condition, "holds for the gas only: bodies have the conditions of the whole side");
     }
   }
 }
@@ -119,20 +119,18 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
   if (!scene.scalars.empty())
     diagnostics.error(scene.scalars.front().where, "Models/Model",
-                      "is not available beside bodies; take it out, or keep only the gas");
+                      "is not available beside bodies; remove it, or keep only the gas");
   if (!scene.massExchanges.empty())
     diagnostics.error(scene.massExchanges.front().where, "Models/Model",
-                      "is not available beside bodies; take it out, or keep only the gas");
+                      "is not available beside bodies; remove it, or keep only the gas");
   if (std::any_of(scene.diffusions.begin(), scene.diffusions.end(), [](const auto& one) { return one.acts(); }))
-    diagnostics.error(
-        scene.where, "CFD",
-        "a viscosity or thermal conductivity of several gases is not available beside bodies: set each to "
-        "0, or keep one gas");
+    diagnostics.error(scene.where, "CFD",
+                      "with bodies, the viscosity and thermal conductivity of several gases are not available: set "
+                      "them to 0, or keep one gas");
   if (scene.implicit && scene.gas.gas.law)
-    diagnostics.error(
-        scene.implicit->where, "CFD/ICE/ImplicitSolver",
-        "is not available beside bodies in a gas that is neither ideal nor stiffened: take it out, or run "
-        "with --set CFD/ICE/explicit=true");
+    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
+                      "is not available beside bodies in a gas that is neither ideal nor stiffened: remove it, or run "
+                      "with --set CFD/ICE/explicit=true");
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};

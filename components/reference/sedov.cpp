@@ -19,8 +19,9 @@ constexpr int kSteps = 16000;
 Sedov::Sedov(const SedovProblem& problem) : RadialReference(problem.centre, problem.round), problem_(problem) {
   requireRadialFlow("A blast", problem.density, "energy", problem.energy, problem.pressure, problem.gamma);
   if (dimension() == 3 && problem.gamma >= 7)
-    throw std::invalid_argument(fmt::format(
-        "A blast in three dimensions leaves a void in its middle for gamma of 7 and more, such as {}.", problem.gamma));
+    throw std::invalid_argument(
+        fmt::format("A blast in three dimensions leaves a void at its centre if gamma is 7 or more, but gamma is {}.",
+                    problem.gamma));
   tabulate();
   alpha_ = findAlpha();
 }
@@ -58,7 +59,7 @@ Sedov::Shape Sedov::shapeAt(double logLambda) const {
   const auto k = std::min(static_cast<std::size_t>(place), nodes_.size() - 2);
   const Node &a = nodes_[k], &b = nodes_[k + 1];
   const double s = place - static_cast<double>(k);
-  const auto cubic = [&](double Shape::*what) {
+  const auto cubic = [&](double Shape::* what) {
     const double rise = b.value.*what - a.value.*what;
     const double left = step_ * a.slope.*what - rise, right = rise - step_ * b.slope.*what;
     return a.value.*what + s * (rise + (1 - s) * ((1 - s) * left + s * right));

@@ -17,7 +17,7 @@ namespace {
 /// A word for a side or a part of one, and the attributes that go with it.
 struct FaceWord {
   std::string name;
-  std::optional<int> FaceSection::*face;
+  std::optional<int> FaceSection::* face;
   std::vector<std::string> attributes;
 };
 const std::vector<FaceWord>& faceWords() {
@@ -60,8 +60,8 @@ bool hasAttributesOf(const FaceWord& word, const Element& tag, Diagnostics& diag
   const auto& own = word.attributes;
   for (const std::string& needed : own)
     if (!tag.attribute(needed))
-      diagnostics.error(
-          tag, fmt::format("missing attribute '{}': {} goes with {}", needed, word.name, fmt::join(own, ", ")));
+      diagnostics.error(tag,
+                        fmt::format("missing attribute '{}': {} needs {}", needed, word.name, fmt::join(own, ", ")));
   std::set<std::string> told(own.begin(), own.end());
   for (const FaceWord& other : faceWords()) {
     if (&other != &word && tag.attribute(other.name))
@@ -71,7 +71,7 @@ bool hasAttributesOf(const FaceWord& word, const Element& tag, Diagnostics& diag
       if (tag.attribute(attribute) && told.insert(attribute).second)
         diagnostics.error(
             tag.whereOf(attribute), tag.path(),
-            fmt::format("unknown attribute '{}' of a {}; it goes with {}", attribute, called(word), other.name));
+            fmt::format("unknown attribute '{}' of a {}; it belongs to {}", attribute, called(word), other.name));
   }
   return diagnostics.size() == before;
 }

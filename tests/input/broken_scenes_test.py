@@ -248,7 +248,7 @@ class BrokenScenes(unittest.TestCase):
         method, air = "MPM/conserving_gas_dynamics/", "MaterialProperties/MPM/material[2]/"
         for sets, sentence in (
                 (("MPM/conserving_gas_dynamics/transfer=affine_flip",), "several gases need <transfer> apic"),
-                ((method + "remap/every=4",), "several gases cannot have a <remap>; take it out"),
+                ((method + "remap/every=4",), "several gases cannot have a <remap>; remove it"),
                 ((method + "artificial_heat_conduction=1",), "several gases cannot have <artificial_heat_conduction>"),
                 ((air + "relaxation/rate=1", air + "relaxation/internal_energy=1"),
                  "several gases cannot have <relaxation>"),

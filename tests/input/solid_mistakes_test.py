@@ -133,7 +133,7 @@ REFUSED = {
          "MPM/DoPressureStabilization=true"),
     "an energy budget of implicit steps":
         (BEAM, ("<dynamic>", " <dynamic>"),
-         "only solids with explicit time steps have an energy budget; take the module out",
+         "only solids with explicit time steps have an energy budget; remove the module",
          "DataAnalysis/Module/@name=energyBudget"),
     "the heat of a viscosity that is not there":
         (SPALL, ("<artificial_viscosity>true", "<artificial_viscosity>false"),

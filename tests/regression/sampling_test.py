@@ -211,7 +211,7 @@ class Sampling(ModuleTest):
         curl = self.scene('<Module name="vorticity"><material>nothing</material></Module>', bodies)
         self.assertIn("material: found 'nothing', expected", sus(curl, "-check").stderr)
         heat = self.scene(VORTICITY, ROOT / "ups/heat/sine.ups")
-        self.assertIn("no velocity of a gas in cells; take the module out", sus(heat, "-check").stderr)
+        self.assertIn("no velocity of a gas in cells; remove the module", sus(heat, "-check").stderr)
 
 
 class Twice(ModuleTest):

@@ -82,11 +82,11 @@ void checkSide(const Element& face, const Element& condition, int solids, Diagno
       label == euler::boundary::density.name || (label == euler::boundary::temperature.name && !isWall(face));
   if (var == euler::boundary::waves.name)
     diagnostics.error(condition.whereOf("var"), condition.path(),
-                      "LODI is not available where there are several gases: give Neumann, or a Pressure");
+                      "LODI is not available with several gases: give Neumann, or a Pressure");
   else if (isGiven && saysWhat)
     diagnostics.error(condition,
-                      "Dirichlet is not available where there are several gases: what flows in is the gas beside "
-                      "the side; give a Velocity or a Pressure, or Neumann");
+                      "Dirichlet is not available with several gases: the gas that flows in has the composition of the "
+                      "adjacent cells; give a Velocity or a Pressure, or Neumann");
   else if (var != nameOf(BoundaryKind::neumann))
     checkMaterial(condition, solids, diagnostics);
 }
@@ -125,10 +125,10 @@ void checkMixture(const std::vector<GasMaterial>& materials, const Element& root
   }
   if (scene.implicit)
     diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "is not available with several gases: take it out, or run with --set CFD/ICE/explicit=true");
+                      "is not available with several gases: remove it, or run with --set CFD/ICE/explicit=true");
   if (!scene.scalars.empty())
     diagnostics.error(scene.scalars.front().where, "Models/Model",
-                      "is not available with several gases; take it out, or keep one gas");
+                      "is not available with several gases; remove it, or keep one gas");
   checkExchange(scene, root, solids, diagnostics);
   checkExchangesOfMass(scene, diagnostics);
   checkSides(root, solids, diagnostics);

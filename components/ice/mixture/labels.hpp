@@ -22,7 +22,7 @@ namespace c {
 
 /// Variables of each of several gases, derived if a scene saves them.
 inline constexpr CellLabel<double> ownDensity{"c.ownDensity", "kg/m^3",
-                                              "mass of a gas over the volume that it has; 0 where it has none"};
+                                              "mass of a gas over its own volume; 0 where there is none"};
 
 }  // namespace c
 

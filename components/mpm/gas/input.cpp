@@ -59,7 +59,7 @@ void refuseMixtures(const MpmSection& method, const GasProperties& properties, D
     refuse("<gas_dynamics> takes one material; give it several <geom_object>s, or use <conserving_gas_dynamics>");
   if (!method.conserving) return;
   if (method.conserving->transfer != conserving::Transfer::apic) refuse("several gases need <transfer> apic");
-  if (method.conserving->remap) refuse("several gases cannot have a <remap>; take it out");
+  if (method.conserving->remap) refuse("several gases cannot have a <remap>; remove it");
   if (method.conserving->heatConduction > 0) refuse("several gases cannot have <artificial_heat_conduction>");
   for (std::size_t k = 0; k < materials.size(); ++k) {
     if (materials[k].relaxation) refuse("several gases cannot have <relaxation>");

@@ -79,10 +79,9 @@ class MassProjection : public simulation::Analysis {
 /// Why the module cannot measure this run; empty if it can.
 std::string misfit(const GasMpm<1>* mpm, const Level& level) {
   if (level.dimension() > 1)
-    return fmt::format("works in one dimension, like its theorem, but this grid has {}; take the module out",
+    return fmt::format("works only in one dimension, like its theorem, but this grid has {}; remove the module",
                        level.dimension());
-  if (!mpm)
-    return "measures the <gas_dynamics> of the component mpm, which this scene does not run; take the module out";
+  if (!mpm) return "measures the <gas_dynamics> of the component mpm, which this scene does not run; remove the module";
   if (mpm->method().volumeModel != VolumeModel::cellShare)
     return "measures particles that share their cell's volume, but volume_model is tracked; use cell_share";
   return {};
@@ -162,9 +161,9 @@ void measureMassProjection(const Patch& patch, const Gas&, ParticleView<const Ve
 }
 
 simulation::AnalysisKind massProjectionKind() {
-  return simulation::plainModule("massProjection", "error of the nodal mass against its bound",
-                                 "Error of the nodal mass against its bound, (19)-(23) of Tran, Kim & Berzins.",
-                                 makeModule);
+  return simulation::plainModule(
+      "massProjection", "error of the nodal mass against its bound",
+      "Error of the nodal mass against its bound, equations (19)-(23) of Tran, Kim & Berzins.", makeModule);
 }
 
 }  // namespace tushar::mpm::gas::paper

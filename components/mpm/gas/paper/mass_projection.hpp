@@ -26,9 +26,9 @@ inline constexpr NodeLabel<double> massProjectionBound{"g.massProjectionBound", 
 
 /// The greatest |E_m^i| over the volume of a cell, which is |E_m^i| / h in the paper.
 inline constexpr ReductionLabel<Maximum> massProjectionError{
-    "MassProjectionError", "kg/m^3", "greatest error of the projection of mass, over the cell volume"};
-inline constexpr ReductionLabel<Maximum> massProjectionRatio{"MassProjectionRatio", "1",
-                                                             "greatest error of the projection of mass over its bound"};
+    "MassProjectionError", "kg/m^3", "largest error of the mass projection, over the cell volume"};
+inline constexpr ReductionLabel<Maximum> massProjectionRatio{
+    "MassProjectionRatio", "1", "largest ratio of the error of the mass projection to its bound"};
 
 /// A particle, seen from a cell: 0 is the lower face, 1 the upper.
 struct PlacedDensity {

@@ -21,7 +21,7 @@ struct InitialVolumeRatio {
     constexpr bool isNamed = providesCapability<M, InitialVolumeRatio>;
     constexpr bool isAbsent = requires { &Both<M, Name>::initialVolumeRatio; };
     static_assert(isNamed || isAbsent,
-                  "a member initialVolumeRatio is used only by a model that names capability::InitialVolumeRatio");
+                  "a member initialVolumeRatio is used only if the model names capability::InitialVolumeRatio");
     constexpr bool fits = requires { Member<M, double>{&M::initialVolumeRatio}; };
     static_assert(!isNamed || fits,
                   "capability::InitialVolumeRatio needs the public member `double initialVolumeRatio() const`");
@@ -39,7 +39,7 @@ struct InitialStress {
     constexpr bool isNamed = providesCapability<M, InitialStress>;
     constexpr bool isAbsent = requires { &Both<M, Name>::initialStress; };
     static_assert(isNamed || isAbsent,
-                  "a member initialStress is used only by a model that names capability::InitialStress");
+                  "a member initialStress is used only if the model names capability::InitialStress");
     constexpr bool fits = requires { Member<M, Matrix3>{&M::initialStress}; };
     static_assert(!isNamed || fits,
                   "capability::InitialStress needs the public member `Matrix3 initialStress() const`");

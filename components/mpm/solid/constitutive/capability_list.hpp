@@ -17,7 +17,7 @@ struct CapabilityList {
   template <class T>
   static consteval bool check() {
     static_assert(T::Capabilities::areAmong(CapabilityList()),
-                  "Capabilities must hold capabilities of this kind of model only: they stand in namespace capability");
+                  "Capabilities must list only capabilities of this kind of model, from namespace capability");
     return (Names::template check<T>() && ...);
   }
   template <class... Others>

@@ -48,7 +48,7 @@ struct FibreElasticity {
 
   /// A member as one of the Model that inherits it.
   template <class Model, class T>
-  static T Model::*in(T FibreElasticity::*member) {
+  static T Model::* in(T FibreElasticity::* member) {
     return member;
   }
   template <class Model>
@@ -56,14 +56,15 @@ struct FibreElasticity {
     tags.required("bulk_modulus", in<Model>(&FibreElasticity::bulkModulus), "Pa", "K", input::positive())
         .required("c1", in<Model>(&FibreElasticity::c1), "Pa", "first constant of the matrix", input::positive())
         .required("c2", in<Model>(&FibreElasticity::c2), "Pa", "second constant of the matrix", input::nonNegative())
-        .required("c3", in<Model>(&FibreElasticity::c3), "Pa", "of the fibres while they straighten",
+        .required("c3", in<Model>(&FibreElasticity::c3), "Pa", "factor of the stress of fibres while they straighten",
                   input::nonNegative())
-        .required("c4", in<Model>(&FibreElasticity::c4), "1", "how fast they straighten", input::nonNegative())
+        .required("c4", in<Model>(&FibreElasticity::c4), "1", "exponential growth of that stress with the stretch",
+                  input::nonNegative())
         .required("c5", in<Model>(&FibreElasticity::c5), "Pa", "modulus of straight fibres", input::nonNegative())
         .required("fiber_stretch", in<Model>(&FibreElasticity::straight), "1", "stretch at which fibres are straight",
                   input::atLeast(1))
         .custom("direction_of_symm", readFibre, {"direction_of_symm"},
-                "along the fibres at the start; its length does not matter")
+                "direction of the fibres at the start; its length does not matter")
         .forms({input::typeForm({"direction_of_symm"}, std::string(input::typeName<Vec3>), 1)})
         .ignored("max_fiber_strain", "only Uintah's failure_option 1 uses it")
         .ignored("max_matrix_strain", "only Uintah's failure_option 1 uses it")

@@ -32,13 +32,13 @@ struct GursonPlastic {
        Base::stateVariables[2],
        Base::stateVariables[3],
        {"p.porosity", "1", "porosity"},
-       {"p.plasticDilatation", "1", "plastic change of the volume by the volume"},
-       {"p.plasticWork", "J/m^3", "work of the plastic flow in the last step"}}};
+       {"p.plasticDilatation", "1", "relative plastic change of volume"},
+       {"p.plasticWork", "J/m^3", "plastic work in the last step"}}};
 
   Base base;  ///< the same for the metal without pores
 
   static const input::Schema<GursonPlastic>& schema() {
-    static const input::Schema<GursonPlastic> schema(name, "Metals with pores: see elastic_plastic_hp.");
+    static const input::Schema<GursonPlastic> schema(name, "Porous metals: see elastic_plastic_hp.");
     return schema;
   }
   State initialState() const { return {0, 0, 0, 0, base.initialPorosity, 0, 0}; }

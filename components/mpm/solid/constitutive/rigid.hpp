@@ -17,7 +17,7 @@ struct Rigid {
 
   static const input::Schema<Rigid>& schema() {
     static const input::Schema<Rigid> schema = [] {
-      input::Schema<Rigid> tags("rigid", "No stress at all: for bodies that a contact moves.");
+      input::Schema<Rigid> tags("rigid", "No stress: for bodies that a contact moves.");
       for (const char* tag :
            {"bulk_modulus", "shear_modulus", "K", "G", "useModifiedEOS", "alpha", "coeff_thermal_expansion"})
         tags.ignored(tag, "nothing depends on it");

@@ -33,7 +33,7 @@ struct UcnhVar {
   static constexpr bool strainEnergyIsRate = false;
   static constexpr std::size_t mostEntries = 32;
 
-  /// Constants of the particles of a color.
+  /// The constants of particles of one color.
   struct Entry {
     double color = 0, bulkModulus = 0, shearModulus = 0, yieldStress = 0, hardeningModulus = 0;
   };
@@ -68,7 +68,7 @@ struct UcnhVar {
   double initialVolumeRatio() const { return startVolumeRatio; }
   State initialState() const { return initialState({0, table().front().color}); }
   State initialState(const Birth& birth) const {
-    const auto of = [&](double Entry::*constant) { return valueByColor(table(), birth.color, constant); };
+    const auto of = [&](double Entry::* constant) { return valueByColor(table(), birth.color, constant); };
     const double shift =
         yieldRange > 0 ? (2 * drawn(Drawing::yieldStress, yieldSeed, birth.id, 0) - 1) * yieldRange : 0;
     return {initialPlasticStrain,
@@ -120,38 +120,35 @@ struct UcnhVar {
 
   static const input::Schema<Table>& tableSchema() {
     static const input::Schema<Entry> entry =
-        input::Schema<Entry>("entry", "Constants of the particles of a color.")
+        input::Schema<Entry>("entry", "The constants of particles of one color.")
             .required("color", &Entry::color, "1", "p.color of the particles")
             .required("bulk_modulus", &Entry::bulkModulus, "Pa", "K", input::positive())
             .required("shear_modulus", &Entry::shearModulus, "Pa", "G", input::positive())
-            .required("yield_stress", &Entry::yieldStress, "Pa", "in uniaxial tension", input::positive())
+            .required("yield_stress", &Entry::yieldStress, "Pa", "yield stress in uniaxial tension", input::positive())
             .required("hardening_modulus", &Entry::hardeningModulus, "Pa",
                       "growth of the yield stress with the plastic strain", input::nonNegative());
     static const input::Schema<Table> schema =
-        input::Schema<Table>("variable_properties", "Constants by p.color, linear between the entries.")
-            .list("entry", &Table::entries, entry, "constants of a color, in the order of the colors", 1);
+        input::Schema<Table>("variable_properties", "Constants as a function of p.color, linear between the entries.")
+            .list("entry", &Table::entries, entry, "constants for one color, in order of increasing color", 1);
     return schema;
   }
   static void readTable(UcnhVar& read, const input::Element& element, input::Diagnostics& diagnostics) {
     const auto given = element.child("variable_properties");
-    if (!given) return diagnostics.error(element, "missing tag <variable_properties> (constants by p.color)");
+    if (!given)
+      return diagnostics.error(element, "missing tag <variable_properties> (constants as a function of p.color)");
     const Table table = tableSchema().read(*given, diagnostics);
     if (table.entries.size() > mostEntries || !growsInColor(table.entries))
-      return diagnostics.error(*given, "takes at most 32 entries, in the order of increasing <color>");
+      return diagnostics.error(*given, "takes at most 32 entries, in order of increasing <color>");
     std::copy(table.entries.begin(), table.entries.end(), read.entries.begin());
     read.count = table.entries.size();
   }
   static input::Schema<UcnhVar> makeSchema() {
-    input::Schema<UcnhVar> tags(name, "UCNH with constants of each particle by its color.");
-    tags.value("usePlasticity", &UcnhVar::isPlastic, false, "1", "whether it yields")
-        .custom("variable_properties", readTable, {"variable_properties"}, "constants by p.color",
+    input::Schema<UcnhVar> tags(name, "UCNH with constants that depend on the color of the particle.");
+    tags.value("usePlasticity", &UcnhVar::isPlastic, false, "1", "whether the material yields")
+        .custom("variable_properties", readTable, {"variable_properties"}, "constants as a function of p.color",
                 [](std::ostream& out, int indent) { tableSchema().describeContents(out, indent); })
         .forms({input::sectionForm(
-            {"variable_properties"},
-            [] {
-              return std::vector<input::Alternative>{{&tableSchema(), {}}};
-            },
-            1)})
+            {"variable_properties"}, [] { return std::vector<input::Alternative>{{&tableSchema(), {}}}; }, 1)})
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
         .ignored("initial_pressure", "belongs to useInitialStress");
     refuseSwitch(tags, "useInitialStress", "bodies start without stress");

@@ -135,8 +135,8 @@ struct ViscoTransIsoHyper : FibreElasticity {
       const std::string number = std::to_string(k + 1);
       tags.required("y" + number, members[k].first, "1", "stiffness of a Maxwell element, relative to the elastic one",
                     input::nonNegative());
-      tags.required("t" + number, members[k].second, "s", "its time of relaxation; 0: there is no such element",
-                    input::nonNegative());
+      tags.required("t" + number, members[k].second, "s",
+                    "relaxation time of this element; 0: the element does not exist", input::nonNegative());
     }
     refuseSwitch(tags, "active", "the stress follows from the deformation alone");
     return tags;

@@ -30,9 +30,8 @@ using namespace solid::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> acceleration{"p.acceleration", "m/s^2", "acceleration at the end of the step"};
 template <int D>
-inline constexpr ParticleLabel<Vec<D>> deformedPosition{"p.xx", "m",
-                                                        "position; p.x is that at the start if "
-                                                        "do_grid_reset is false"};
+inline constexpr ParticleLabel<Vec<D>> deformedPosition{
+    "p.xx", "m", "position; if do_grid_reset is false, p.x is the position at the start"};
 }  // namespace p
 namespace g {
 using namespace solid::g;
@@ -43,13 +42,14 @@ inline constexpr NodeLabel<Vec<D>> newAcceleration{"g.newAcceleration", "m/s^2",
 }  // namespace g
 namespace total {
 using namespace solid::total;
-inline constexpr ReductionLabel<Maximum> newtonIterations{"NewtonIterations", "1", "of the last step"};
-inline constexpr ReductionLabel<Maximum> newtonResidual{"NewtonResidual", "1",
-                                                        "at the end of the last step over the greatest on the way"};
+inline constexpr ReductionLabel<Maximum> newtonIterations{"NewtonIterations", "1",
+                                                          "Newton iterations of the last step"};
+inline constexpr ReductionLabel<Maximum> newtonResidual{
+    "NewtonResidual", "1", "residual at the end of the last step, relative to the largest in that step"};
 inline constexpr ReductionLabel<Maximum> krylovIterations{"KrylovIterations", "1",
-                                                          "of all linear solves of the last step"};
+                                                          "iterations of all linear solves in the last step"};
 inline constexpr ReductionLabel<Minimum> nextTimeStep{"nextTimeStep", "s",
-                                                      "what Newton's iterations allow the next step"};
+                                                      "next time step, by the number of Newton iterations"};
 }  // namespace total
 
 }  // namespace tushar::mpm::solid::implicit

@@ -31,8 +31,7 @@ struct Hardening {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<Flow, Hardening>;
     constexpr bool isAbsent = requires { &Both<Flow, Name>::hardening; };
-    static_assert(isNamed || isAbsent,
-                  "a member hardening is used only by a flow model that names capability::Hardening");
+    static_assert(isNamed || isAbsent, "a member hardening is used only if the flow model names capability::Hardening");
     constexpr bool fits = requires { Member<Flow, double, const FlowState&>{&Flow::hardening}; };
     static_assert(!isNamed || fits,
                   "capability::Hardening needs the public member `double hardening(const FlowState&) const`");
@@ -51,7 +50,7 @@ struct PlasticRate {
     constexpr bool isNamed = providesCapability<Flow, PlasticRate>;
     constexpr bool isAbsent = requires { &Both<Flow, Name>::dependsOnPlasticRate; };
     static_assert(isNamed || isAbsent,
-                  "a member dependsOnPlasticRate is used only by a flow model that names capability::PlasticRate");
+                  "a member dependsOnPlasticRate is used only if the flow model names capability::PlasticRate");
     constexpr bool fits = requires { Member<Flow, bool>{&Flow::dependsOnPlasticRate}; };
     static_assert(!isNamed || fits,
                   "capability::PlasticRate needs the public member `bool dependsOnPlasticRate() const`");
@@ -70,13 +69,11 @@ consteval bool isFlowRule() {
   static_assert(
       requires {
         { Flow::name } -> std::convertible_to<std::string_view>;
-      },
-      "a flow model needs `static constexpr std::string_view name`: its type in a scene");
+      }, "a flow model needs `static constexpr std::string_view name`: its type in a scene");
   static_assert(
       requires {
         { Flow::schema() } -> std::same_as<const input::Schema<Flow>&>;
-      },
-      "a flow model needs `static const input::Schema<Flow>& schema()` for its own type Flow");
+      }, "a flow model needs `static const input::Schema<Flow>& schema()` for its own type Flow");
   static_assert(
       requires { Member<Flow, double, const FlowState&>{&Flow::flowStress}; },
       "a flow model needs `double flowStress(const FlowState&) const`");

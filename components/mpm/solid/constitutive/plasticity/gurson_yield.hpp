@@ -15,7 +15,8 @@ namespace tushar::mpm::solid {
 struct VonMisesYield {
   static constexpr std::string_view name = "vonMises";
   static const input::Schema<VonMisesYield>& schema() {
-    static const input::Schema<VonMisesYield> schema("yield_condition", "The equivalent stress is the yield stress.");
+    static const input::Schema<VonMisesYield> schema(
+        "yield_condition", "The material yields if the equivalent stress reaches the yield stress.");
     return schema;
   }
 };
@@ -31,10 +32,10 @@ struct GursonYield {
 
   static const input::Schema<GursonYield>& schema() {
     static const input::Schema<GursonYield> schema =
-        input::Schema<GursonYield>("yield_condition", "Of metals with pores: Gurson, Tvergaard and Needleman.")
+        input::Schema<GursonYield>("yield_condition", "Porous metals: Gurson, Tvergaard and Needleman.")
             .required("q1", &GursonYield::q1, "1", "factor of the porosity", input::positive())
             .required("q2", &GursonYield::q2, "1", "factor of the mean stress", input::positive())
-            .required("q3", &GursonYield::q3, "1", "factor of the square of the porosity, q1^2 as a rule",
+            .required("q3", &GursonYield::q3, "1", "factor of the square of the porosity, usually q1^2",
                       input::nonNegative())
             .required("k", &GursonYield::acceleration, "1", "factor on the porosity above f_c, where pores coalesce",
                       input::positive())

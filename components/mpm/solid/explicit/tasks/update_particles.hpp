@@ -256,11 +256,10 @@ NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, con
   int p = range.first;
   while (p + 1 < range.last && isSound(p)) ++p;
   const Vec3 x = level.expandPoint<D>(u.x[p]);
-  return {
-      fmt::format(
-          "the wave speed of the particle at ({:g}, {:g}, {:g}) m is not a number: det F is {:g}, its speed {:g} m/s",
-          x[0], x[1], x[2], u.deformation[p].determinant(), u.velocity[p].norm()),
-      "", "p.deformationMeasure", level.cellNumber<D>(cell)};
+  return {fmt::format("the wave speed of the particle at ({:g}, {:g}, {:g}) m is not a number: det F is {:g}, the "
+                      "particle's speed {:g} m/s",
+                      x[0], x[1], x[2], u.deformation[p].determinant(), u.velocity[p].norm()),
+          "", "p.deformationMeasure", level.cellNumber<D>(cell)};
 }
 
 /// Whether several particles are updated at once: their cells hold enough of them in three dimensions only.
