@@ -90,9 +90,8 @@ void checkThresholds(const VariableTag& tag, const Element& element, Diagnostics
   if (!tag.coarsen) return;
   if (!isValue(tag.indicator) && *tag.coarsen < 0) refuse("coarsen", *tag.coarsen, "a value of at least 0");
   if (isLower(tag.indicator) ? *tag.coarsen < refine : *tag.coarsen > refine)
-    refuse(
-        "coarsen", *tag.coarsen,
-        fmt::format("a value {} the attribute 'value', {:g}", isLower(tag.indicator) ? "at least" : "at most", refine));
+    refuse("coarsen", *tag.coarsen,
+           fmt::format("{} the attribute 'value', {:g}", isLower(tag.indicator) ? "at least" : "at most", refine));
 }
 
 const Schema<VariableTag>& variableSchema() {

@@ -78,8 +78,7 @@ class Weather : public test::Runner {
 std::string fileOf(Weather& weather) {
   const std::string path = test::temporaryFolder() + "state.h5";
   const StoredState state(weather.warehouse, weather.names);
-  output::writeTogether(
-      {}, path, {}, [](output::Hdf5File&) {}, state.datasets());
+  output::writeTogether({}, path, {}, [](output::Hdf5File&) {}, state.datasets());
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   return text.str();
@@ -148,9 +147,9 @@ TEST(StoredState, RefusesWhatDoesNotFitTheScene) {
   EXPECT_EQ(refusalOf(larger, {}),
             "the checkpoint has 35 numbers for /cells/fine/c.heat, but the scene needs 40; undo what was changed in "
             "the scene since");
-  EXPECT_EQ(
-      refusalOf(same, {"p.mark"}),
-      "the checkpoint has no /particles/fine/p.mark, which the scene needs; undo what was changed in the scene since");
+  EXPECT_EQ(refusalOf(same, {"p.mark"}),
+            "the checkpoint has no /particles/fine/p.mark, which the scene needs; undo the changes made to the scene "
+            "since then");
   EXPECT_EQ(refusalOf(same, {"p.x"}), "");
 }
 
