@@ -75,7 +75,8 @@ REFUSED = {
          "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
     "a direct solver that solves nothing":
         (BEAM, ("<preconditioner>lu", "<preconditioner>gamg"),
-         "preconditioner: found 'gamg', but with <solver> direct the preconditioner solves the system: use lu or cholesky"),
+         "preconditioner: found 'gamg', but with <solver> direct the preconditioner solves the "
+         "system: use lu or cholesky"),
     "steps that Uintah would take again":
         (BILLET, ("<MPM>\n    <time", "<MPM>\n    <restartOnLargeNodalVelocity>true</restartOnLargeNodalVelocity>\n    "
                                       "<time"),
