@@ -6,7 +6,7 @@
 
 namespace tushar {
 
-/// Merges two values as they lie in memory, aligned or not: `into.merge(from)`.
+/// Merges two values given by their bytes, aligned or not: `into.merge(from)`.
 template <class T>
 void mergeInMemory(const std::byte* from, std::byte* into) {
   static_assert(std::is_trivially_copyable_v<T>,

@@ -26,10 +26,10 @@ inline void append(Bytes& bytes, const void* from, std::size_t length) {
   bytes.insert(bytes.end(), first, first + length);
 }
 
-/// Name and version of the MPI library in use; MPI need not be initialised.
+/// Name and version of the MPI library; MPI need not be initialised.
 std::string libraryVersion();
 
-/// Thrown where another rank has failed; that rank reports why.
+/// Thrown on a rank because another one has failed, which reports the cause.
 class FailedElsewhere : public std::runtime_error {
  public:
   FailedElsewhere() : std::runtime_error("another rank has failed") {}
@@ -56,10 +56,10 @@ class Communicator {
 
   bool any(bool mine) const;
   double max(double mine) const;
-  /// The maximum of each over all ranks.
+  /// Replaces each number by its maximum over all ranks.
   void max(std::span<double> mine) const;
   long sum(long mine) const;
-  /// The sum of each over all ranks; bitwise the same on all ranks if they are whole numbers.
+  /// Replaces each number by its sum over all ranks; whole numbers have bitwise the same sum on all ranks.
   void sum(std::span<double> mine) const;
   /// Merges the values of all ranks by `merge(from, into)`, in a tree that depends only on the number of ranks. Every
   /// rank gets the same bits.
@@ -86,7 +86,7 @@ class Communicator {
   std::string broadcast(const std::string& text, int from = 0) const;
   /// The texts of all ranks, by rank, on every rank. Slow: for errors.
   std::vector<std::string> gather(const std::string& mine) const;
-  /// Runs a function on rank 0 alone: throws what it throws there, and FailedElsewhere on the others.
+  /// Runs a function on rank 0 only. If it throws, its exception passes on there, and the others throw FailedElsewhere.
   void onFirst(const std::function<void()>& action) const;
 
   /// Waits for the next message of rank `from` with this tag.
@@ -113,7 +113,7 @@ class Outbox {
 
   /// Returns at once.
   void send(int to, Tag tag, Bytes bytes);
-  /// Waits until all are sent; later messages reuse their memory.
+  /// Waits until all messages are sent; later messages reuse their memory.
   void wait();
   /// An empty buffer, in the memory of an earlier message if there is one.
   Bytes buffer();
@@ -139,10 +139,11 @@ class Session {
 
   const Communicator& ranks() const { return ranks_; }
 
-  /// Called by a rank that cannot continue, for whatever reason; `isKnown` if it has an error message of its own. If
-  /// all ranks call this within some seconds, all can end in order: returns true on the first rank with a message,
-  /// which must print it, and all get its exit code. Otherwise this rank must report its own error and stop the others
-  /// by `abort`; the ranks do so in order, so that if several fail at the same time, one reports.
+  /// To be called by a rank that cannot continue, for whatever reason; `isKnown` if it has its own error message. True
+  /// if this rank must report the error. If all ranks call this within some seconds, all can end in order: returns true
+  /// on the first rank with a message, which must print it, and all get its exit code. Otherwise this rank must report
+  /// its own error and stop the others by `abort`; the ranks do so in order, so that if several fail at the same time,
+  /// one reports.
   bool speaks(bool isKnown, int& exitCode);
   /// Whether all ranks have called `speaks`.
   bool isAgreed() const { return is_agreed_; }

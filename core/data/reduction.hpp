@@ -13,7 +13,7 @@
 
 namespace tushar::data {
 
-/// A short origin of a value, such as `CFL`: plain bytes, so that a message can carry them.
+/// The origin of a value in a few characters, such as `CFL`, stored so that its bytes can be sent.
 class Reason {
  public:
   constexpr Reason() = default;
@@ -37,8 +37,8 @@ class Reason {
   std::array<char, 32> letters_{};
 };
 
-/// The least of all values and, where given, its reason; +infinity if none. If values are equal, the reason that comes
-/// first in the alphabet is kept, so that the order of the additions does not matter.
+/// The minimum of all values, with its reason if one is given; +infinity if there are none. If values are equal, the
+/// reason that comes first in the alphabet is kept, so that the order of the additions does not matter.
 struct Minimum {
   double value = std::numeric_limits<double>::infinity();
   Reason reason{};
@@ -53,7 +53,7 @@ struct Minimum {
   std::vector<double> values() const { return {value}; }
 };
 
-/// The greatest of all values; -infinity if there are none.
+/// The maximum of all values; -infinity if there are none.
 struct Maximum {
   double value = -std::numeric_limits<double>::infinity();
 
@@ -138,7 +138,7 @@ struct Norm {
   Sum absolute, squared, count, exact;
   double max = 0;
 
-  /// `weight`: of the place among all, such as Level::weight(); a power of two, so that it rounds nothing.
+  /// `weight`: weight of the place, such as Level::weight(); a power of two, so that it causes no rounding.
   void add(double e, double magnitude = 0, double weight = 1) {
     exact.add(weight * std::abs(magnitude));
     absolute.add(weight * std::abs(e));

@@ -6,7 +6,7 @@
 
 namespace tushar::grid {
 
-/// The blocks of a level that hold cells of a box, which lies on the grid.
+/// The blocks of a level that contain cells of a box, which lies on the grid.
 Box blocksOver(const Box& cells, const Index3& blockCells);
 
 /// The patches of a grid of several levels: boxes of leaves of a block tree. All of them are kept on each rank.
@@ -34,7 +34,7 @@ class BlockTiling : public Tiling {
   Index3 block_cells_;
   std::vector<PatchBox> patches_;
   std::vector<int> patch_of_leaf_;           ///< by place of the leaf on the curve
-  std::vector<std::uint64_t> cells_before_;  ///< by patch, and of all
+  std::vector<std::uint64_t> cells_before_;  ///< number of cells before each patch, and of all patches
 };
 
 }  // namespace tushar::grid

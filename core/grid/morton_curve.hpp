@@ -43,7 +43,7 @@ class MortonCurve {
 
   Cuts cuts_;
   Box all_;       ///< of blocks
-  int bits_ = 0;  ///< of the greatest number of a block along an axis
+  int bits_ = 0;  ///< bits of the largest index of a block along an axis
 };
 
 }  // namespace tushar::grid
