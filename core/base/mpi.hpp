@@ -139,11 +139,10 @@ class Session {
 
   const Communicator& ranks() const { return ranks_; }
 
-  /// To be called by a rank that cannot continue, for whatever reason; `isKnown` if it has its own error message. True
-  /// if this rank must report the error. If all ranks call this within some seconds, all can end in order: returns true
-  /// on the first rank with a message, which must print it, and all get its exit code. Otherwise this rank must report
-  /// its own error and stop the others by `abort`; the ranks do so in order, so that if several fail at the same time,
-  /// one reports.
+  /// To be called by a rank that cannot continue, for whatever reason; `isKnown` if it has its own error message. If
+  /// all ranks call this within some seconds, all can end in order: returns true on the first rank with a message,
+  /// which must print it, and all get its exit code. Otherwise this rank must report its own error and stop the others
+  /// by `abort`; the ranks do so in order, so that if several fail at the same time, one reports.
   bool speaks(bool isKnown, int& exitCode);
   /// Whether all ranks have called `speaks`.
   bool isAgreed() const { return is_agreed_; }

@@ -12,8 +12,8 @@ namespace tushar::mpi {
 
 // Collective operations: all ranks call these, in the same order; a single rank needs no MPI for them.
 
-/// Runs an action on each rank, and throws on all ranks if one fails. Rethrows its exception; throws FailedElsewhere if
-/// it succeeds here but fails on another rank.
+/// Runs an action on each rank. If it fails on any rank, all ranks throw: its exception where it failed,
+/// FailedElsewhere on the others.
 void together(const Communicator& ranks, const std::function<void()>& action);
 
 /// Whether all ranks call this within `patience`. If not, the run is about to end, and `ranks` must not be used any

@@ -34,7 +34,7 @@ class Gather {
   /// The values of a variable of a generation, copied; none if the variable has none. For one rank on its own.
   output::Array array(data::Generation generation, int variable);
   /// The values of a variable without a copy: those of each rank stay in place, and are valid until the state changes.
-  /// None if no rank holds it.
+  /// None if no rank has any.
   output::Array stream(data::Generation generation, int variable);
   /// The same in a given order.
   output::Array stream(data::Generation generation, int variable, const GridOrder& order);

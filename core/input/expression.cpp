@@ -18,7 +18,7 @@ namespace tushar::input {
 
 namespace {
 
-/// A compiled formula and the variables that it reads; of one thread.
+/// A compiled formula and the variables that it reads, for one thread.
 struct Compiled {
   explicit Compiled(const std::string& text) {
     parser.DefineVar("x", &at[0]);

@@ -24,7 +24,7 @@ struct Kind {
   std::string name;
   std::function<PiecePtr(const Element&, Diagnostics&)> read;
   std::function<void(std::ostream&, int)> describe;
-  const SchemaBase* schema;  ///< lives as long as the kind
+  const SchemaBase* schema;  ///< must outlive the kind
 };
 
 template <class T>
@@ -38,7 +38,7 @@ Kind simple() {
   return {T::schema().name(), read, describe, &T::schema()};
 }
 
-/// A reference to a faulty shape is null, without a message of its own.
+/// Whether all shapes could be read; a reference to an invalid shape is null, without a message of its own.
 bool allRead(const std::vector<PiecePtr>& pieces) {
   return std::find(pieces.begin(), pieces.end(), nullptr) == pieces.end();
 }
@@ -107,7 +107,7 @@ struct FileTag {
   std::string file;
 };
 
-/// `load(path, tag, diagnostics)` makes the shape, or reports what is wrong at the tag.
+/// A shape from a file; `load(path, tag, diagnostics)` makes it, or reports a problem at the tag.
 Kind fromFile(const std::string& name, const std::string& sentence, const std::string& whatFile,
               const std::function<PiecePtr(const std::string&, const Element&, Diagnostics&)>& load) {
   const auto schema = std::make_shared<const Schema<FileTag>>(
@@ -182,7 +182,7 @@ bool isLabelledDefinition(const Element& element) {
   return !isEmpty(element) && labelOf(element) && findKind(element.name());
 }
 
-/// Collects the labelled shapes that lie wholly above `until`; returns whether that was reached.
+/// Collects the labelled shapes that end above `until`; returns whether `until` was reached.
 bool collectAbove(const Element& from, const Element& until, std::vector<Element>& found) {
   if (from == until) return true;
   const std::size_t place = found.size();
@@ -195,8 +195,8 @@ bool collectAbove(const Element& from, const Element& until, std::vector<Element
   return false;
 }
 
-/// Only in the same section of the scene (MaterialProperties, PhysicalBC, …), as each section has its own labels, which
-/// hide those of others. Parts of the section that are read first count as above.
+/// The labelled shapes above a shape in the same section of the scene (MaterialProperties, PhysicalBC, …): each section
+/// has its own labels, which hide those of others. Parts of the section that are read first count as above.
 std::vector<Element> labelledAbove(const Element& shape) {
   Element section = shape, part = shape;
   while (section.parent() && section.parent()->parent()) {

@@ -30,7 +30,7 @@ template <class M>
 class Reach {
  public:
   template <class S>
-  explicit Reach(M S::*member) : address_(addressOf<S>) {
+  explicit Reach(M S::* member) : address_(addressOf<S>) {
     static_assert(sizeof member == sizeof member_);
     std::memcpy(member_, &member, sizeof member);
   }
@@ -39,7 +39,7 @@ class Reach {
  private:
   template <class S>
   static M* addressOf(const std::byte* stored, void* object) {
-    M S::*member;
+    M S::* member;
     std::memcpy(&member, stored, sizeof member);
     return &(static_cast<S*>(object)->*member);
   }
@@ -65,7 +65,7 @@ void storeIn(std::vector<T>& member, T value) {
 template <class T>
 struct Limit {
   std::string allowed;  ///< `greater than 0`
-  /// Why a value, given as `text`, violates it; nothing if it does not.
+  /// Why a value, given as `text`, violates the constraint; empty if it does not.
   std::function<std::string(const T& value, const std::string& text, const std::string& unit)> problem;
 };
 template <class T>

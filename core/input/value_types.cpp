@@ -17,7 +17,7 @@ std::string threeOf(const std::string& pattern) { return fmt::format(R"(\[ ?{0} 
 
 std::string anyNumberOf(const std::string& pattern) { return fmt::format(R"({0}|\[ ?({0}( ?, ?{0})*)? ?\])", pattern); }
 
-/// A number, or a text with a character that does not occur in numbers.
+/// The pattern of a formula: a number, or a text with a character that does not occur in numbers.
 std::string formula() { return fmt::format(R"({}|[^\[\]]*[^\[\]+\-.0-9eE][^\[\]]*)", number); }
 
 template <class T>
@@ -60,11 +60,7 @@ std::vector<TagForm> formsOf(const SchemaEntry& entry) {
   form.choices = entry.choices;
   if (entry.form == Form::nested)
     form = sectionForm(
-        entry.takes,
-        [nested = entry.nested] {
-          return std::vector<Alternative>{{nested, {}}};
-        },
-        entry.atLeast);
+        entry.takes, [nested = entry.nested] { return std::vector<Alternative>{{nested, {}}}; }, entry.atLeast);
   form.repeats = entry.repeatable;
   return {std::move(form)};
 }

@@ -25,7 +25,7 @@ namespace {
 
 std::error_code lastError() { return {errno ? errno : EIO, std::generic_category()}; }
 
-/// Whether all of `size` bytes pass: `call(done)` passes some of those after `done`, as read and write do.
+/// Whether all `size` bytes can be transferred: `call(done)` passes some of those after `done`, as read and write do.
 template <class Call>
 bool isWhole(std::size_t size, const Call& call) {
   for (std::size_t done = 0; done < size;) {
@@ -38,10 +38,10 @@ bool isWhole(std::size_t size, const Call& call) {
   return true;
 }
 
-/// A folder with a greater number was made by another run.
+/// The largest number of a folder; one with a larger number does not come from a run.
 constexpr int greatestNumber = 999'999'999;
 
-/// The number of `sod.uda.007` among the folders of `sod.uda`.
+/// The number 7 of the folder `sod.uda.007`, for an archive `sod.uda`; none for other names.
 std::optional<int> numberOf(const fs::path& entry, const std::string& base) {
   const std::string name = entry.filename().string();
   if (name.size() <= base.size() + 1 || !name.starts_with(base + ".")) return {};
@@ -200,8 +200,7 @@ std::optional<std::string> textOf(const fs::path& file) {
 fs::path temporaryOf(const fs::path& file) { return fs::path(file) += ".tmp"; }
 
 std::string nameInPath(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == '/' || c == ':'; }, '_');
+  std::replace_if(name.begin(), name.end(), [](char c) { return c == '/' || c == ':'; }, '_');
   return name;
 }
 
