@@ -88,8 +88,8 @@ class CellSystem {
   std::size_t rowOf(std::size_t p, const Index<D>& cell) const {
     return static_cast<std::size_t>(number_(levelOf(p), cell));
   }
-  /// Finds, from the equations of cells at the faces of patches, which cells of other ranks they use, and the largest
-  /// number of cells in an equation; all other cells use only their direct neighbours.
+  /// Finds, from the equations of cells at the faces of patches, which cells of other ranks they use, and how many
+  /// entries their rows have; the equations of other cells contain only direct neighbours.
   template <class EquationOf>
   void meetOthers(EquationOf&& equationOf) {
     forEachCell([&](std::size_t p, const Index<D>& cell) {

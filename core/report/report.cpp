@@ -134,7 +134,7 @@ std::string energyTable(const Report& report) {
                             energies.greatest() > 0 ? energies.unaccounted() / energies.greatest() : 0.0);
 }
 
-/// How the threads spent their time during the time loop and its outputs, in parts of the whole.
+/// The shares of the threads' time during the time loop and its outputs.
 std::string useLine(const Report& report) {
   const TimeUse& use = report.use;
   const double all = use.task + use.message + use.output + use.wait;
@@ -160,9 +160,9 @@ std::string memoryLine(const Report& report) {
       1e-6 * sum.peak, most, 1e-6 * sum.fields, 1e-6 * sum.particles, 1e-6 * sum.buffers, 1e-6 * sum.files);
 }
 
-/// How many times as long the update of a cell takes on levels as on a uniform grid, by the number of dimensions:
-/// measured with `euler` in small blocks (ups/euler/README.md, "Several levels"), where it is 10 to 15, 1.8 to 3.1, and
-/// 1.9.
+/// The cost of updating a cell on several levels, relative to that on a uniform grid, by the number of dimensions:
+/// measured with `euler` in small blocks (ups/euler/README.md, "Several levels"), where it is 10 to 15, 1.8 to 3.1,
+/// and 1.9.
 double costOnLevels(int dimension) { return std::array{10.0, 2.5, 1.9}.at(std::clamp(dimension, 1, 3) - 1); }
 
 /// The cost of a uniform grid of the finest cells, and whether refinement has paid.
@@ -178,7 +178,7 @@ std::string uniformLine(const Report& report) {
          fmt::format("  it would probably be faster: on levels an update takes about {:g} times as long\n", cost);
 }
 
-/// The updates of each level, if finer ones take smaller steps.
+/// The cell updates of each level, if finer levels take smaller steps.
 std::string updatesLine(const Report& report) {
   std::string updates;
   for (const double one : report.levelUpdates) updates += fmt::format("{}{:.4g}", updates.empty() ? "" : " + ", one);

@@ -9,20 +9,20 @@
 namespace tushar::scene {
 
 /// The work of one of many ranks in a step, and the cost of this estimate: graph and messages are compiled as in a run,
-/// but no other rank is there and no variable has memory.
+/// but without the other ranks and without memory for variables.
 struct DryRun {
   int rank = 0, ranks = 1;
-  int patches = 0, patchesOfAll = 0;  ///< of this rank, and of the grid
-  int tasks = 0, placements = 0;      ///< of a step: tasks kept, and their runs over patches and materials
-  int neighbours = 0;                 ///< ranks that it sends ghosts to
-  int messages = 0;                   ///< sent in a step, with ghosts and with particles that move
-  int agreements = 0;                 ///< of all ranks, in a step
-  double bytes = 0;                   ///< upper bound, without particles: as if all nodes were near some
-  double seconds = 0;                 ///< processor time to read the scene and compile
-  double megabytes = 0;               ///< memory taken by this
+  int patches = 0, patchesOfAll = 0;  ///< number of patches of this rank, and of the grid
+  int tasks = 0, placements = 0;      ///< per step: number of tasks, and of their runs over patches and materials
+  int neighbours = 0;                 ///< number of ranks to which it sends ghosts
+  int messages = 0;                   ///< number of messages sent per step, with ghosts or migrating particles
+  int agreements = 0;                 ///< number of reductions over all ranks per step
+  double bytes = 0;      ///< size of messages: an upper bound without particles, as if all nodes were near particles
+  double seconds = 0;    ///< processor time to read the scene and compile
+  double megabytes = 0;  ///< memory that this takes, MB
 };
 
-/// Reads a scene as if this were the rank, of `workers.ranks`, that has the middle of the grid. Throws what readScene
+/// Reads a scene as if this rank were the one of `workers.ranks` that has the centre of the grid. Throws what readScene
 /// throws.
 DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides,
               const simulation::Catalogue& catalogue, const grid::Workers& workers);

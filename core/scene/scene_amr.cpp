@@ -60,7 +60,7 @@ struct AmrSection {
 bool isLower(Indicator indicator) { return indicator == Indicator::below; }
 bool isValue(Indicator indicator) { return indicator == Indicator::above || indicator == Indicator::below; }
 
-/// Half the threshold; for values, half their size beyond it.
+/// The threshold for coarsening: half that for refining; for values, half their magnitude beyond it.
 double coarsenOf(const VariableTag& tag, double refine) {
   if (tag.coarsen) return *tag.coarsen;
   return isLower(tag.indicator) ? refine + 0.5 * std::abs(refine) : refine - 0.5 * std::abs(refine);
@@ -209,7 +209,7 @@ ThresholdsSection readThresholds(const Element& given, Diagnostics& diagnostics)
   return read;
 }
 
-/// `AMR` with the sections of components that have these names.
+/// The schema of `AMR` with the sections of components that have these names.
 Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
   Schema<AmrSection> section("AMR", "Adaptive mesh refinement: cells of several sizes.");
   const auto readComponents = [names](AmrSection& read, const Element& element, Diagnostics& diagnostics) {
@@ -241,8 +241,8 @@ const Schema<AmrSection>& amrSchema(const std::vector<std::string>& names) {
   return known != schemas.end() ? known->second : schemas.emplace(names, makeAmrSchema(names)).first->second;
 }
 
-/// The sections of `AMR` that belong to a component: those that it names, and one with its own name, `MyFlow` of
-/// `my_flow`.
+/// The sections of `AMR` that belong to a component: those that it lists, and one with its own name, such as `MyFlow`
+/// for `my_flow`.
 std::vector<std::string> amrSectionsOf(const simulation::ComponentKind& kind) {
   std::vector<std::string> names = kind.amrSections;
   if (!kind.takesLevels) return names;
@@ -257,7 +257,7 @@ std::vector<std::string> amrSectionsOf(const simulation::ComponentKind& kind) {
   return names;
 }
 
-/// If the component is unknown, every tag that is not one of `AMR` itself.
+/// For an unknown component: every tag that does not belong to `AMR` itself.
 std::vector<std::string> unknownTagsOf(const Element& amr) {
   std::vector<std::string> names;
   const std::vector<std::string> own = amrSchema({}).tagNames();
@@ -289,7 +289,7 @@ void checkBlocks(const Element& amr, const std::optional<std::vector<Index3>>& b
             input::toText(*blocks)));
 }
 
-/// Checks which of the materials that have its variable a criterion is for; its number determines the name.
+/// Checks that the material of a criterion has its variable; replaces a number by the name.
 void checkMaterial(Criterion& criterion, const std::vector<std::string>& materials, Diagnostics& diagnostics) {
   std::string& given = criterion.material;
   if (given.empty()) return;

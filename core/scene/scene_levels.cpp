@@ -79,11 +79,11 @@ Index3 resolutionOf(const GridBox& box, const LevelSection& level, const Element
 
 namespace {
 
-constexpr int mostLevels = 16;         ///< of a tree of blocks,
-constexpr int mostBlocks = 1 << 20;    ///< and the most of its finest blocks along an axis
-constexpr int fewestCellsOfBlock = 4;  ///< along an axis in use
+constexpr int mostLevels = 16;         ///< largest number of levels of a tree of blocks,
+constexpr int mostBlocks = 1 << 20;    ///< and of its finest blocks along an axis
+constexpr int fewestCellsOfBlock = 4;  ///< smallest number of cells of a block along an axis in use
 
-/// A tag of `Regridder` if it is given, else its substitute.
+/// A tag of `Regridder` if it is given, otherwise another place for messages.
 Element tagOr(const AmrSettings& amr, const std::string& tag, const Element& other) {
   const auto regridder = amr.tag ? amr.tag->child("Regridder") : std::nullopt;
   const auto given = regridder ? regridder->child(tag) : std::nullopt;
@@ -170,7 +170,7 @@ class Refiner {
     return diagnostics_.size() == before;
   }
 
-  /// The level whose cells are as wide as those of a box: how often those of the first Level are halved.
+  /// The level with the cell width of a box: the number of halvings of that of the first Level.
   std::optional<int> levelOf(const GridBox& box, const LevelSection& section, const Element& element) {
     const std::size_t before = diagnostics_.size();
     const Index3 cells = resolutionOf(box, section, element, diagnostics_);
@@ -219,7 +219,7 @@ class Refiner {
       }
   }
 
-  /// The levels of twos in `levels` levels of the ratios that the scene gives.
+  /// The number of levels of ratio 2 for `levels` levels with the ratios of the scene.
   int levelsOfTwos(int levels) {
     if (!amr_.ratios || amr_.ratios->empty()) return levels;
     int twos = 1;
@@ -230,7 +230,7 @@ class Refiner {
     return twos;
   }
 
-  /// The number of levels that the run may have, from the scene.
+  /// The largest number of levels in the run, from the scene.
   int countLevels() {
     const int given = finest_ + 1;
     const bool isAdaptive = amr_.regrid.adaptive;
@@ -287,7 +287,7 @@ class Refiner {
       takeNearestBlock(axis, cells, size, sizes);
   }
 
-  /// Blocks that divide the cells, as an alternative to those that the scene requests.
+  /// Chooses blocks that divide the cells instead of those that the scene requests.
   void takeNearestBlock(int axis, int cells, int size, const std::vector<int>& sizes) {
     const auto distance = [&](int a, int b) { return std::abs(a - size) < std::abs(b - size); };
     const int nearest = *std::min_element(sizes.begin(), sizes.end(), distance);
@@ -313,7 +313,7 @@ class Refiner {
     return sizes;
   }
 
-  /// `4, 10 or 20`: of the sizes, those next to one.
+  /// The sizes nearest to a wanted one, in words: `4, 10 or 20`.
   static std::string namesOfNearest(std::vector<int> sizes, int wanted) {
     constexpr std::size_t most = 6;
     std::stable_sort(sizes.begin(), sizes.end(),
@@ -365,7 +365,7 @@ class Refiner {
   grid::Level coarsest_;
   grid::Refinement& refinement_;
   Diagnostics& diagnostics_;
-  std::vector<Element> boxes_;  ///< of the regions
+  std::vector<Element> boxes_;  ///< tags of the regions
   int finest_ = 0;              ///< the level of the finest Box
 };
 

@@ -31,7 +31,7 @@ bool isOfFlow(const std::string& label) {
   return std::find(labelsOfFlow.begin(), labelsOfFlow.end(), label) != labelsOfFlow.end();
 }
 
-/// The error in an attribute.
+/// Reports an error in an attribute.
 void errorOf(const std::string& attribute, const Element& element, const std::string& problem,
              Diagnostics& diagnostics) {
   diagnostics.error(element.whereOf(attribute), element.path(), attribute + ": " + problem);
@@ -49,7 +49,7 @@ std::vector<std::string> varsWith(const std::vector<std::string>& further) {
   return vars;
 }
 
-/// `var`, and the value that it may need.
+/// Checks `var`, and the value that it may need.
 void checkKind(const ConditionSection& condition, const Element& element, const std::vector<std::string>& furtherVars,
                Diagnostics& diagnostics) {
   if (const std::string problem = input::choiceProblem(condition.var, varsWith(furtherVars)); !problem.empty())
@@ -58,7 +58,7 @@ void checkKind(const ConditionSection& condition, const Element& element, const 
     diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
 }
 
-/// Choices whose values are the words themselves.
+/// A choice whose values are the words themselves.
 input::Choices<std::string> wordsOf(const std::vector<std::string>& words) {
   input::Choices<std::string> choices;
   for (const std::string& word : words) choices.emplace_back(word, word);
@@ -133,7 +133,7 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
 
 namespace {
 
-/// The text of a value that may be a formula, where the component takes formulas.
+/// Reads a value, which may be a formula if the component takes formulas.
 template <class T, class Formula>
 std::string readValue(const std::string& text, bool mayVary, T& value, std::optional<Formula>& formula) {
   const auto plain = input::parse<T>(text);
@@ -170,7 +170,7 @@ void takeValue(const ConditionSection& given, const Element& tag, bool mayVary, 
   condition.formula = std::make_shared<const input::VectorExpression>(*std::move(formula));
 }
 
-/// Why a condition contradicts itself or, on a plane of symmetry, the plane; or nothing.
+/// Why a condition contradicts itself or a plane of symmetry; empty if it does not.
 std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPlane) {
   const bool symmetry = condition.kind == grid::BoundaryKind::symmetry;
   if (symmetry != (condition.variable == grid::symmetric))
@@ -182,14 +182,14 @@ std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPl
   return {};
 }
 
-/// Whether a value may be given on a plane of symmetry: the images of its vector have the same where it lies in the
-/// plane.
+/// Whether a value may be given on a plane of symmetry: a vector must lie in the plane, so that its mirror image is the
+/// same.
 bool fitsPlane(const grid::BoundaryVariable& label, const grid::BoundaryCondition& condition, int axis) {
   return label.isEven && condition.kind == grid::BoundaryKind::dirichlet &&
          (!label.isVector || (!condition.formula && condition.value[axis] == 0));
 }
 
-/// The places where conditions of a face were given: by label, and by the materials that they hold for.
+/// The places of the conditions of a face, by label and material.
 using SeenConditions = std::map<std::string, std::map<std::string, Location>>;
 
 /// The place of an earlier condition for the same variable and some of the same materials.
@@ -204,10 +204,10 @@ std::optional<Location> givenBefore(const ConditionSection& given, const Locatio
 /// The settings of a face.
 struct ReadFace {
   const SideWords& words;
-  const Element& sides;                              ///< all of them
+  const Element& sides;                              ///< the section with all sides
   int axis;                                          ///< across it
-  std::vector<grid::BoundaryCondition>& conditions;  ///< of it, and of the same part read before
-  SeenConditions& seen;                              ///< where each of them was given
+  std::vector<grid::BoundaryCondition>& conditions;  ///< conditions of this face, and of the same part read before
+  SeenConditions& seen;                              ///< the place of each condition
 };
 
 void noteSeen(const ConditionSection& given, const Element& tag, const ReadFace& face, Diagnostics& diagnostics) {
@@ -216,7 +216,7 @@ void noteSeen(const ConditionSection& given, const Element& tag, const ReadFace&
         tag, fmt::format("{} already has a condition on this face, at {}; keep one", given.label, first->text()));
 }
 
-/// Adds what a condition in words of the component's own means.
+/// Adds the meaning of a condition in a component's own words.
 void readOwnCondition(const ConditionSection& given, const Element& tag, const ReadFace& face,
                       Diagnostics& diagnostics) {
   noteSeen(given, tag, face, diagnostics);

@@ -142,7 +142,7 @@ const Schema<CheckpointSettings>& checkpointSchema() {
   return schema;
 }
 
-/// A level, or a word of Uintah's.
+/// Reads the compression: a level, or a word of Uintah's.
 void readCompression(ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("compression");
   if (!given) return;
@@ -158,7 +158,7 @@ void readCompression(ArchiveSettings& archive, const Element& element, Diagnosti
     archive.compression = *level.value;
 }
 
-/// The last part of an absolute path, which Uintah's scenes use for the machines of their authors.
+/// The name of the folder; of an absolute path, which some of Uintah's scenes contain, only the last part.
 std::string nameOf(const std::string& filebase) {
   return filebase.starts_with('/') ? std::filesystem::path(filebase).filename().string() : filebase;
 }

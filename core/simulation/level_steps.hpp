@@ -21,19 +21,19 @@ class LevelSteps {
  public:
   explicit LevelSteps(RunState& run) : run_(run) {}
 
-  /// The longest step of the coarsest level [s] with which two steps of each level in one of the next coarser are
+  /// The longest step of the coarsest level [s] for which two steps of each level per step of the next coarser one are
   /// stable, and what limits it.
   data::Minimum stable();
-  /// Advances the old state of all levels by the step of the coarsest, `whole.delT`; the new state has stable steps. If
-  /// a task requests a smaller one, returns its factor and reason; then, and if a NumericalError comes out, the old
-  /// state is as it was.
+  /// Advances the old state of all levels by the step of the coarsest, `whole.delT`, in stable steps. If a task
+  /// requests a smaller one, returns its factor and reason; then, and if a NumericalError comes out, the old state is
+  /// as it was.
   std::optional<data::Minimum> advance(const tasks::StepInfo& whole);
 
   /// Steps of each level in the last step of the coarsest; 0 for those that have no cells.
   const std::vector<int>& steps() const { return steps_; }
 
  private:
-  /// Makes a step of a level, and those of the finer ones within it.
+  /// Makes a step of a level, and the steps of finer levels within it.
   std::optional<data::Minimum> advanceLevel(const tasks::StepInfo& at);
   std::optional<data::Minimum> advanceFiner(const tasks::StepInfo& coarser);
   /// Computes what the state of a level allows, unless that is known.
@@ -46,9 +46,9 @@ class LevelSteps {
   int number(const data::Label& label) { return run_.table.number(label, -1); }
 
   RunState& run_;
-  std::optional<grid::BlockTree> tree_;               ///< of the state that `stable_` is of
-  int levels_ = 1;                                    ///< that have cells
-  std::vector<std::optional<data::Minimum>> stable_;  ///< by level, s: of its state as it is now, where that is known
+  std::optional<grid::BlockTree> tree_;               ///< the tree to which `stable_` belongs
+  int levels_ = 1;                                    ///< number of levels with cells
+  std::vector<std::optional<data::Minimum>> stable_;  ///< by level, s: the stable step for its current state, if known
   std::vector<int> steps_;
 };
 

@@ -21,7 +21,7 @@ std::string hostName() {
   return name;
 }
 
-/// Settings that would keep particles in the finest cells, and that the scene lacks.
+/// Settings, missing in the scene, that would keep particles in the finest cells.
 std::string adviceNearCoarser(const RegridSettings& regrid) {
   if (!regrid.adaptive)
     return "<adaptive>true</adaptive> in <AMR>, so that the finest cells follow; or a larger <Level>";
@@ -82,7 +82,8 @@ void Simulation::openLog() {
   run_.ranks.onFirst([&] { log_.emplace(outputs_.folder(), record_); });
 }
 
-/// `mpirun` gives an interrupted run two seconds, so the checkpoint, which a restart needs, comes first.
+/// Saves the state at the end. `mpirun` gives an interrupted run two seconds, so the checkpoint, which a restart needs,
+/// comes first.
 void Simulation::saveEnd() {
   const bool isCut = run_.clock.isInterrupted() || run_.clock.isStopped();
   if (failure_) saveLastGood();
@@ -119,7 +120,8 @@ void Simulation::resume() {
   run_.setTimeOfAnalyses();  // what was due up to now, the run before has sampled
 }
 
-/// On finer and finer cells, as far as the state requires them: finer cells have the finer state of the scene.
+/// Initialises the state on finer and finer cells, as far as it requires them: finer cells resolve more of the state in
+/// the scene.
 void Simulation::initialize() {
   do {
     initializeOnce();
