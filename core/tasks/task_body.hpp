@@ -8,14 +8,15 @@ namespace tushar::tasks {
 
 class TaskContext;
 
-/// What a task runs: any function object that takes a TaskContext, kept on the heap; copies share it. Does what
+/// The body of a task: any function object that takes a TaskContext, on the heap; copies share it. Does what
 /// std::function does, except for each kind of object the compiler makes one function in place of five: a scene's
 /// components have thousands.
 class TaskBody {
  public:
   TaskBody() = default;
   template <class Function>
-  requires(!std::is_same_v<Function, TaskBody>) TaskBody(Function function)
+    requires(!std::is_same_v<Function, TaskBody>)
+  TaskBody(Function function)
       : function_(keep(std::make_unique<Function>(std::move(function)).release(), destroyerOf<Function>())),
         call_(call<Function>) {}
 

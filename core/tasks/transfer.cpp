@@ -12,7 +12,7 @@ using grid::Box;
 
 namespace {
 
-/// Numbers of cells in memory, and how far apart those of neighbours are.
+/// Values of cells in memory, and the distances between those of neighbours.
 template <class Number>
 class Cells {
  public:
@@ -53,7 +53,7 @@ void meansOf(const Box& box, const CellValues& values, int components, double* t
   });
 }
 
-/// A finer cell: its numbers, and on which side of its parent's middle it is along each axis, -1 or 1.
+/// A finer cell: its values, and its side of its parent's centre along each axis, -1 or 1.
 struct Child {
   double* numbers;
   std::array<double, 3> side;
