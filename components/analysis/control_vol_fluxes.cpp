@@ -54,7 +54,7 @@ const input::Schema<FluxSettings>& fluxSchema() {
   return schema;
 }
 
-/// The velocity through the side of a cell at which the grid ends, along the axis.
+/// The velocity along the axis at a side of a cell at which the grid ends.
 template <int D>
 double velocityAtEnd(const Level& level, int d, int side, int material, const Vec<D>& inside) {
   if (level.isSymmetry(d, side, material)) return 0;
@@ -133,7 +133,7 @@ class ControlVolFluxes : public Analysis {
   CellLabel<double> density_{densityName, "kg/m^3", "density"};
   CellLabel<Vec<D>> velocity_{velocityName, "m/s", "velocity"};
   int material_;
-  std::deque<std::string> names_;  ///< stay where they are: labels refer to them
+  std::deque<std::string> names_;  ///< their addresses must not change, as labels refer to them
   std::deque<ReductionLabel<BoxFlow>> labels_;
   SampleTimes times_;
   SampleFiles files_;

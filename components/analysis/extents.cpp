@@ -16,7 +16,7 @@ using input::Schema;
 
 namespace {
 
-constexpr double slack = 1e-9;  ///< of a cell: what counts as the face between two
+constexpr double slack = 1e-9;  ///< fraction of a cell within which a point counts as on a face
 
 Schema<Extent> extentSchema(const std::string& tag, const std::string& sentence) {
   return Schema<Extent>(tag, sentence)
@@ -31,7 +31,7 @@ std::string pathOf(int axes) {
   return axes == 1 ? "DataAnalysis/Module/lines/line" : "DataAnalysis/Module/planes/plane";
 }
 
-/// Why a name is invalid; empty if it can be a folder beside those that an archive has.
+/// Why a name is invalid; empty if it can name a folder in an archive.
 std::string problemOfName(const std::string& name) {
   static const std::set<std::string> taken{"checkpoints", "slice", "particleExtract", "MinMax", "planeAverage"};
   const bool isPath = name.empty() || name.starts_with('.') || name.find('/') != std::string::npos;
@@ -41,7 +41,7 @@ std::string problemOfName(const std::string& name) {
   return {};
 }
 
-/// Why the points are invalid; empty if the grid has cells between them.
+/// Why the points are invalid; empty if there are cells of the grid between them.
 std::string problemOf(const Extent& extent, int axes, const Level& level) {
   const Vec3 lower = level.domain().lower, upper = level.domain().upper;
   int along = 0;

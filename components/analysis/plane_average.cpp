@@ -23,7 +23,7 @@ struct Weight {
 };
 
 struct AverageSettings : Sampling {
-  int axis = 0;  ///< across the planes
+  int axis = 0;  ///< axis perpendicular to the planes
   std::optional<Weight> weight;
 };
 
@@ -131,9 +131,9 @@ class PlaneAverage : public SamplingModule {
   }
 
   const Level* level_;
-  int across_ = -1;                              ///< kernel axis; -1: the grid leaves it out, and there is one plane
-  std::map<std::string, Weighting> weightings_;  ///< by where the scene names the variable
-  std::string weight_;                           ///< where it names that of <weight>
+  int across_ = -1;  ///< kernel axis perpendicular to the planes; -1: the grid leaves it out, and there is one plane
+  std::map<std::string, Weighting> weightings_;  ///< by place of the variable in the scene
+  std::string weight_;                           ///< place of the variable of <weight>
 };
 
 }  // namespace

@@ -106,7 +106,7 @@ const Schema<SliceSettings>& sliceSchema() {
 
 char nameOf(int axis) { return "xyz"[axis]; }
 
-/// Why a grid has no cells on a plane; empty if it has.
+/// Why a grid has no cells on a plane; empty if it has some.
 std::string problemOf(const Plane& plane, const Level& level) {
   const double lower = level.domain().lower[plane.axis], upper = level.domain().upper[plane.axis];
   if (level.dimension() < 2) return "a slice of a grid along one axis would be a point; remove the module";
@@ -169,7 +169,7 @@ class Slice : public Analysis {
       archives_[k]->write(parts[k]);
     }
   }
-  /// The lists of a plane's archive may be out of date, and a restart removes outputs that they lack.
+  /// Updates the lists of each plane's archive, as a restart removes outputs that are not listed.
   void flush() override {
     for (const auto& archive : archives_)
       if (archive) archive->flush();
@@ -182,7 +182,7 @@ class Slice : public Analysis {
   }
 
  private:
-  /// In the archive.
+  /// The folder of a plane in the archive.
   static std::string folderOf(const Word& plane) {
     const Plane at = *planeOf(plane.text);
     return fmt::format("slice/{}={}", nameOf(at.axis), at.at);
@@ -203,7 +203,7 @@ class Slice : public Analysis {
   simulation::Milestones times_;  ///< since the start of the first run, s
   double since_start_ = -1;
   bool time_is_due_ = false;
-  std::vector<std::unique_ptr<Archive>> archives_;  ///< of each plane, once it is written
+  std::vector<std::unique_ptr<Archive>> archives_;  ///< archive of each plane, once it has outputs
 };
 
 }  // namespace

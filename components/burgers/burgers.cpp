@@ -8,11 +8,11 @@ namespace tushar::burgers {
 
 namespace {
 
-constexpr int kReach = 2;  ///< cells to each side that a cell's fluxes depend on
+constexpr int kReach = 2;  ///< number of cells to each side on which a cell's fluxes depend
 
 double noSlope(double, double) { return 0; }
 
-/// u in a cell of which all but coordinate `d` are in the grid; beyond an end of it, what comes in or goes out there.
+/// u in a cell that may be beyond the grid along axis `d`: there, the value that flows in or out.
 template <int D>
 double valueAt(const Patch& patch, const BoundarySides<double>& sides, CellView<const double> u, Index<D> cell, int d) {
   if (patch.cellsWithin(kReach).contains(cell)) return u[cell];
@@ -42,7 +42,7 @@ double fluxThrough(const Patch& patch, const Settings& settings, const BoundaryS
   return faceFlux(row, slopeOf(settings.limiter), settings.viscosity * patch.level().inverseSpacing(d));
 }
 
-/// Half of the fluxes through the rim by one of the two stages.
+/// Keeps half of the fluxes through the rim in one of the two stages.
 template <int D>
 void keepHalf(const Patch& patch, const Settings& settings, const BoundarySides<double>& sides,
               CellView<const double> u, RimFlux<double> flux) {

@@ -12,7 +12,7 @@ namespace {
 
 inline constexpr ReductionLabel<Norm> waveError{"CellError.u", "m/s", "error of the mean u of cells"};
 
-/// What the task needs, set before it runs.
+/// The exact solution for the task, set before it runs.
 struct Exact {
   BurgersWave wave;
   double time = 0;

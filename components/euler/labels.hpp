@@ -36,7 +36,7 @@ inline constexpr BoundaryLabel<double> density{"Density"};
 inline constexpr BoundaryLabel<Vec3> velocity{"Velocity"};
 inline constexpr BoundaryLabel<double> pressure{"Pressure"};
 inline constexpr BoundaryLabel<double> temperature{"Temperature"};
-/// Lets waves out: the pressure far away [Pa], sigma and 0.
+/// The condition that lets waves out: the pressure far away [Pa], sigma and 0.
 inline constexpr BoundaryLabel<Vec3> waves{"LODI"};
 }  // namespace boundary
 

@@ -37,7 +37,7 @@ const Schema<WavesSection>& wavesSchema() {
   return schema;
 }
 
-/// `SINE_BC`: what oscillates at a side.
+/// `SINE_BC`: an oscillation at a side.
 struct SineSection {
   double omega = 0, amplitude = 0, pressure = 0;
   Vec3 velocity = Vec3::Zero();
@@ -54,7 +54,7 @@ const Schema<SineSection>& sineSchema() {
   return schema;
 }
 
-/// The section of BoundaryConditions that a condition needs, as its schema reads it.
+/// Reads the section of BoundaryConditions that a condition needs.
 template <class S>
 std::optional<S> sectionOf(const Schema<S>& schema, const Element& sides, const Element& condition,
                            Diagnostics& diagnostics) {

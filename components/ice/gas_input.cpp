@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* solverTag = "Solver";
 
-/// The number of the material that a condition holds for; -1 for all, or if the id is invalid, which the grid reports.
+/// The number of the material for which a condition holds; -1 for all, or if the id is invalid, which the grid reports.
 int materialOf(const Element& condition) {
   return input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
 }
@@ -48,7 +48,7 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   limit(euler::boundary::temperature, "K");
 }
 
-/// The conditions of the gas, material `gas` of the scene, and of further ones behind it.
+/// Checks the conditions of the gas, which is material `gas` of the scene, and of further gases after it.
 void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const int material = materialOf(condition);
@@ -97,7 +97,7 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
   }
 }
 
-/// As in Uintah a given pressure is ignored; notes it where it differs from the one that follows.
+/// Notes a given pressure that differs from the one that follows; as in Uintah, it is ignored.
 void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
   if (!body.pressure) return;
   if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;
@@ -121,7 +121,7 @@ std::optional<Element> dirichletOf(const Element& face, const grid::BoundaryVari
   return {};
 }
 
-/// Two of density, pressure and temperature determine the third: a face that has all three must have one that fits.
+/// Checks that density, pressure and temperature agree at faces with all three, as two determine the third.
 void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagnostics) {
   const auto sides = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   if (!sides) return;
@@ -171,7 +171,7 @@ void readMaterial(const GasMaterial& material, const Element& element, euler::Se
   }
 }
 
-/// A gas alone fills its regions.
+/// Checks that a single gas fills its regions.
 void checkShares(const GasMaterial& material, Diagnostics& diagnostics) {
   for (const GasBody& body : material.bodies)
     if (body.share && !(body.share->isConstant() && (*body.share)(Vec3::Zero()) == 1))
@@ -227,7 +227,7 @@ void noteIdle(const Element& root, const IceSection& ice, Diagnostics& diagnosti
                      "does nothing: steps follow from <cfl>, and from the sound speed and the diffusion in each cell");
 }
 
-/// Uintah's scenes require residuals as small as 1e-22; rounding leaves more.
+/// The smallest tolerance: Uintah's scenes require residuals down to 1e-22, which rounding does not allow.
 constexpr double leastTolerance = 1e-12;
 
 ImplicitPressure implicitPressureOf(const IceSection& ice) {
@@ -244,7 +244,7 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
   return read;
 }
 
-/// Refuses what a gas can have only without bodies.
+/// Refuses settings that are available only without bodies.
 void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   const Element tag = *root.child("CFD")->child("ICE");
   const char* sentence = "is not available beside bodies: remove it, or keep only the gas";
@@ -254,7 +254,7 @@ void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics&
     if (const auto models = material.child("dynamicViscosityModels")) diagnostics.error(*models, sentence);
 }
 
-/// The middle of the first Level's Box less its lower corner, m: where Uintah's <counterflow> has its middle.
+/// Half the size of the first Level's Box, m: the centre of Uintah's <counterflow>.
 Vec3 middleOf(const Element& root) {
   const auto grid = root.child("Grid");
   const auto level = grid ? grid->child("Level") : std::nullopt;

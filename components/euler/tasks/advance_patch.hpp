@@ -8,11 +8,11 @@
 
 namespace tushar::euler {
 
-/// Cells are constant: the values at their faces are their own.
+/// Constant values in cells, which are also the values at their faces.
 struct Constant {
   static constexpr int reach = 1;
 };
-/// Cells have limited slopes: the values at their faces are those half a step later.
+/// Limited slopes in cells; the values at their faces are those half a step later.
 template <class Limited>
 struct Sloped {
   static constexpr int reach = 2;
@@ -36,12 +36,12 @@ struct Work {
   }
 
   Rows<D, K> w;                          ///< primitive values of cells
-  std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, per axis; none if cells are constant
-  Rows<D, K> flux;                       ///< through lower faces, of one axis at a time
-  std::vector<double> least;             ///< of a row: least density and p + p_inf at faces
+  std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, per axis; empty if values in cells are constant
+  Rows<D, K> flux;                       ///< fluxes through lower faces, of one axis at a time
+  std::vector<double> least;             ///< for a row: smallest density and p + p_inf at faces
 };
 
-/// rho, v, p of the cells of the work's box that are on the grid or its images.
+/// Computes rho, v, p for the cells of the work's box that are on the grid or its images.
 template <int D, class G>
 void recover(const G& gas, const Level& level, const ViewsOf<D, kGases<G>, const double>& old, Rows<D, kGases<G>>& w) {
   forEachRow<D>(level.clipCells(w.box()), [&](const Index<D>& first, int count) {
@@ -55,7 +55,7 @@ void recover(const G& gas, const Level& level, const ViewsOf<D, kGases<G>, const
   });
 }
 
-/// Adds the half step's change of a row across an axis, and sets its limited values at the faces.
+/// Adds the change of a row in half a step across an axis, and sets its limited values at the faces.
 template <int D, class Limited, int Axis, class G>
 void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, Work<D, kGases<G>>& work) {
   const auto w = work.w.at(first), lower = work.lower[Axis].at(first), upper = work.upper[Axis].at(first);
@@ -68,7 +68,8 @@ void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, W
   halfStepRow<D, Axis>(gas, lower, upper, ratio, count, work.flux.at(first));
 }
 
-/// Values at the faces of the cells of `box`, half a step later. The rows of fluxes hold the change on the way.
+/// Computes values at the faces of the cells of `box`, half a step later. The rows of fluxes hold the change on the
+/// way.
 template <int D, class G>
 void predict(const G&, const Level&, const Box&, double, Work<D, kGases<G>>&, Constant) {}
 template <int D, class Limited, class G>
@@ -90,7 +91,7 @@ void predict(const G& gas, const Level& level, const Box& box, double dt, Work<D
   });
 }
 
-/// Fluxes through the lower faces of the cells of `faces` across an axis.
+/// Computes fluxes through the lower faces of the cells of `faces` across an axis.
 template <int D, class Flux, class Shape, int Axis, class G>
 void computeFluxes(const G& gas, const Box& faces, Work<D, kGases<G>>& work) {
   constexpr bool constant = Shape::reach == 1;
@@ -101,7 +102,7 @@ void computeFluxes(const G& gas, const Box& faces, Work<D, kGases<G>>& work) {
   });
 }
 
-/// Adds what flows in across an axis of each of several gases.
+/// Adds the inflow of each of several gases across an axis.
 template <int D, int Axis, int K>
 void addFluxesOfEach(double ratio, const Index<D>& first, int count, const MixtureViews<D, const double>& old,
                      Rows<D, K>& flux, const MixtureViews<D, double>& fresh) {
@@ -116,7 +117,7 @@ void addFluxesOfEach(double ratio, const Index<D>& first, int count, const Mixtu
   }
 }
 
-/// Adds what flows in across an axis; the first axis starts from the old state.
+/// Adds the inflow across an axis; the first axis starts from the old state.
 template <int D, int Axis, int K>
 void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>& old, Rows<D, K>& flux,
                const ViewsOf<D, K, double>& fresh) {
@@ -192,7 +193,7 @@ void advanceBlock(const G& gas, const Level& level, const GhostRules<D>& rules, 
   if constexpr (D > 2) sweep<D, Flux, Shape, 2>(gas, level, block, dt, old, work, fresh, rims);
 }
 
-/// Advance<D> of one method and the law of a gas.
+/// The Advance<D> for one method and the law of a gas.
 template <int D, class Flux, class Shape, class Law>
 void advance(const Patch& patch, const Gas& gas, const OldState<D>& old, double time, double dt,
              const NewState<D>& fresh, const RimFluxes<D>& rims) {

@@ -8,10 +8,10 @@
 
 namespace tushar::euler {
 
-/// What diffuses in a cell, and how.
+/// The diffusing quantities of a cell, and its coefficients.
 template <int D>
 struct DiffusingCell {
-  State<D> w{};             ///< T in the place of the density, and v
+  State<D> w{};             ///< T, in place of the density, and v
   Diffusion how;            ///< without eddies
   double density = 0;       ///< kg/m³
   double specificHeat = 0;  ///< c_v, J/(kg K)
@@ -109,7 +109,7 @@ class Diffuser {
   Rows<D> w_, coefficients_, flux_;
 };
 
-/// Adds what diffuses in a step in the cells of a patch, as addDiffusion does where nothing varies.
+/// Adds diffusion in a step to the cells of a patch, like addDiffusion for constant coefficients.
 template <int D, class CellAt>
 void diffuse(const Patch& patch, Diffuser<D>& diffuser, double dt, CellAt&& cellAt, CellView<Vec<D>> momentum,
              CellView<double> totalEnergy, const DiffusionRims<D>& rims) {
@@ -125,8 +125,8 @@ void diffuse(const Patch& patch, Diffuser<D>& diffuser, double dt, CellAt&& cell
   });
 }
 
-/// The greatest sum_d (|v_d| + k c) / h_d + (nu_below + nu_above) / h_d² of the patch [1/s], nu the greatest
-/// diffusivity at a face, k the part of the speed of sound that counts.
+/// The largest sum_d (|v_d| + k c) / h_d + (nu_below + nu_above) / h_d² on the patch [1/s], where nu is the largest
+/// diffusivity at a face, and k the fraction of the speed of sound that counts.
 template <int D, class CellAt>
 double greatestDiffusionRate(const Patch& patch, Diffuser<D>& diffuser, double soundSpeedKnob, CellAt&& cellAt) {
   const Level& level = patch.level();

@@ -14,7 +14,7 @@ using input::Element;
 
 namespace {
 
-/// From this value on, Uintah's coefficients mean one velocity, or one temperature.
+/// Coefficients of at least this value stand, as in Uintah, for a common velocity or temperature.
 constexpr double oneForAll = 1e9;
 
 void checkSubstance(const GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
@@ -27,7 +27,7 @@ void checkSubstance(const GasMaterial& material, const Element& element, Diagnos
                       "is not available beside a second gas: give <dynamic_viscosity>, or keep one gas");
 }
 
-/// Each pair of gases has one velocity; heat flows between them at once, or not at all.
+/// Checks the exchange: each pair of gases must have one velocity, and heat is exchanged at once or not at all.
 void checkExchange(const GasScene& scene, const Element& root, int solids, Diagnostics& diagnostics) {
   if (!scene.exchange) return;
   const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
@@ -54,7 +54,7 @@ std::optional<std::string> givenAt(const Element& face, const grid::BoundaryVari
   return {};
 }
 
-/// Whether no gas flows through a face: a velocity in it, and nothing else, is given.
+/// Whether a face is a wall: only a velocity within the face is given.
 bool isWall(const Element& face) {
   const auto given = givenAt(face, euler::boundary::velocity);
   if (!given || givenAt(face, euler::boundary::pressure) || givenAt(face, euler::boundary::density)) return false;
@@ -65,8 +65,8 @@ bool isWall(const Element& face) {
   return false;
 }
 
-/// Reports a condition that does not hold for all gases; that of the pressure may be given for the first material, as
-/// in Uintah.
+/// Reports a condition that does not hold for all gases; as in Uintah, the pressure may be given for the first
+/// material.
 void checkMaterial(const Element& condition, int solids, Diagnostics& diagnostics) {
   const std::string id = condition.attribute("id").value_or("all");
   const bool isPressure = condition.attribute("label") == euler::boundary::pressure.name;
@@ -91,7 +91,8 @@ void checkSide(const Element& face, const Element& condition, int solids, Diagno
     checkMaterial(condition, solids, diagnostics);
 }
 
-/// Sides have the conditions of all gases: a velocity and a pressure, and walls a temperature, but no composition.
+/// Checks that sides have conditions for all gases together: velocity and pressure, temperatures of walls, but no
+/// composition.
 void checkSides(const Element& root, int solids, Diagnostics& diagnostics) {
   const auto group = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   for (const Element& face : group ? group->children("Face") : std::vector<Element>())
