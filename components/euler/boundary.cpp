@@ -183,7 +183,7 @@ Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, i
   return cell;
 }
 
-/// Weakens the incoming wave of a state as a side that lets waves out does over `depth` cells, at constant entropy.
+/// Weakens the incoming wave of a state as a side that lets waves out does over `cells` cells, at constant entropy.
 template <int D, std::size_t N>
 void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
   const Relaxation& side = rule.relaxes;
@@ -195,7 +195,7 @@ void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
   w[kPressure<D>] -= half;
 }
 
-/// The state of a cell `depth` cells beyond a side, by a rule and the state of the cell from which it is made.
+/// The state of a cell `cells` cells beyond a side, by a rule and the state of the cell from which it is made.
 template <int D, std::size_t N>
 std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array<double, N> w) {
   for (std::size_t k = 0; k < rule.factor.size(); ++k) w[k] = rule.factor[k] * w[k] + rule.value[k];

@@ -48,7 +48,7 @@ void refusePlacements(const GasProperties& properties, Diagnostics& diagnostics)
             "placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint, or <gas_dynamics>");
 }
 
-/// Refuses several gases where the method does not support them: it takes boxes that are not remapped, and `apic`.
+/// Refuses several gases with settings that do not support them: they need boxes without remapping, and `apic`.
 void refuseMixtures(const MpmSection& method, const GasProperties& properties, Diagnostics& diagnostics) {
   const std::vector<GasSection>& materials = properties.mpm.materials;
   if (materials.size() < 2) return;
@@ -69,7 +69,7 @@ void refuseMixtures(const MpmSection& method, const GasProperties& properties, D
   }
 }
 
-/// Refuses stiffened gases: the paper's method is for ideal gases.
+/// Refuses stiffened gases, as the paper's method is for ideal gases.
 void refuseStiffness(const GasProperties& properties, Diagnostics& diagnostics) {
   for (const GasSection& material : properties.mpm.materials)
     if (material.model.type == GasType::stiffened)

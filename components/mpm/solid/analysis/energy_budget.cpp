@@ -13,7 +13,8 @@ namespace tushar::mpm::solid {
 
 namespace {
 
-/// Whether all work of strain is stored, and follows from F: then StrainEnergy is exact, however much a step strains.
+/// Whether all work of strain is stored, as a function of F: then StrainEnergy is exact, however large the strain of a
+/// step.
 bool storesAllStrain(const Problem& problem) {
   return !problem.start.solution &&
          std::all_of(problem.materials.begin(), problem.materials.end(), [](const Material& material) {

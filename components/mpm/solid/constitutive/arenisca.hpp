@@ -9,16 +9,16 @@
 
 namespace tushar::mpm::solid {
 
-/// Arenisca: rock and soil whose pores collapse under pressure and may hold a fluid. Homel, Guilkey & Brannon, Acta
-/// Mech. 227 (2016) 279; the return to the yield surface is theirs of Comput. Mech. 56 (2015) 565, the relaxation to it
-/// that of Duvaut & Lions as in Brannon, Shock Wave Science and Technology Reference Library 2 (2007) 225,
-/// eqs. 6.92-93. Hypoelastic in axes that turn with the material. Uintah's `Arenisca4`; `Arenisca3` without
-/// Lode's angle; `Arenisca`, the oldest, a cone that an ellipse touches, with constant moduli (version 2).
+/// Arenisca: rock and soil with pores that collapse under pressure and may contain a fluid. Homel, Guilkey & Brannon,
+/// Acta Mech. 227 (2016) 279; the return to the yield surface is theirs of Comput. Mech. 56 (2015) 565, the relaxation
+/// to it that of Duvaut & Lions as in Brannon, Shock Wave Science and Technology Reference Library 2 (2007) 225,
+/// eqs. 6.92-93. Hypoelastic in axes that turn with the material. Uintah's `Arenisca4`; `Arenisca3` without Lode's
+/// angle; `Arenisca`, the oldest, a cone that an ellipse touches, with constant moduli (version 2).
 template <int version>
 struct Arenisca : arenisca::Constants {
   struct State {
     Tensor quasistatic;    ///< stress without rate dependence, Pa
-    Tensor plasticStrain;  ///< in axes that turn with the material, 1
+    Tensor plasticStrain;  ///< in axes that rotate with the material, 1
     double plasticVolume, elasticVolume;
     double cap, capStart, zeta, porePressure;  ///< Pa
   };

@@ -22,7 +22,7 @@ struct ArrudaBoyce8 {
   static constexpr bool strainEnergyIsRate = false;
 
   double bulkModulus = 0;     ///< K, Pa
-  double shearModulus = 0;    ///< G: of chains that never lock, Pa
+  double shearModulus = 0;    ///< G for chains that never lock, Pa
   double lockingStretch = 0;  ///< l, 1
 
   static const input::Schema<ArrudaBoyce8>& schema() {

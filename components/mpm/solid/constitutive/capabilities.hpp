@@ -20,7 +20,7 @@ inline constexpr bool isListOfVariables<const std::array<StateVariable, N>*> = t
 
 // Properties without a member.
 
-/// The stress at the end of a step is a function of F at the end alone, so that no particle keeps its stress. Offer it
+/// The stress at the end of a step depends only on F at the end, so that particles do not keep their stress. Offer it
 /// for elastic models in total form without a State.
 struct DependsOnDeformationOnly {
   template <class M>
@@ -31,7 +31,7 @@ struct DependsOnDeformationOnly {
   }
 };
 
-/// No member function reads the temperature, which is 0 K for them unless another material of the scene needs it.
+/// No member function uses the temperature, which is 0 K unless another material of the scene needs it.
 struct IgnoresTemperature {
   template <class M>
   static consteval bool check() {
@@ -39,8 +39,8 @@ struct IgnoresTemperature {
   }
 };
 
-/// F-bar in implicit time steps: updateStress reads F, F_old and the State, and F -> s F changes nothing but the mean
-/// of J sigma. Every model that DependsOnDeformationOnly supports it without naming it.
+/// F-bar in implicit time steps: updateStress uses only F, F_old and the State, and F -> s F changes only the mean of J
+/// sigma. Every model that DependsOnDeformationOnly supports it without naming it.
 struct FBar {
   template <class M>
   static consteval bool check() {
@@ -48,8 +48,8 @@ struct FBar {
   }
 };
 
-/// The model reads the position and the mass of the particle and the time, in explicit steps. Offer it where something
-/// runs through the body at a given speed.
+/// The model uses the position and mass of the particle, and the time, in explicit steps. Offer it where something runs
+/// through the body at a given speed.
 struct PlaceAndTime {
   template <class M>
   static consteval bool check() {
@@ -154,7 +154,7 @@ struct InitialWaveSpeed {
   }
 };
 
-/// Coefficients of the artificial viscosity in place of those of the scene.
+/// Coefficients of the artificial viscosity instead of those of the scene.
 struct OwnViscosity {
   struct Name {
     int ownViscosity;
@@ -280,8 +280,8 @@ struct Melting {
 
 // Internal variables.
 
-/// Whether the particles keep a State, which depends on the constants of the model; if not, initialState() is used.
-/// Offer it where plasticity can be switched off.
+/// Whether particles keep a State, depending on the constants of the model; if not, initialState() is used. Offer it
+/// where plasticity can be switched off.
 struct OptionalState {
   struct Name {
     int keepsState;
@@ -297,8 +297,8 @@ struct OptionalState {
   }
 };
 
-/// How many of the leading doubles of their State particles keep, which depends on the constants of the model; the
-/// others are not set. Offer it where a rare choice of constants needs many more variables.
+/// The number of leading doubles of the State that particles keep, depending on the constants of the model; the others
+/// are not set. Offer it where a rare choice of constants needs many more variables.
 struct PartialState {
   struct Name {
     int keptNumbers;
@@ -331,7 +331,7 @@ struct Nonlocal {
   }
 };
 
-/// Variables of Uintah's model of the same name that are always 0 here, for scenes that save them.
+/// Variables of Uintah's model of the same name, which are always 0 here, for scenes that save them.
 struct AbsentVariables {
   struct Name {
     int absentVariables;

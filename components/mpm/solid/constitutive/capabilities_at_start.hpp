@@ -9,7 +9,7 @@ namespace tushar::mpm::solid::capability {
 
 struct DependsOnDeformationOnly;
 
-/// The det F with which particles start, and with it their stress: that of updateStress there. They fill their body so
+/// The initial det F of particles, which determines their initial stress through updateStress. They fill their body so
 /// deformed. Without it 1, and no stress unless it names InitialStress. Offer it for materials that may start under
 /// pressure.
 struct InitialVolumeRatio {
@@ -29,7 +29,8 @@ struct InitialVolumeRatio {
   }
 };
 
-/// Stress at the start of the run, Pa; without it there is none. Offer it for solids with a fluid under pressure.
+/// Stress at the start of the run, Pa; without this capability it is 0. Offer it for solids with a fluid under
+/// pressure.
 struct InitialStress {
   struct Name {
     int initialStress;

@@ -21,10 +21,10 @@ namespace tushar::mpm::solid {
 
 struct GursonPlastic;
 
-/// Metals at large strain and high rate: hypoelastic shear in axes that turn with the material, von Mises' yield
-/// surface with a flow model, radial return, and an equation of state. Simo & Hughes, Computational Inelasticity
-/// (1998), sections 3.3 and 8.2; Uintah's `elastic_plastic` and `elastic_plastic_hp`, which do not differ in Uintah
-/// either.
+/// Metals at large strains and high strain rates: hypoelastic shear in axes that rotate with the material, the von
+/// Mises yield surface with a flow model, radial return, and an equation of state. Simo & Hughes, Computational
+/// Inelasticity (1998), sections 3.3 and 8.2; Uintah's `elastic_plastic` and `elastic_plastic_hp`, which do not differ
+/// in Uintah either.
 template <bool isHp>
 struct ElasticPlastic {
   struct State {
@@ -55,17 +55,17 @@ struct ElasticPlastic {
   MaterialConstants material;
   double bulkModulus = 0;           ///< K, Pa
   double shearModulus = 0;          ///< G, Pa
-  double heatedShare = 0.9;         ///< of the plastic work, Taylor & Quinney's coefficient, 1
+  double heatedShare = 0.9;         ///< heated fraction of the plastic work: the Taylor-Quinney coefficient, 1
   double initialTemperature = 294;  ///< T_0 of the equation of state, K
   DeviatorModel deviatorModel;
   FlowModel flow;
   EquationOfState equationOfState;
   ShearModel shear;
   MeltingModel melting;
-  bool computesHeat = false;  ///< else the specific heat is that of the material
+  bool computesHeat = false;  ///< otherwise the specific heat is that of the material
   SpecificHeatModel specificHeat;
   std::variant<VonMisesYield, GursonYield> yieldCondition;    ///< with GursonYield the model is GursonPlastic
-  bool poresEvolve = true;                                    ///< this and the following only with GursonYield
+  bool poresEvolve = true;                                    ///< this and the following: only with GursonYield
   double initialPorosity = 0.002, porosityDeviation = 0.002;  ///< f at the start, mean and standard deviation, 1
   bool porositySpreads = false;                               ///< f at the start by a normal distribution
   double nucleating = 0.1;                                    ///< f_N, 1

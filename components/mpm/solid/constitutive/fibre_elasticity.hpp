@@ -23,7 +23,7 @@ struct FibreElasticity {
   enum class Rubber { mooneyRivlin, verondaWestmann };
 
   double bulkModulus = 0;                ///< K, Pa
-  double c1 = 0, c2 = 0, c3 = 0;         ///< Pa; c2 of Veronda & Westmann: 1
+  double c1 = 0, c2 = 0, c3 = 0;         ///< Pa; for VerondaWestmann c2 has no unit
   double c4 = 0;                         ///< 1
   double c5 = 0;                         ///< Pa
   double straight = 1;                   ///< l*, 1

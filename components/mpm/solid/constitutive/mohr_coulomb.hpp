@@ -15,9 +15,9 @@
 namespace tushar::mpm::solid {
 
 /// Linear elasticity with the yield surface of Mohr and Coulomb, (s1 - s3) + (s1 + s3) sin phi = 2 c cos phi with the
-/// principal stresses s1 >= s2 >= s3, tension positive; flow by the same with the angle psi of dilation. The stress
-/// returns to a face, an edge or the apex: de Souza Neto, Perić & Owen, Computational Methods for Plasticity (2008),
-/// section 8.2. The stress rotates with the material; Uintah's does not.
+/// principal stresses s1 >= s2 >= s3, tension positive; flow by the same function with the dilation angle psi. The
+/// stress returns to a face, an edge or the apex: de Souza Neto, Perić & Owen, Computational Methods for Plasticity
+/// (2008), section 8.2. The stress rotates with the material; Uintah's does not.
 ///
 /// With <Usetransition> c = St A1 W^-B1 max(1, g/g_ref)^beta_rate for a water content W and a rate of shear g:
 /// Boukpeti, White, Randolph & Low, Géotechnique 62 (2012) 483. With <UseWaterRetention> a suction s adds s tan PhiB to
@@ -26,7 +26,7 @@ namespace tushar::mpm::solid {
 struct MohrCoulomb : IsotropicModuli {
   struct State {
     double suction;         ///< s, Pa
-    double specificVolume;  ///< of the soil with its pores, by that of its grains, 1
+    double specificVolume;  ///< volume of the soil, pores included, over that of its grains, 1
     double cohesion;        ///< c, Pa
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::OptionalState>;
@@ -93,14 +93,15 @@ struct MohrCoulomb : IsotropicModuli {
   }
 
  private:
-  using Principal = Eigen::Vector3d;  ///< principal stresses, Pa, the greatest first
+  using Principal = Eigen::Vector3d;  ///< principal stresses, Pa, the largest first
 
   double lambda() const { return bulkModulus - 2.0 / 3.0 * shearModulus; }
   static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
   static double sine(double degrees) { return std::sin(radians(degrees)); }
   double bearable() const { return 2 * cohesion * std::cos(radians(frictionAngle)); }
 
-  /// Pa, at a rate of strain in 1/s. As in Uintah the rate of shear is (1/2 sum (D_i - D_j)² + 3/4 sum D_ij²)^(1/2).
+  /// The cohesion, Pa, at a strain rate in 1/s. As in Uintah the rate of shear is (1/2 sum (D_i - D_j)² + 3/4 sum
+  /// D_ij²)^(1/2).
   double wetCohesion(const Matrix3& rate) const {
     const double normal = std::pow(rate(0, 0) - rate(1, 1), 2) + std::pow(rate(0, 0) - rate(2, 2), 2) +
                           std::pow(rate(1, 1) - rate(2, 2), 2);

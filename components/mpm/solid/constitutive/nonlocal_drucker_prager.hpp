@@ -23,8 +23,8 @@ struct NonlocalDruckerPrager {
     double plasticStrain;      ///< integral of l', 1
     double hardening;          ///< eta, Pa
     double nonlocalHardening;  ///< eta_n, Pa
-    double plasticIncrement;   ///< of the step, 1
-    double meanIncrement;      ///< of the step, within l_nonlocal, 1
+    double plasticIncrement;   ///< plastic strain of the step, 1
+    double meanIncrement;      ///< mean plastic strain of the step within l_nonlocal, 1
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::Nonlocal>;
   static constexpr std::array<StateVariable, 5> stateVariables{
@@ -45,7 +45,7 @@ struct NonlocalDruckerPrager {
   double nonlocalModulus = 0;                                   ///< h_nonlocal, Pa
   double length = 0;                                            ///< l_nonlocal, m
   double leastStrength = 0;                                     ///< Pa
-  double stressAlongX = 0, stressAlongY = 0, stressAlongZ = 0;  ///< at the start, in equilibrium, Pa
+  double stressAlongX = 0, stressAlongY = 0, stressAlongZ = 0;  ///< normal stresses at the start, Pa
 
   static const input::Schema<NonlocalDruckerPrager>& schema() {
     static const input::Schema<NonlocalDruckerPrager> schema = makeSchema();

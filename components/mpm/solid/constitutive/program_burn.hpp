@@ -9,8 +9,8 @@
 
 namespace tushar::mpm::solid {
 
-/// An explosive that burns by programme: a detonation starts at a point, or at a plane to both sides, and runs at a
-/// given velocity whatever the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From t_b = T0 + |x -
+/// An explosive with programmed burn: a detonation starts at a point, or from a plane to both sides, and moves at a
+/// given velocity, whatever the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From t_b = T0 + |x -
 /// x_0| / D on, it burns a particle of mass m in the time in which it runs 1.5 (m / rho_0)^(1/3). sigma = -p I, with
 /// the pressures of Murnaghan and of Jones, Wilkins and Lee in proportion.
 struct ProgramBurn {
@@ -90,7 +90,7 @@ struct ProgramBurn {
     return tags;
   }
 
-  /// The fraction that has burned at the start of the step.
+  /// The burned fraction at the start of the step.
   double burnedAt(const Deformation& d) const {
     const Vec3 way = d.position - Vec3(origin[0], origin[1], origin[2]),
                normal(direction[0], direction[1], direction[2]);

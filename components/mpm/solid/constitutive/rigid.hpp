@@ -27,7 +27,7 @@ struct Rigid {
   }
   State initialState() const { return {}; }
   Matrix3 updateStress(const Deformation&, const Matrix3&, State&) const { return Matrix3::Zero(); }
-  /// Slow enough that other materials limit the time step.
+  /// A wave speed so low that other materials limit the time step.
   double waveSpeed(double, const Deformation&, const Matrix3&, const State&) const { return 1e-10; }
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 };

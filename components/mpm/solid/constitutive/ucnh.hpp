@@ -38,8 +38,8 @@ struct NeoHookPlastic {
   std::optional<double> yieldStress;       ///< Y, Pa
   std::optional<double> hardeningModulus;  ///< H, Pa
   double initialPlasticStrain = 0;         ///< 1
-  bool yieldSpreads = false;               ///< the yield stress differs from particle to particle: see UcnhVar
-  double yieldRange = 0;                   ///< to both sides of Y, Pa
+  bool yieldSpreads = false;               ///< whether the yield stress differs between particles: see UcnhVar
+  double yieldRange = 0;                   ///< largest deviation from Y, Pa
   int yieldSeed = 0;
   bool startsUnderPressure = false;
   double initialPressure = 0;  ///< Pa

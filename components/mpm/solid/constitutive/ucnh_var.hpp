@@ -8,7 +8,8 @@
 
 namespace tushar::mpm::solid {
 
-/// UCNH with constants of each particle: by its p.color, or with a yield stress drawn from [Y - range, Y + range].
+/// UCNH with constants for each particle: as functions of p.color, or with a random yield stress in [Y - range, Y +
+/// range].
 struct UcnhVar {
   using Common = NeoHookPlastic<false>;
   struct State {
@@ -43,14 +44,14 @@ struct UcnhVar {
   std::size_t count = 0;                     ///< of them
   double initialPlasticStrain = 0;           ///< 1
   double startVolumeRatio = 1;               ///< det F at the start
-  double yieldRange = 0;                     ///< of the yield stress, to both sides, Pa
+  double yieldRange = 0;                     ///< largest deviation of the yield stress, Pa
   int yieldSeed = 0;
 
   static const input::Schema<UcnhVar>& schema() {
     static const input::Schema<UcnhVar> schema = makeSchema();
     return schema;
   }
-  /// That model, with a yield stress that differs from particle to particle.
+  /// The given model with a random yield stress for each particle.
   template <class Model>
   static UcnhVar spread(const Model& model) {
     UcnhVar result;

@@ -41,14 +41,15 @@ struct ViscoPlastic {
        {"p.backstress", "Pa", "back stress", 9}}};
   static constexpr std::string_view name = "visco_plastic";
   static constexpr bool strainEnergyIsRate = true;
-  static constexpr double heatedShare = 0.9;  ///< of the inelastic work, Taylor & Quinney's coefficient, as in Uintah
+  static constexpr double heatedShare =
+      0.9;  ///< heated fraction of the inelastic work: the Taylor-Quinney coefficient, as in Uintah
 
   MaterialConstants material;
   double bulkModulus = 0;   ///< K, Pa
   double shearModulus = 0;  ///< G, Pa
   std::variant<HyperelasticVolume, HypoelasticVolume> equationOfState;
   ViscoplasticFlow flow;
-  double initialTemperature = 269.15;  ///< of the equation of state, K
+  double initialTemperature = 269.15;  ///< reference temperature of the equation of state, K
   bool canFail = false, byStress = true, byPressure = false;
   double failureVariable = 1e30;
   bool losesStress = true, losesTension = false;

@@ -22,7 +22,7 @@ struct ViscoScram {
     double crackRadius;               ///< c, m
     double viscousHeating;            ///< K/s
     double crackHeating;              ///< K/s
-    double volumeHeating;             ///< taken by expansion, K/s
+    double volumeHeating;             ///< cooling by expansion, K/s
     std::array<Tensor, 5> deviators;  ///< s_n, Pa
   };
   using Capabilities = CapabilityList<capability::ConstantsOfMaterial, capability::BulkSpeed,
@@ -48,7 +48,7 @@ struct ViscoScram {
   double toughness = 0;                                          ///< K_0, Pa m^(1/2)
   double crackFriction = 0;                                      ///< mu, 1
   double initialCrackRadius = 0;                                 ///< m
-  double tensileSpeedUp = 0;                                     ///< of cracks in tension, 1
+  double tensileSpeedUp = 0;                                     ///< factor for cracks in tension, 1
   double g1 = 0, g2 = 0, g3 = 0, g4 = 0, g5 = 0;                 ///< G_n, Pa
   double rate1 = 0, rate2 = 0, rate3 = 0, rate4 = 0, rate5 = 0;  ///< 1/tau_n, 1/s
   double gruneisen = 0;                                          ///< 1
@@ -56,7 +56,7 @@ struct ViscoScram {
   double shiftTemperature = 298;  ///< T_0 of Williams, Landel & Ferry, K
   double shift1 = 6.5;            ///< C_1, 1
   double shift2 = 120;            ///< C_2, K
-  double thermalExpansion = 0;    ///< of lengths, 1/K; where it is not 0, the model is ExpandingViscoScram
+  double thermalExpansion = 0;    ///< of lengths, 1/K; if it is not 0, the model is ExpandingViscoScram
 
   static const input::Schema<ViscoScram>& schema() {
     static const input::Schema<ViscoScram> schema = makeSchema();
@@ -67,7 +67,7 @@ struct ViscoScram {
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
     return updateStress(d, oldStress, state, 0);
   }
-  /// The same, where `free` of the strain along each axis makes no stress, 1.
+  /// The same, with a strain `free` along each axis that causes no stress, 1.
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state, double free) const {
     Corotated step(d, oldStress);
     step.strain.diagonal().array() -= free;
@@ -119,8 +119,8 @@ struct ViscoScram {
     const double relative = radius / crackScale;
     return relative * relative * relative;
   }
-  /// The elements at a temperature: all times of relaxation shift by that of Williams, Landel & Ferry, J. Am. Chem.
-  /// Soc. 77 (1955) 3701.
+  /// The elements at a temperature: all relaxation times shift according to Williams, Landel & Ferry, J. Am. Chem. Soc.
+  /// 77 (1955) 3701.
   Elements elementsAt(double temperature) const {
     const double warm = temperature - shiftTemperature;
     const double faster = ratesFollowTemperature ? std::exp(shift1 * warm / (shift2 + warm)) : 1;
@@ -128,8 +128,8 @@ struct ViscoScram {
         {{g1, rate1 * faster}, {g2, rate2 * faster}, {g3, rate3 * faster}, {g4, rate4 * faster}, {g5, rate5 * faster}}};
   }
 
-  /// The greatest speed of cracks follows the strain rate: exp(-2.90178468) (1.5^(1/2) |dev D|)^.90564746, numbers of
-  /// Uintah's for PBX 9501.
+  /// The load of a step. The largest crack speed depends on the strain rate, exp(-2.90178468) (1.5^(1/2) |dev
+  /// D|)^.90564746, with Uintah's numbers for PBX 9501.
   CrackLoad crackLoadOf(const Corotated& step, double timeStep) const {
     const double mean = step.stress.trace() / 3, rate = std::sqrt(1.5) * deviator(step.strain).norm() / timeStep;
     double speed = rate > 1e-8 ? std::exp(0.90564746 * std::log(rate) - 2.90178468) : 0;

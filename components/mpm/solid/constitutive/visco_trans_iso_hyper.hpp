@@ -103,7 +103,7 @@ struct ViscoTransIsoHyper : FibreElasticity {
  private:
   struct Element {
     double share;  ///< y_k, 1
-    double time;   ///< t_k, s; 0: there is no such element
+    double time;   ///< t_k, s; 0: the element does not exist
   };
   Element element(int k) const {
     const std::array<Element, 6> all{{{y1, t1}, {y2, t2}, {y3, t3}, {y4, t4}, {y5, t5}, {y6, t6}}};

@@ -13,16 +13,17 @@ namespace tushar::mpm::solid::arenisca {
 struct Constants {
   double peakI1 = 0;         ///< I1 at the vertex of the yield surface, Pa
   double vertexSlope = 0;    ///< FSLOPE: -d(sqrt J2)/dI1 at the vertex, 1
-  double strength = 0;       ///< STREN: sqrt J2 of the limit of strength, Pa; 0: there is none
+  double strength = 0;       ///< STREN: sqrt J2 of the limit surface at high pressure, Pa; 0: none
   double pressureSlope = 0;  ///< YSLOPE: -d(sqrt J2)/dI1 at high pressure, 1
-  double flowFactor = 1;     ///< beta: of the deviator in the space of closest points; 1: associated flow
-  double b0 = 0, b1 = 0;     ///< bulk modulus at low pressure, and what high pressure adds, Pa
-  double b2 = 0;             ///< the pressure for that, times 3, Pa
-  double b3 = 0, b4 = 0;     ///< reduction of the bulk modulus by plastic compaction, Pa; the strain for that, 1
-  double g0 = 0;             ///< shear modulus, Pa
-  double g1 = 0, g2 = 0;     ///< Poisson's ratio at low pressure, and what high pressure adds, 1; 0: G = g0
+  double flowFactor = 1;     ///< beta, factor of the deviator in the space of closest points; 1: associated flow
+  double b0 = 0, b1 = 0;     ///< bulk modulus at low pressure, and its increase at high pressure, Pa
+  double b2 = 0;             ///< the pressure at which it increases, times 3, Pa
+  double b3 = 0,
+         b4 = 0;  ///< reduction of the bulk modulus by plastic compaction, Pa, and the strain at which it occurs, 1
+  double g0 = 0;  ///< shear modulus, Pa
+  double g1 = 0, g2 = 0;     ///< Poisson's ratio at low pressure, and its increase at high pressure, 1; 0: G = g0
   double p0 = 0;             ///< I1 at which pores begin to collapse, Pa
-  double p1 = 0;             ///< of the crush curve, 1/Pa
+  double p1 = 0;             ///< constant of the crush curve, 1/Pa
   double p3 = 0;             ///< volumetric strain at which all pores have collapsed, 1
   double capRatio = 0;       ///< CR: (vertex - start of the cap) / (vertex - end of the cap)
   double fluidBulk = 0;      ///< K_f, Pa; 0: pores are empty
@@ -30,26 +31,26 @@ struct Constants {
   double t1 = 0, t2 = 0;     ///< relaxation time t1 |D|^-t2, s for |D| in 1/s
   double capShape = 0;       ///< CR of Arenisca: height over length of the ellipse of a tangent cap; 0: capRatio
   double mostSubsteps = 256;
-  int lodeType = 0;      ///< of Lode's angle: 0 none, 1 Gudehus, 3 Mohr and Coulomb
+  int lodeType = 0;      ///< dependence on the Lode angle: 0 none, 1 Gudehus, 3 Mohr-Coulomb
   double lodeRatio = 1;  ///< psi: strength in triaxial compression over that in extension
 
-  /// Whether Poisson's ratio is given; else G = g0.
+  /// Whether Poisson's ratio is given; otherwise G = g0.
   bool hasPoissonRatio() const { return g1 != 0 && g2 != 0; }
   /// Whether the cap is an ellipse that touches the cone, and the moduli are constant: Arenisca without a number.
   bool hasTangentCap() const { return capShape > 0; }
   /// K_m: bulk modulus of the grains, Pa.
   double matrixBulk() const { return b0 + b1; }
-  /// phi_0: share of pores at the start.
+  /// phi_0: porosity at the start.
   double porosity() const { return 1 - std::exp(-p3); }
   /// C_1 = K_f (1 - phi_0) + K_m phi_0, Pa
   double mixedBulk() const { return fluidBulk * (1 - porosity()) + matrixBulk() * porosity(); }
-  /// Whether a fluid fills the pores at a volumetric strain: beyond that, it is under tension and tears.
+  /// Whether a fluid fills the pores at a volumetric strain; at larger strains it is under tension and tears.
   bool isSaturated(double strain) const {
     return fluidBulk != 0 && strain <= mixedBulk() * fluidPressure / (fluidBulk * matrixBulk());
   }
 };
 
-/// Whether the four constants of the limit of strength have one of the forms that YieldSurface supports.
+/// Whether the four constants of the limit surface have one of the forms that YieldSurface supports.
 inline bool hasLimit(const Constants& c) {
   const bool cone = c.vertexSlope > 0 && c.peakI1 >= 0 && c.strength == 0 && c.pressureSlope == 0;
   const bool cylinder = c.vertexSlope == 0 && c.peakI1 == 0 && c.strength > 0 && c.pressureSlope == 0;
@@ -96,7 +97,7 @@ struct Tags {
   }
 };
 
-/// A cone with a cap, the crush curve, and the dependence on the rate.
+/// Tags of the cone with a cap, the crush curve, and the rate dependence.
 template <class M>
 void addConeTags(input::Schema<M>& schema) {
   const Tags<M> tags{schema};
@@ -119,7 +120,7 @@ void addConeTags(input::Schema<M>& schema) {
   schema.ignored("gruneisen_parameter", "as in Uintah, nothing depends on it").check(check<M>);
 }
 
-/// The curved limit of strength, nonlinear elasticity and the fluid.
+/// Tags of the curved limit surface, nonlinear elasticity and the fluid.
 template <class M>
 void addSoilTags(input::Schema<M>& schema) {
   const Tags<M> tags{schema};
@@ -147,7 +148,7 @@ void addSoilTags(input::Schema<M>& schema) {
                input::nonNegative());
 }
 
-/// The cap that touches the cone: Arenisca without a number alone has it.
+/// Tags of the cap that touches the cone: Arenisca without a number alone has it.
 template <class M>
 void addTangentCapTags(input::Schema<M>& schema) {
   const Tags<M> tags{schema};

@@ -9,7 +9,7 @@
 
 namespace tushar::mpm::solid {
 
-/// State of a material point that its yield stress depends on.
+/// The state of a material point on which its yield stress depends.
 struct FlowState {
   double plasticStrain;          ///< equivalent plastic strain, 1
   double strainRate;             ///< equivalent strain rate, 1/s
@@ -17,7 +17,7 @@ struct FlowState {
   double shearModulus;           ///< Pa
   double density = 0;            ///< kg/m^3
   double meltTemperature = 0;    ///< K
-  double plasticStrainRate = 0;  ///< mean of the step, 1/s
+  double plasticStrainRate = 0;  ///< mean over the step, 1/s
 };
 
 namespace capability {
