@@ -17,7 +17,7 @@ namespace {
 
 void complain(const std::string& sentence) { fmt::print(stderr, "sus: {}\n", withNumber(sentence)); }
 
-/// Uintah's words begin with one dash: -validate becomes --validate. Single letters stay.
+/// Adds a dash to Uintah's options: -validate becomes --validate. Single letters stay.
 std::string withTwoDashes(const std::string& word) {
   const bool oneDash = word.size() > 2 && word[0] == '-' && word[1] != '-' && std::isalpha(word[1]);
   return oneDash ? "-" + word : word;
@@ -51,7 +51,7 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   return names;
 }
 
-/// The words as CLI11 takes them, the last first; what follows --petsc is PETSc's and stays as it is.
+/// The words in the order for CLI11, the last first; the word after --petsc is left unchanged.
 std::vector<std::string> backwards(const std::vector<std::string>& given) {
   std::vector<std::string> words;
   for (const std::string& word : given)
@@ -60,7 +60,7 @@ std::vector<std::string> backwards(const std::vector<std::string>& given) {
   return words;
 }
 
-/// Says which words of the command line mean nothing: the options, as they were written, or else a second scene.
+/// Reports the invalid words of the command line: unknown options, as given, or a second scene.
 void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, const std::string& scene) {
   const std::vector<std::string> unknown = app.remaining(), names = optionNames(app);
   bool options = false;
@@ -73,7 +73,7 @@ void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, c
   if (!options) complain(fmt::format("only one scene can be run: found '{}' after '{}'", unknown.front(), scene));
 }
 
-/// Declares the options that say who does the work of a run.
+/// Declares the options for patches, threads and writers.
 void declareWorkers(CLI::App& app, Arguments& arguments) {
   app.add_option_function<std::string>(
       "--layout", [&](const std::string& text) { setLayout(text, arguments.workers); },
@@ -143,7 +143,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("-V,--version", arguments.version, "version, commit, compiler and libraries");
 }
 
-/// What is wrong with the words of the command line.
+/// The problem with the command line, in a sentence.
 std::string sentenceOf(const CLI::App* app, const CLI::Error& error) {
   const std::string text = CLI::FailureMessage::simple(app, error);
   const std::size_t line = text.find('\n');

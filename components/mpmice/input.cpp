@@ -15,7 +15,7 @@ using input::Element;
 
 namespace {
 
-/// Which pairs of materials are a body and a gas; Uintah's matrices have the pairs row by row.
+/// Calls a function for each pair of a body and a gas; Uintah's matrices contain the pairs row by row.
 template <class Visit>
 void forEachPairWithGas(const std::vector<double>& pairs, int solids, int gases, Visit&& visit) {
   std::size_t at = 0;
@@ -24,7 +24,7 @@ void forEachPairWithGas(const std::vector<double>& pairs, int solids, int gases,
       if (column >= solids) visit(row, pairs[at]);
 }
 
-/// Whether a list has a number for each pair of materials.
+/// Whether a list has one number for each pair of materials; reports it otherwise.
 bool hasAllPairs(const std::vector<double>& given, const char* name, int materials, const Element& tag,
                  Diagnostics& diagnostics) {
   const std::size_t pairs = static_cast<std::size_t>(materials) * (materials - 1) / 2;
@@ -35,7 +35,8 @@ bool hasAllPairs(const std::vector<double>& given, const char* name, int materia
   return false;
 }
 
-/// The gas and bodies exchange momentum at walls, or bodies are rigid; bodies exchange it by their contacts.
+/// Checks the exchange of momentum: between gas and bodies, only walls are available; bodies interact by their
+/// contacts.
 void checkMomentum(const ice::Exchange& exchange, int solids, int gases, bool areRigid, const Element& tag,
                    Diagnostics& diagnostics) {
   constexpr double walls = 1e9;
@@ -53,7 +54,7 @@ void checkMomentum(const ice::Exchange& exchange, int solids, int gases, bool ar
                      "does nothing between bodies: they interact by their <contact>");
 }
 
-/// The coefficients of heat of all pairs; empty if none flows.
+/// The heat exchange coefficients of all pairs; empty if no heat flows.
 std::vector<double> heatOf(const ice::Exchange& exchange, int solids, int gases, const Element& root,
                            const Element& tag, Diagnostics& diagnostics) {
   const auto& heat = exchange.heat;
@@ -78,7 +79,7 @@ int countSolids(const Element& root) {
   return solids ? static_cast<int>(solids->children("material").size()) : 0;
 }
 
-/// Refuses what the gas and the bodies cannot have together.
+/// Refuses settings that are not available for a gas with bodies.
 void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
   const auto mpm = root.child("MPM");
   if (const auto radial = mpm ? mpm->child("axisymmetric") : std::nullopt; radial && radial->text() == "true")
@@ -89,7 +90,7 @@ void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diag
                                   scene.gas.cfl, greatestCfl));
 }
 
-/// Notes that conditions on a part of a side hold for the gas alone, and that bodies have those of whole sides.
+/// Notes that conditions on a part of a side hold only for the gas, and that bodies have those of the whole side.
 void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagnostics) {
   const auto grid = root.child("Grid");
   const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;

@@ -31,7 +31,7 @@ inline constexpr OnWalls<D> wallPressure{{{"c.wallPressureBelow", "Pa", "pressur
 template <int D>
 inline constexpr CellLabel<Vec<D>> wallFriction{"c.wallFriction", "N/m^3",
                                                 "force per volume of walls on the gas of the cell"};
-/// Of an implicit step.
+/// Variables of an implicit step.
 template <int D>
 inline constexpr euler::StateLabels<D> alone{
     {"c.aloneDensity", "kg/m^3", "density of the gas, per volume of the gas"},
@@ -52,8 +52,8 @@ inline constexpr CellLabel<Vec<D>> unsharedMomentum{"c.unsharedMomentum", "kg/(m
                                                     "before small cells share it with others"};
 inline constexpr CellLabel<double> unsharedEnergy{"c.unsharedEnergy", "J/m^3",
                                                   "before small cells share it with others"};
-/// Of several gases each by its number: its mass per volume of the cell, its share of the gas's volume, and before
-/// small cells share theirs its mass and volume per volume of the cell.
+/// For each of several gases, by its number: its mass per volume of the cell, its share of the gas's volume and, before
+/// small cells share theirs, its mass and volume per volume of the cell.
 inline constexpr std::array<CellLabel<double>, 3> massOfGas{{{"c.massOfGas0", "kg/m^3", "mass of the first gas"},
                                                              {"c.massOfGas1", "kg/m^3", "mass of the second gas"},
                                                              {"c.massOfGas2", "kg/m^3", "mass of the third gas"}}};
@@ -69,7 +69,7 @@ inline constexpr std::array<CellLabel<double>, 3> unsharedVolume{
     {{"c.unsharedVolume0", "1", "volume of the first gas, before small cells share it"},
      {"c.unsharedVolume1", "1", "volume of the second gas, before small cells share it"},
      {"c.unsharedVolume2", "1", "volume of the third gas, before small cells share it"}}};
-/// What the gas gave to bodies in a step, per volume of the cell, and since the start.
+/// The exchange of the gas with bodies in a step, per volume of the cell, and since the start.
 template <int D>
 inline constexpr CellLabel<Vec<D>> impulse{"c.impulseOnBodies", "N s/m^3", "impulse of the gas on walls in the step"};
 inline constexpr CellLabel<double> work{"c.workOnBodies", "J/m^3", "work of the gas on walls in the step"};

@@ -10,7 +10,7 @@ namespace tushar::reference {
 
 namespace {
 
-/// The table ends where gamma w - 1 has fallen by about exp(-kDepth): the density there is next to nothing.
+/// The table ends where gamma w - 1 has fallen by a factor of about exp(-kDepth), where the density is negligible.
 constexpr double kDepth = 60;
 constexpr int kSteps = 16000;
 
@@ -53,7 +53,7 @@ void Sedov::tabulate() {
   }
 }
 
-/// Cubic between nodes; inwards of the last one as there.
+/// Cubic interpolation between nodes; constant inside the last one.
 Sedov::Shape Sedov::shapeAt(double logLambda) const {
   const double place = std::min(logLambda / step_, static_cast<double>(kSteps));
   const auto k = std::min(static_cast<std::size_t>(place), nodes_.size() - 2);

@@ -28,7 +28,7 @@ void forEachModel(Visit&& visit) {
   std::apply([&](const auto&... model) { (visit(model), ...); }, AllModels{});
 }
 
-/// A model's own tags, and the attribute that picks it.
+/// A model's own tags, and the attribute that selects it.
 template <class M>
 const Schema<M>& modelSchema() {
   static const Schema<M> schema =
@@ -46,7 +46,7 @@ std::vector<std::string> modelNames() {
 const std::map<std::string, std::string> otherWords{
     {"arenisca", "Arenisca"}, {"cnh_damage", "UCNH"}, {"cnhp_damage", "comp_neo_hook_plastic"}};
 
-/// Uintah's models that are missing here, and their nearest substitutes.
+/// Models of Uintah that are missing here, and their nearest alternatives.
 const std::vector<std::pair<std::string, std::string>> lackingModels{
     {"membrane", "comp_neo_hook, for bodies as thick as a cell"},
     {"three_factor_mooney", "comp_mooney_rivlin"},
@@ -74,7 +74,7 @@ void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagn
 /// Whether a tag that names Arenisca3 has the tags of Arenisca alone, as some scenes of Uintah do.
 bool hasOlderTags(const Element& tag) { return tag.child("p4_fluid_effect") && !tag.child("STREN"); }
 
-/// The model that a tag names, by its name here.
+/// The model of a tag, by its name here.
 std::string typeOf(const Element& tag) {
   const std::string type = tag.attribute("type").value_or("");
   const auto yields = tag.child("usePlasticity");

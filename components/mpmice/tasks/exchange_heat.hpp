@@ -7,7 +7,7 @@
 
 namespace tushar::mpmice {
 
-/// The heat of bodies: of each particle of a material.
+/// The heat of the particles of a material.
 struct WarmBodies {
   ParticleView<const double> mass;
   ParticleView<const mpm::solid::Matrix3> deformation;
@@ -61,7 +61,7 @@ class HeatExchange {
                CellView<const double> free, const std::vector<WarmBodies>& bodies)
       : patch_(patch), materials_(materials), settings_(settings), free_(free), bodies_(bodies) {}
 
-  /// Returns what the gas of the cell gives, J/m³ of the cell.
+  /// Returns the heat that the gas of the cell gives, J/m³ of the cell.
   double apply(const Index<D>& cell, double dt, CellView<const double> density, CellView<const Vec<D>> momentum,
                CellView<double> totalEnergy) const {
     const auto gas = static_cast<Eigen::Index>(bodies_.size());

@@ -6,7 +6,7 @@
 
 namespace tushar::mpmice {
 
-/// How far away, in cells, gas is sought for a partly filled cell that has none at its centre.
+/// The largest distance, in cells, at which gas is sought for a partly filled cell without gas at its centre.
 inline constexpr int gasNearby = 3;
 
 /// The gas of a cell with some room: that at its centre or, as scenes cut out the bodies' shapes, at the nearest
@@ -32,7 +32,7 @@ euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const
   return *nearest;
 }
 
-/// The gas of a scene in the free part of cells.
+/// Fills the free part of cells with the gas of the scene.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<const double> free, CellView<double> density,
                 CellView<Vec<D>> momentum, CellView<double> totalEnergy) {

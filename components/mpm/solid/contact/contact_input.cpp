@@ -62,7 +62,7 @@ struct FrictionTable {
   std::vector<FrictionEntry> entries;
 };
 
-/// The tags of every kind of contact, as they are written.
+/// The tags of all kinds of contact, as given in the scene.
 struct ContactSection {
   Kind kind = Kind::none;
   std::optional<std::vector<int>> materials;
@@ -95,7 +95,7 @@ const Schema<FrictionTable>& frictionTableSchema() {
   return schema;
 }
 
-/// Checks what contacts along planes need and cannot have.
+/// Checks the tags of contacts along planes.
 void checkPlanes(const ContactSection& read, const Element& element, Diagnostics& diagnostics) {
   const bool byColor = read.kind == Kind::colorFriction;
   if (byColor && !read.frictionTable)
@@ -127,7 +127,7 @@ void checkContact(const ContactSection& read, const Element& element, Diagnostic
   checkPlanes(read, element, diagnostics);
 }
 
-/// The kinds of contact, and the materials that take part.
+/// Declares the kinds of contact, and the materials that take part.
 void addKinds(Schema<ContactSection>& contact) {
   requiredChoiceOrRefusal(
       contact, "type", &ContactSection::kind, kinds, lackingKinds,
@@ -151,7 +151,7 @@ void addKinds(Schema<ContactSection>& contact) {
       .ignored("vel_fields", "an older name of materials");
 }
 
-/// The motion of the master, for contacts that have one.
+/// Declares the motion of the master, for contacts that have one.
 void addMaster(Schema<ContactSection>& contact) {
   contact
       .optional("direction", &ContactSection::direction, "1",
@@ -202,7 +202,7 @@ const Schema<ContactSection>& contactSchema() {
   return schema;
 }
 
-/// The numbers of a file next to the scene, `columns` a line.
+/// The numbers of a file next to the scene, `columns` per line.
 std::vector<double> readTable(const Element& tag, const std::string& path, std::size_t columns,
                               Diagnostics& diagnostics) {
   std::ifstream file(path);
@@ -219,7 +219,7 @@ std::vector<double> readTable(const Element& tag, const std::string& path, std::
   return numbers;
 }
 
-/// Gives a contact the motion of its master from a file.
+/// Reads the motion of a contact's master from a file.
 void readMotion(const Element& tag, const ContactSection& read, Contact& contact, Diagnostics& diagnostics) {
   const std::string path = (std::filesystem::path(tag.where().file).parent_path() / read.profileFile).string();
   const std::size_t columns = read.turns ? 10 : 4;

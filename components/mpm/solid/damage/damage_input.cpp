@@ -72,7 +72,7 @@ const Schema<BrittleDamage>& BrittleDamage::schema() {
   return schema;
 }
 
-/// A member of the model that Self extends.
+/// A member of the model that Self extends, as a member of Self.
 template <class Self, class T>
 T Self::* of(T ThresholdDamage::* member) {
   return member;
@@ -186,7 +186,7 @@ const Schema<Erosion>& erosionSchema() {
   return schema;
 }
 
-/// Checks a damage model against the constitutive model, and takes its elastic constants.
+/// Checks a damage model against the constitutive model, and copies the elastic constants of the latter.
 void connect(Material& material, const Element& parent, const Element& tag, Diagnostics& diagnostics) {
   const bool isJohnsonCook = std::holds_alternative<JohnsonCookDamage>(material.damage);
   const bool needsRate = isJohnsonCook || std::holds_alternative<HancockMackenzieDamage>(material.damage);
@@ -209,7 +209,7 @@ void connect(Material& material, const Element& parent, const Element& tag, Diag
   brittle->young = 9 * *bulk * *shear / (3 * *bulk + *shear);
 }
 
-/// Refuses stability checks with erosion: in Uintah particles fail by them.
+/// Refuses stability checks with erosion, by which particles fail in Uintah.
 void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");
   const auto check = model ? model->child("stability_check") : std::nullopt;
@@ -220,7 +220,7 @@ void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagno
                                   erosion.where().line));
 }
 
-/// Notes that porosity is missing: in Uintah metals fail by it by default.
+/// Notes that particles do not fail by porosity, as metals do in Uintah by default.
 void noteWhatDoesNotFail(const Material& material, const Element& parent, const Element& erosion,
                          Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");

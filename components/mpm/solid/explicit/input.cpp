@@ -46,7 +46,7 @@ struct MpmSection {
   std::string deformationFile;
 };
 
-/// Artificial viscosity and damping.
+/// Declares artificial viscosity and damping.
 void addDissipation(Schema<MpmSection>& mpm) {
   mpm.value("artificial_viscosity", &MpmSection::artificialViscosity, false, "1",
             "artificial viscosity: a pressure that opposes compression")
@@ -60,7 +60,7 @@ void addDissipation(Schema<MpmSection>& mpm) {
              "damping: an acceleration opposed to the velocity", input::nonNegative());
 }
 
-/// Limits for single particles and nodes.
+/// Declares limits for single particles and nodes.
 void addLimits(Schema<MpmSection>& mpm) {
   mpm.value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
             "every particle must be heavier (Uintah removes lighter ones)", input::nonNegative())
@@ -73,7 +73,7 @@ void addLimits(Schema<MpmSection>& mpm) {
              "series of L dt up to power n instead");
 }
 
-/// When stresses are updated, and how velocities go from the grid to the particles.
+/// Declares when stresses are updated, and how velocities are transferred to the particles.
 void addUpdates(Schema<MpmSection>& mpm) {
   mpm.choice("stress_update", &MpmSection::stressUpdate,
              {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
@@ -96,7 +96,7 @@ void addUpdates(Schema<MpmSection>& mpm) {
              "from older versions of Uintah: true means <stress_update> musl");
 }
 
-/// Prescribed deformation of bodies.
+/// Declares the prescribed deformation of bodies.
 void addPrescribedDeformation(Schema<MpmSection>& mpm) {
   mpm.value("UsePrescribedDeformation", &MpmSection::prescribesDeformation, false, "1",
             "all bodies move as <PrescribedDeformationFile> prescribes, whatever their stress")
@@ -106,7 +106,7 @@ void addPrescribedDeformation(Schema<MpmSection>& mpm) {
   refuseSwitch(mpm, "exactDeformation", "give <Time> a delt_max that does not exceed the time between points");
 }
 
-/// Geometry, external loads, and heat.
+/// Declares geometry, external loads and heat.
 void addSurroundings(Schema<MpmSection>& mpm) {
   mpm.value("axisymmetric", &MpmSection::axisymmetric, false, "1",
             "x is the radius and y the axis; mass, energy and forces are per radian")
@@ -180,8 +180,9 @@ constexpr std::array implicitOnly{"with_gauss_solver",
                                   "delT_increase_factor",
                                   "temperature_solve"};
 
-/// Uintah shrinks domains with a corner farther from the middle than `cpdi_lcrit` cells, except for axisymmetric ones.
-/// Here none reaches farther than a cell along an axis, so that its corners are at most 3^(1/2) cells away.
+/// Refuses a short `cpdi_lcrit`: Uintah shrinks domains with a corner farther from the centre than that many cells,
+/// except for axisymmetric ones. Here none reaches farther than a cell along an axis, so that its corners are at most
+/// 3^(1/2) cells away.
 void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("cpdi_lcrit");
   if (!given || read.interpolator != Interpolator::cpdi) return;
@@ -252,7 +253,7 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   return method;
 }
 
-/// The motion of all bodies, where the scene prescribes one.
+/// The motion of all bodies, if the scene prescribes one.
 std::shared_ptr<const PrescribedDeformation> readMotion(const MpmSection& read, const Element& root,
                                                         Diagnostics& diagnostics) {
   if (!read.prescribesDeformation) return {};
@@ -265,14 +266,14 @@ std::shared_ptr<const PrescribedDeformation> readMotion(const MpmSection& read, 
   return motion ? std::make_shared<PrescribedDeformation>(*motion) : nullptr;
 }
 
-/// Throws InputError where a scene whose <MPM> stands at `where` leaves out an axis along which bodies are deformed.
+/// Throws InputError, at the place of <MPM>, if the grid leaves out an axis along which bodies are deformed.
 void refuseFlat(const Level& level, const Location& where) {
   if (level.dimension() < 3)
     throw InputError({{where, "MPM/UsePrescribedDeformation",
                        "needs a grid in three dimensions: more than one cell along x, y and z"}});
 }
 
-/// With use_CBDI_boundary_condition pressures specify the faces of particles on which they act.
+/// Checks that, with use_CBDI_boundary_condition, pressures specify the faces of particles on which they act.
 void checkCorners(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const auto loads = root.child("PhysicalBC");
   if (!problem.method.loadsAtCorners || !loads) return;

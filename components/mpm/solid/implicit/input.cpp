@@ -67,7 +67,7 @@ void declareSteps(Schema<Section>& schema) {
              input::atLeast(1));
 }
 
-/// In Uintah, nodes then keep the temperatures of the first step, from which every step conducts anew.
+/// Notes that nodes do not keep the temperatures of the first step, from which every step conducts heat anew in Uintah.
 void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("interpolateParticleTempToGridEveryStep");
   const auto conducts = element.child("DoImplicitHeatConduction");
@@ -136,13 +136,13 @@ const Schema<Section>& sectionSchema() {
   return schema;
 }
 
-/// Without a <direction>, a contact follows its master along all axes.
+/// Sets the directions of contacts: without a <direction>, they follow their master along all axes.
 void settleDirections(std::vector<Contact>& contacts) {
   for (Contact& contact : contacts)
     if (!contact.directionIsGiven) contact.direction = {true, true, true};
 }
 
-/// A material with <is_rigid> is the master of all contacts of type rigid and specified.
+/// Makes a material with <is_rigid> the master of all contacts of type rigid and specified.
 void settleMasters(const Element& root, std::vector<Contact>& contacts, Diagnostics& diagnostics) {
   const std::vector<Element> materials = root.child("MaterialProperties")->child("MPM")->children("material");
   const auto isSpecified = [](const Contact& contact) { return contact.type == Contact::Type::specified; };
@@ -165,7 +165,7 @@ bool isMaster(const Problem& problem, int material) {
   });
 }
 
-/// Implicit steps need the tangent of every material except the masters of contacts, which do not deform.
+/// Refuses materials without a tangent, except masters of contacts, which do not deform.
 void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Material& material : problem.materials)
     if (!material.model->hasTangent() && !isMaster(problem, material.index))
@@ -193,7 +193,7 @@ void refuseVolumesOfStates(const Problem& problem, const Element& root, Diagnost
                             material.name + "' is " + std::string(material.model->name()));
 }
 
-/// Features that only explicit time steps have.
+/// Refuses features that are available only with explicit time steps.
 void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const Element where = root.child("MaterialProperties").value();
   for (const Material& material : problem.materials)
@@ -219,7 +219,7 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <time_integrator> explicit");
 }
 
-/// In Uintah's implicit steps heat strains metals, beside what the equation of state makes of it.
+/// Notes that heat does not strain metals, as it does in Uintah's implicit steps in addition to the equation of state.
 void noteThermalStrain(const Element& root, Diagnostics& diagnostics) {
   for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material")) {
     const auto model = material.child("constitutive_model");
@@ -231,7 +231,7 @@ void noteThermalStrain(const Element& root, Diagnostics& diagnostics) {
   }
 }
 
-/// Boundary conditions that implicit steps would ignore: those of one material out of several, and a heat flux.
+/// Refuses boundary conditions that implicit steps would ignore: those of one of several materials, and a heat flux.
 void refuseConditions(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const std::string id = condition.attribute("id").value_or("all");

@@ -7,14 +7,15 @@ namespace tushar::mpm::solid::implicit {
 
 /// Settings of implicit steps; names and defaults are Uintah's.
 struct ImplicitMethod {
-  bool dynamic = true;        ///< Newmark's method; else without inertia, and each step ends at rest
-  bool resetsGrid = true;     ///< else the grid moves with the solid: shape functions at the starting positions
-  bool sharesVolume = false;  ///< F-bar: the particles of a cell are compressed as one, against locking
+  bool dynamic = true;  ///< Newmark's method; otherwise no inertia, and each step ends in equilibrium
+  bool resetsGrid =
+      true;  ///< otherwise the grid moves with the solid: shape functions are those at the initial positions
+  bool sharesVolume = false;  ///< F-bar: the particles of a cell share one change of volume, so that they do not lock
   solvers::NewtonSettings newton;
   bool conductsHeat = false;
   solvers::LinearSettings heat;   ///< where heat is conducted
-  int iterationsToDecrease = 12;  ///< a step with at least this many makes the next one shorter
-  int iterationsToIncrease = 4;   ///< a step that took no more makes the next one longer
+  int iterationsToDecrease = 12;  ///< after a step with at least this many iterations, the next one is shorter
+  int iterationsToIncrease = 4;   ///< after a step with at most this many iterations, the next one is longer
   double decreaseFactor = 0.6;
   double increaseFactor = 2;
 

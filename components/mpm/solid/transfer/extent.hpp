@@ -57,7 +57,7 @@ struct Sizes {
 template <class Shape>
 inline constexpr bool sharesNodes = Shape::ghostNodes == 0;
 
-/// Asks for the values of `count` particles from `first` on before they are read or, if they are not const, written.
+/// Prefetches the values of `count` particles from `first` on, for reading or, if they are not const, for writing.
 template <class T>
 [[gnu::always_inline]] inline void prefetch(T* values, int first, int count) {
   constexpr std::size_t line = 64;
@@ -116,7 +116,9 @@ class Extents {
 
  private:
   /// Half the edges F S of a particle that started with the edges S, in cells.
-  Extent<D> skewed(int p, const Vec<D>& size) const requires(Shape::deforms) {
+  Extent<D> skewed(int p, const Vec<D>& size) const
+    requires(Shape::deforms)
+  {
     Extent<D> extent;
     extent.size = size;
     for (int i = 0; i < D; ++i)
