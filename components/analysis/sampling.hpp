@@ -47,9 +47,9 @@ void checkTimes(const Times& times, const input::Element& module, input::Diagnos
 /// Adds the tags of times.
 template <class Settings>
 void addTimes(input::Schema<Settings>& schema) {
-  double Settings::* const frequency = &Times::frequency;
-  double Settings::* const start = &Times::start;
-  double Settings::* const stop = &Times::stop;
+  double Settings::*const frequency = &Times::frequency;
+  double Settings::*const start = &Times::start;
+  double Settings::*const stop = &Times::stop;
   schema
       .required("samplingFrequency", frequency, "1/s", "samples per second of simulated time; never more than steps",
                 input::positive())
@@ -64,10 +64,10 @@ void addTimes(input::Schema<Settings>& schema) {
 template <class Settings>
 input::Schema<Settings> samplingSchema(const std::string& name, const std::string& sentence,
                                        const input::Schema<AnalyzedList>& list = analyzedSchema()) {
-  std::string Settings::* const called = &Sampling::name;
-  std::string Settings::* const material = &Sampling::material;
-  AnalyzedList Settings::* const variables = &Sampling::variables;
-  Location Settings::* const where = &Sampling::where;
+  std::string Settings::*const called = &Sampling::name;
+  std::string Settings::*const material = &Sampling::material;
+  AnalyzedList Settings::*const variables = &Sampling::variables;
+  Location Settings::*const where = &Sampling::where;
   input::Schema<Settings> schema("Module", sentence);
   schema.requiredAttribute("name", called, "1", name)
       .location(where)

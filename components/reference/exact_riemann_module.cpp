@@ -121,7 +121,9 @@ simulation::AnalysisKind exactRiemannKind() {
   return gasModule(
       "exactRiemann", "errors against the exact solution of a shock tube", riemannSchema,
       [](const RiemannSection& read, const grid::Level& level) { return tubeOn(level, read); },
-      [](const RiemannSection& read) { return std::vector{gasOf(read.left, read), gasOf(read.right, read)}; });
+      [](const RiemannSection& read) {
+        return std::vector{gasOf(read.left, read), gasOf(read.right, read)};
+      });
 }
 
 }  // namespace tushar::reference

@@ -59,7 +59,7 @@ Sedov::Shape Sedov::shapeAt(double logLambda) const {
   const auto k = std::min(static_cast<std::size_t>(place), nodes_.size() - 2);
   const Node &a = nodes_[k], &b = nodes_[k + 1];
   const double s = place - static_cast<double>(k);
-  const auto cubic = [&](double Shape::* what) {
+  const auto cubic = [&](double Shape::*what) {
     const double rise = b.value.*what - a.value.*what;
     const double left = step_ * a.slope.*what - rise, right = rise - step_ * b.slope.*what;
     return a.value.*what + s * (rise + (1 - s) * ((1 - s) * left + s * right));

@@ -110,8 +110,9 @@ class Sections {
       else
         letters.push_back({rank, std::move(bytes)});
     }
-    mpi::exchange(ranks_, outbox_, std::move(letters),
-                  [&](int from, const mpi::Bytes& bytes) { parts.push_back({from, wordsOf(bytes)}); });
+    mpi::exchange(ranks_, outbox_, std::move(letters), [&](int from, const mpi::Bytes& bytes) {
+      parts.push_back({from, wordsOf(bytes)});
+    });
     return parts;
   }
 

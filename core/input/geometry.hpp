@@ -32,7 +32,7 @@ void describeGeometry(std::ostream& out, int indent = 0);
 /// Adds the tags of the shapes to the schema of a body: `shape` becomes their union, and `where` the place of the body.
 /// `sentence` says what the shape is for.
 template <class S>
-Schema<S>& addShape(Schema<S>& body, Location S::* where, PiecePtr S::* shape, const std::string& sentence) {
+Schema<S>& addShape(Schema<S>& body, Location S::*where, PiecePtr S::*shape, const std::string& sentence) {
   const auto read = [shape](S& object, const Element& element, Diagnostics& diagnostics) {
     object.*shape = readGeometry(element, diagnostics);
   };

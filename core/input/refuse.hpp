@@ -27,7 +27,7 @@ void refuseTypes(SchemaBase& schema, const std::string& tag, const std::vector<s
 
 /// Refuses each entry of a list whose `member` is not above that of the previous entry. `tags` are the entries' own.
 template <class T, class Member>
-void refuseDescent(const std::vector<T>& entries, Member T::* member, const std::vector<Element>& tags,
+void refuseDescent(const std::vector<T>& entries, Member T::*member, const std::vector<Element>& tags,
                    const std::string& problem, Diagnostics& diagnostics) {
   for (std::size_t k = 1; k < entries.size(); ++k)
     if (entries[k].*member <= entries[k - 1].*member) diagnostics.error(tags[k], problem);
@@ -38,7 +38,7 @@ using Lacking = std::vector<std::pair<std::string, std::string>>;
 
 /// Declares a tag with one of several words; for words that are `lacking`, the message names the nearest alternative.
 template <class S, class E>
-void requiredChoiceOrRefusal(input::Schema<S>& schema, const std::string& tag, E S::* member,
+void requiredChoiceOrRefusal(input::Schema<S>& schema, const std::string& tag, E S::*member,
                              const std::type_identity_t<input::Choices<E>>& choices, const Lacking& lacking,
                              const std::string& sentence) {
   std::vector<std::string> words;

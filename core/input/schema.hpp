@@ -20,7 +20,7 @@ namespace tushar::input {
 
 /// Converts a pointer to a member of a base of S to one of S.
 template <class S, class T, class Base>
-T S::* memberOf(T Base::* member) {
+T S::*memberOf(T Base::*member) {
   return member;
 }
 
@@ -52,116 +52,116 @@ class Schema : public SchemaBase {
 
   /// A tag with a value, which is `byDefault` if it is left out.
   template <class T, class... C>
-  Schema& value(std::string_view name, T S::* member, const std::type_identity_t<T>& byDefault, std::string_view unit,
+  Schema& value(std::string_view name, T S::*member, const std::type_identity_t<T>& byDefault, std::string_view unit,
                 std::string_view sentence, const C&... constraints) {
     return put(withDefault(valueEntry<T>(member, name, unit, sentence, constraints...), member, byDefault));
   }
 
   /// A tag with a value that must be given.
   template <class T, class... C>
-  Schema& required(std::string_view name, T S::* member, std::string_view unit, std::string_view sentence,
+  Schema& required(std::string_view name, T S::*member, std::string_view unit, std::string_view sentence,
                    const C&... constraints) {
     return put(mandatory(valueEntry<T>(member, name, unit, sentence, constraints...)));
   }
 
   /// A tag with a value that may be left out.
   template <class T, class... C>
-  Schema& optional(std::string_view name, std::optional<T> S::* member, std::string_view unit,
-                   std::string_view sentence, const C&... constraints) {
+  Schema& optional(std::string_view name, std::optional<T> S::*member, std::string_view unit, std::string_view sentence,
+                   const C&... constraints) {
     return put(valueEntry<T>(member, name, unit, sentence, constraints...));
   }
 
   /// A tag with a value that may be given any number of times, at least `atLeast` times.
   template <class T, class... C>
-  Schema& values(std::string_view name, std::vector<T> S::* member, std::string_view unit, std::string_view sentence,
+  Schema& values(std::string_view name, std::vector<T> S::*member, std::string_view unit, std::string_view sentence,
                  int atLeast, const C&... constraints) {
     return put(repeated(valueEntry<T>(member, name, unit, sentence, constraints...), atLeast));
   }
 
   /// A flag: an empty tag means true; otherwise its text is true or false.
-  Schema& flag(std::string_view name, bool S::* member, std::string_view sentence) {
+  Schema& flag(std::string_view name, bool S::*member, std::string_view sentence) {
     return put(flagEntry(withDefault(valueEntry<bool>(member, name, "1", sentence), member, false)));
   }
 
   /// The tag's own text, which must be given.
   template <class T, class... C>
-  Schema& text(T S::* member, std::string_view unit, std::string_view sentence, const C&... constraints) {
+  Schema& text(T S::*member, std::string_view unit, std::string_view sentence, const C&... constraints) {
     return put(ownText(mandatory(valueEntry<T>(member, "", unit, sentence, constraints...))));
   }
 
   /// A tag with one of several words.
   template <class E>
-  Schema& choice(std::string_view name, E S::* member, const std::type_identity_t<Choices<E>>& choices,
+  Schema& choice(std::string_view name, E S::*member, const std::type_identity_t<Choices<E>>& choices,
                  const std::type_identity_t<E>& byDefault, std::string_view sentence) {
     return put(withDefaultChoice(choiceEntry<E>(member, name, choices, sentence), member, choices, byDefault));
   }
   template <class E>
-  Schema& requiredChoice(std::string_view name, E S::* member, const std::type_identity_t<Choices<E>>& choices,
+  Schema& requiredChoice(std::string_view name, E S::*member, const std::type_identity_t<Choices<E>>& choices,
                          std::string_view sentence) {
     return put(mandatory(choiceEntry<E>(member, name, choices, sentence)));
   }
   template <class E>
-  Schema& optionalChoice(std::string_view name, std::optional<E> S::* member,
+  Schema& optionalChoice(std::string_view name, std::optional<E> S::*member,
                          const std::type_identity_t<Choices<E>>& choices, std::string_view sentence) {
     return put(choiceEntry<E>(member, name, choices, sentence));
   }
 
   /// The same for attributes.
   template <class T, class... C>
-  Schema& attributeValue(std::string_view name, T S::* member, const std::type_identity_t<T>& byDefault,
+  Schema& attributeValue(std::string_view name, T S::*member, const std::type_identity_t<T>& byDefault,
                          std::string_view unit, std::string_view sentence, const C&... constraints) {
     return put(attribute(withDefault(valueEntry<T>(member, name, unit, sentence, constraints...), member, byDefault)));
   }
   template <class T, class... C>
-  Schema& requiredAttribute(std::string_view name, T S::* member, std::string_view unit, std::string_view sentence,
+  Schema& requiredAttribute(std::string_view name, T S::*member, std::string_view unit, std::string_view sentence,
                             const C&... constraints) {
     return put(attribute(mandatory(valueEntry<T>(member, name, unit, sentence, constraints...))));
   }
   template <class T, class... C>
-  Schema& optionalAttribute(std::string_view name, std::optional<T> S::* member, std::string_view unit,
+  Schema& optionalAttribute(std::string_view name, std::optional<T> S::*member, std::string_view unit,
                             std::string_view sentence, const C&... constraints) {
     return put(attribute(valueEntry<T>(member, name, unit, sentence, constraints...)));
   }
   template <class E>
-  Schema& choiceAttribute(std::string_view name, E S::* member, const std::type_identity_t<Choices<E>>& choices,
+  Schema& choiceAttribute(std::string_view name, E S::*member, const std::type_identity_t<Choices<E>>& choices,
                           const std::type_identity_t<E>& byDefault, std::string_view sentence) {
     return put(
         attribute(withDefaultChoice(choiceEntry<E>(member, name, choices, sentence), member, choices, byDefault)));
   }
   template <class E>
-  Schema& requiredChoiceAttribute(std::string_view name, E S::* member, const std::type_identity_t<Choices<E>>& choices,
+  Schema& requiredChoiceAttribute(std::string_view name, E S::*member, const std::type_identity_t<Choices<E>>& choices,
                                   std::string_view sentence) {
     return put(attribute(mandatory(choiceEntry<E>(member, name, choices, sentence))));
   }
 
   template <class E>
-  Schema& optionalChoiceAttribute(std::string_view name, std::optional<E> S::* member,
+  Schema& optionalChoiceAttribute(std::string_view name, std::optional<E> S::*member,
                                   const std::type_identity_t<Choices<E>>& choices, std::string_view sentence) {
     return put(attribute(choiceEntry<E>(member, name, choices, sentence)));
   }
 
   /// A tag read by another schema, which may be left out: the member is then empty.
   template <class T>
-  Schema& section(std::string_view name, std::optional<T> S::* member, const Schema<T>& schema,
+  Schema& section(std::string_view name, std::optional<T> S::*member, const Schema<T>& schema,
                   std::string_view sentence = "") {
     return put(nestedEntry(name, schema, sentence, member));
   }
   /// A tag read by another schema, which may be left out: the member then has that schema's defaults.
   template <class T>
-  Schema& section(std::string_view name, T S::* member, const Schema<T>& schema, std::string_view sentence = "") {
+  Schema& section(std::string_view name, T S::*member, const Schema<T>& schema, std::string_view sentence = "") {
     SchemaEntry entry = nestedEntry(name, schema, sentence, member);
     entry.setDefault = [member, &schema](void* object) { static_cast<S*>(object)->*member = schema.defaults(); };
     return put(std::move(entry));
   }
   /// A tag read by another schema, which must be given.
   template <class T>
-  Schema& requiredSection(std::string_view name, T S::* member, const Schema<T>& schema,
+  Schema& requiredSection(std::string_view name, T S::*member, const Schema<T>& schema,
                           std::string_view sentence = "") {
     return put(mandatory(nestedEntry(name, schema, sentence, member)));
   }
   /// A tag read by another schema, any number of times, at least `atLeast` times.
   template <class T>
-  Schema& list(std::string_view name, std::vector<T> S::* member, const Schema<T>& schema,
+  Schema& list(std::string_view name, std::vector<T> S::*member, const Schema<T>& schema,
                std::string_view sentence = "", int atLeast = 0) {
     return put(repeated(nestedEntry(name, schema, sentence, member), atLeast));
   }
@@ -199,7 +199,7 @@ class Schema : public SchemaBase {
   }
 
   /// Stores the location of the tag or, if the name of an attribute is given, of that attribute.
-  Schema& location(Location S::* member, std::string attribute = "") {
+  Schema& location(Location S::*member, std::string attribute = "") {
     addLocate([member, attribute = std::move(attribute)](void* object, const Element& element) {
       static_cast<S*>(object)->*member = element.whereOf(attribute);
     });
@@ -246,38 +246,37 @@ class Schema : public SchemaBase {
   /// The address of `member` in an S whose type is erased. From here on the entries do not depend on S, so that the
   /// compiler makes them once for each type of value.
   template <class M>
-  static Reach<M> reach(M S::* member) {
+  static Reach<M> reach(M S::*member) {
     return Reach<M>(member);
   }
 
   template <class T, class M, class... C>
-  static SchemaEntry valueEntry(M S::* member, std::string_view name, std::string_view unit, std::string_view sentence,
+  static SchemaEntry valueEntry(M S::*member, std::string_view name, std::string_view unit, std::string_view sentence,
                                 const C&... constraints) {
     return valueEntryOf<T>(reach(member), name, unit, sentence, Limits<T>{limitOf<T>(constraints)...});
   }
 
   template <class T>
-  static SchemaEntry withDefault(SchemaEntry entry, T S::* member, const T& byDefault) {
+  static SchemaEntry withDefault(SchemaEntry entry, T S::*member, const T& byDefault) {
     setDefaultOf(entry, reach(member), byDefault);
     return entry;
   }
 
   template <class E, class M>
-  static SchemaEntry choiceEntry(M S::* member, std::string_view name, const Choices<E>& choices,
+  static SchemaEntry choiceEntry(M S::*member, std::string_view name, const Choices<E>& choices,
                                  std::string_view sentence) {
     return choiceEntryOf<E>(reach(member), name, choices, sentence);
   }
 
   template <class E>
-  static SchemaEntry withDefaultChoice(SchemaEntry entry, E S::* member, const Choices<E>& choices,
-                                       const E& byDefault) {
+  static SchemaEntry withDefaultChoice(SchemaEntry entry, E S::*member, const Choices<E>& choices, const E& byDefault) {
     setDefaultChoiceOf(entry, reach(member), choices, byDefault);
     return entry;
   }
 
   template <class T, class M>
   static SchemaEntry nestedEntry(std::string_view name, const Schema<T>& schema, std::string_view sentence,
-                                 M S::* member) {
+                                 M S::*member) {
     SchemaEntry entry = sectionEntry(name, schema, sentence);
     entry.fill = [reached = reach(member), &schema](void* object, const Element& element, Diagnostics& diagnostics) {
       storeIn(*reached(object), schema.read(element, diagnostics));

@@ -30,7 +30,7 @@ template <class M>
 class Reach {
  public:
   template <class S>
-  explicit Reach(M S::* member) : address_(addressOf<S>) {
+  explicit Reach(M S::*member) : address_(addressOf<S>) {
     static_assert(sizeof member == sizeof member_);
     std::memcpy(member_, &member, sizeof member);
   }
@@ -39,7 +39,7 @@ class Reach {
  private:
   template <class S>
   static M* addressOf(const std::byte* stored, void* object) {
-    M S::* member;
+    M S::*member;
     std::memcpy(&member, stored, sizeof member);
     return &(static_cast<S*>(object)->*member);
   }

@@ -60,7 +60,11 @@ std::vector<TagForm> formsOf(const SchemaEntry& entry) {
   form.choices = entry.choices;
   if (entry.form == Form::nested)
     form = sectionForm(
-        entry.takes, [nested = entry.nested] { return std::vector<Alternative>{{nested, {}}}; }, entry.atLeast);
+        entry.takes,
+        [nested = entry.nested] {
+          return std::vector<Alternative>{{nested, {}}};
+        },
+        entry.atLeast);
   form.repeats = entry.repeatable;
   return {std::move(form)};
 }

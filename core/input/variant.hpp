@@ -46,7 +46,7 @@ class TypedTag<std::variant<Ts...>> {
 
 /// Adds such a tag to a schema; its member keeps the default if the tag is left out.
 template <class S, class Variant>
-void typedTag(input::Schema<S>& schema, const std::string& tag, Variant S::* member, const std::string& sentence,
+void typedTag(input::Schema<S>& schema, const std::string& tag, Variant S::*member, const std::string& sentence,
               bool isRequired) {
   schema.custom(
       tag,

@@ -200,7 +200,8 @@ std::optional<std::string> textOf(const fs::path& file) {
 fs::path temporaryOf(const fs::path& file) { return fs::path(file) += ".tmp"; }
 
 std::string nameInPath(std::string name) {
-  std::replace_if(name.begin(), name.end(), [](char c) { return c == '/' || c == ':'; }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '/' || c == ':'; }, '_');
   return name;
 }
 

@@ -259,8 +259,9 @@ void XdmfIndex::addParticles(const Snapshot& snapshot, const ParticleBlock& bloc
   const std::string name = groupName(block.material, block.materialIndex);
   if (block.count() == 0)
     return addTime(name, snapshot, "Collection", [](pugi::xml_node grid) { set(grid, "CollectionType", "Spatial"); });
-  addTime(name, snapshot, "Uniform",
-          [&](pugi::xml_node grid) { addPointCloud(grid, {outputName(snapshot.step), double_as_float_}, block); });
+  addTime(name, snapshot, "Uniform", [&](pugi::xml_node grid) {
+    addPointCloud(grid, {outputName(snapshot.step), double_as_float_}, block);
+  });
 }
 
 void XdmfIndex::add(const Snapshot& snapshot) {

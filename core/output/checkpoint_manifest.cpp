@@ -237,8 +237,9 @@ std::string damageOutside(const fs::path& file, const Line& line, const std::vec
   std::vector<ByteRange> parts;
   for (const Line& other : lines)
     if (other.isOfPart() && other.name == line.name) parts.push_back(other.range());
-  return damageOfSum(file, ranks, line.sum(),
-                     [&] { return sumOfFile(file, outside(parts, line.size()), {ranks.rank(), ranks.size()}); });
+  return damageOfSum(file, ranks, line.sum(), [&] {
+    return sumOfFile(file, outside(parts, line.size()), {ranks.rank(), ranks.size()});
+  });
 }
 
 }  // namespace

@@ -35,7 +35,11 @@ void addTag(Schema<Unread>& parent, const TagForm& form, const std::string& sent
 void addSection(Schema<Unread>& root, const std::string& tag, const SchemaBase& schema, bool isRequired,
                 const std::vector<Demand>& demands = {}) {
   TagForm form = input::sectionForm(
-      {tag}, [&schema, demands] { return std::vector<Alternative>{{&schema, demands}}; }, isRequired ? 1 : 0);
+      {tag},
+      [&schema, demands] {
+        return std::vector<Alternative>{{&schema, demands}};
+      },
+      isRequired ? 1 : 0);
   form.repeats = false;
   addTag(root, form, schema.sentence());
 }

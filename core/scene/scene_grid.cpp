@@ -33,8 +33,9 @@ Schema<FacesSection> facesTag(const Schema<FaceSection>& face, const std::vector
             section.name, [](FacesSection&, const Element&, Diagnostics&) {}, {section.name},
             "values for conditions of this kind",
             [schema = section.schema](std::ostream& out, int indent) { schema->describeContents(out, indent); })
-        .forms({input::onceForm(section.name,
-                                [schema = section.schema] { return std::vector<input::Alternative>{{schema, {}}}; })});
+        .forms({input::onceForm(section.name, [schema = section.schema] {
+          return std::vector<input::Alternative>{{schema, {}}};
+        })});
   return tags;
 }
 

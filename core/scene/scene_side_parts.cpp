@@ -17,7 +17,7 @@ namespace {
 /// A word for a side or a part of one, and its attributes.
 struct FaceWord {
   std::string name;
-  std::optional<int> FaceSection::* face;
+  std::optional<int> FaceSection::*face;
   std::vector<std::string> attributes;
 };
 const std::vector<FaceWord>& faceWords() {

@@ -33,7 +33,7 @@ class KeptTermination {
   KeptTermination& operator=(const KeptTermination&) = delete;
 
  private:
-  struct sigaction before_{};
+  struct sigaction before_ {};
 };
 
 /// The PETSc session, from the first solve to the end of the program.

@@ -15,8 +15,7 @@ class TaskBody {
  public:
   TaskBody() = default;
   template <class Function>
-    requires(!std::is_same_v<Function, TaskBody>)
-  TaskBody(Function function)
+  requires(!std::is_same_v<Function, TaskBody>) TaskBody(Function function)
       : function_(keep(std::make_unique<Function>(std::move(function)).release(), destroyerOf<Function>())),
         call_(call<Function>) {}
 

@@ -78,7 +78,8 @@ class Weather : public test::Runner {
 std::string fileOf(Weather& weather) {
   const std::string path = test::temporaryFolder() + "state.h5";
   const StoredState state(weather.warehouse, weather.names);
-  output::writeTogether({}, path, {}, [](output::Hdf5File&) {}, state.datasets());
+  output::writeTogether(
+      {}, path, {}, [](output::Hdf5File&) {}, state.datasets());
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   return text.str();

@@ -149,8 +149,7 @@ using AxisymmetricCpdiShape = ConvectedShape<D, true>;
 
 /// S_i / r of a node, 1/m; 0 if the scene is not axisymmetric.
 template <class Stencil, int D = Stencil::dimension>
-  requires(Stencil::corners > 0)
-double hoopOf(const Stencil& stencil, const Index<D>& node) {
+requires(Stencil::corners > 0) double hoopOf(const Stencil& stencil, const Index<D>& node) {
   return Stencil::axisymmetric ? stencil.inverseRadius * stencil.valueAt(node) : 0.0;
 }
 

@@ -17,15 +17,18 @@ consteval bool checkDescription() {
   static_assert(
       requires {
         { M::name } -> std::convertible_to<std::string_view>;
-      }, "a constitutive model needs `static constexpr std::string_view name`: its type in a scene");
+      },
+      "a constitutive model needs `static constexpr std::string_view name`: its type in a scene");
   static_assert(
       requires {
         { M::strainEnergyIsRate } -> std::same_as<const bool&>;
-      }, "a constitutive model needs `static constexpr bool strainEnergyIsRate`");
+      },
+      "a constitutive model needs `static constexpr bool strainEnergyIsRate`");
   static_assert(
       requires {
         { M::schema() } -> std::same_as<const input::Schema<M>&>;
-      }, "a constitutive model needs `static const input::Schema<M>& schema()` for its own type M");
+      },
+      "a constitutive model needs `static const input::Schema<M>& schema()` for its own type M");
   static_assert(std::is_trivially_copyable_v<M> && std::is_trivially_copyable_v<typename M::State>,
                 "a constitutive model and its State must be trivially copyable");
   return true;

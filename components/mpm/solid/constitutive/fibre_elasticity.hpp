@@ -48,7 +48,7 @@ struct FibreElasticity {
 
   /// A member as one of the Model that inherits it.
   template <class Model, class T>
-  static T Model::* in(T FibreElasticity::* member) {
+  static T Model::*in(T FibreElasticity::*member) {
     return member;
   }
   template <class Model>

@@ -171,7 +171,7 @@ struct MohrCoulomb : IsotropicModuli {
                "with UseWaterRetention: volume of the soil over that of its grains, at the start");
   }
   /// A switch that Uintah reads as a number: on if it is above 0.
-  static void declareSwitch(input::Schema<MohrCoulomb>& tags, const std::string& tag, bool MohrCoulomb::* member,
+  static void declareSwitch(input::Schema<MohrCoulomb>& tags, const std::string& tag, bool MohrCoulomb::*member,
                             const std::string& sentence) {
     const auto read = [=](MohrCoulomb& object, const input::Element& element, input::Diagnostics& diagnostics) {
       const auto given = element.child(tag);

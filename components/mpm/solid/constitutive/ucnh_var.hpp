@@ -69,7 +69,7 @@ struct UcnhVar {
   double initialVolumeRatio() const { return startVolumeRatio; }
   State initialState() const { return initialState({0, table().front().color}); }
   State initialState(const Birth& birth) const {
-    const auto of = [&](double Entry::* constant) { return valueByColor(table(), birth.color, constant); };
+    const auto of = [&](double Entry::*constant) { return valueByColor(table(), birth.color, constant); };
     const double shift =
         yieldRange > 0 ? (2 * drawn(Drawing::yieldStress, yieldSeed, birth.id, 0) - 1) * yieldRange : 0;
     return {initialPlasticStrain,
@@ -149,7 +149,11 @@ struct UcnhVar {
         .custom("variable_properties", readTable, {"variable_properties"}, "constants as a function of p.color",
                 [](std::ostream& out, int indent) { tableSchema().describeContents(out, indent); })
         .forms({input::sectionForm(
-            {"variable_properties"}, [] { return std::vector<input::Alternative>{{&tableSchema(), {}}}; }, 1)})
+            {"variable_properties"},
+            [] {
+              return std::vector<input::Alternative>{{&tableSchema(), {}}};
+            },
+            1)})
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
         .ignored("initial_pressure", "belongs to useInitialStress");
     refuseSwitch(tags, "useInitialStress", "bodies start without stress");

@@ -74,7 +74,7 @@ const Schema<BrittleDamage>& BrittleDamage::schema() {
 
 /// A member of the model that Self extends, as a member of Self.
 template <class Self, class T>
-T Self::* of(T ThresholdDamage::* member) {
+T Self::*of(T ThresholdDamage::*member) {
   return member;
 }
 
@@ -247,8 +247,9 @@ void readDamage(Material& material, const Element& parent, Diagnostics& diagnost
 }
 
 std::vector<input::TagForm> damageForms() {
-  return {input::onceForm("damage_model", input::TypedTag<Damage>::alternatives),
-          input::onceForm("erosion", [] { return std::vector<input::Alternative>{{&erosionSchema(), {}}}; })};
+  return {input::onceForm("damage_model", input::TypedTag<Damage>::alternatives), input::onceForm("erosion", [] {
+            return std::vector<input::Alternative>{{&erosionSchema(), {}}};
+          })};
 }
 
 void describeDamage(std::ostream& out, int indent) {

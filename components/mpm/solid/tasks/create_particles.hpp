@@ -144,8 +144,9 @@ std::optional<std::pair<Vec<D>, Seed>> particleIn(const Level& finest, const Bod
   const input::Box3 bounds = body.shape->bounds();
   forEach<D>(finest.cellsNear(bounds.min, bounds.max).intersect(cells), [&](const Index<D>& cell) {
     if (!found)
-      forEachParticleIn<D>(finest, body, cell,
-                           [&](const Index<D>&, const Vec3& at) { take({at, part.domain, part.volume}); });
+      forEachParticleIn<D>(finest, body, cell, [&](const Index<D>&, const Vec3& at) {
+        take({at, part.domain, part.volume});
+      });
   });
   return found;
 }

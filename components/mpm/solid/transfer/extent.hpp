@@ -116,9 +116,7 @@ class Extents {
 
  private:
   /// Half the edges F S of a particle that started with the edges S, in cells.
-  Extent<D> skewed(int p, const Vec<D>& size) const
-    requires(Shape::deforms)
-  {
+  Extent<D> skewed(int p, const Vec<D>& size) const requires(Shape::deforms) {
     Extent<D> extent;
     extent.size = size;
     for (int i = 0; i < D; ++i)

@@ -87,11 +87,11 @@ template <class M>
 struct Tags {
   input::Schema<M>& schema;
 
-  void require(const char* tag, double Constants::* member, const char* unit, const char* sentence,
+  void require(const char* tag, double Constants::*member, const char* unit, const char* sentence,
                const auto&... limit) const {
     schema.required(tag, static_cast<double M::*>(member), unit, sentence, limit...);
   }
-  void value(const char* tag, double Constants::* member, double otherwise, const char* unit, const char* sentence,
+  void value(const char* tag, double Constants::*member, double otherwise, const char* unit, const char* sentence,
              const auto&... limit) const {
     schema.value(tag, static_cast<double M::*>(member), otherwise, unit, sentence, limit...);
   }

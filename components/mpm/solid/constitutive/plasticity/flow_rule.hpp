@@ -69,11 +69,13 @@ consteval bool isFlowRule() {
   static_assert(
       requires {
         { Flow::name } -> std::convertible_to<std::string_view>;
-      }, "a flow model needs `static constexpr std::string_view name`: its type in a scene");
+      },
+      "a flow model needs `static constexpr std::string_view name`: its type in a scene");
   static_assert(
       requires {
         { Flow::schema() } -> std::same_as<const input::Schema<Flow>&>;
-      }, "a flow model needs `static const input::Schema<Flow>& schema()` for its own type Flow");
+      },
+      "a flow model needs `static const input::Schema<Flow>& schema()` for its own type Flow");
   static_assert(
       requires { Member<Flow, double, const FlowState&>{&Flow::flowStress}; },
       "a flow model needs `double flowStress(const FlowState&) const`");

@@ -128,10 +128,10 @@ struct SuvicI {
     using Self = SuvicI;
     input::Schema<Self> tags("visco_plasticity_model",
                              "SUVIC: creep and plasticity of ice, unified in one inelastic strain rate.");
-    const auto stress = [&](const char* tag, double Self::* member, const char* sentence) {
+    const auto stress = [&](const char* tag, double Self::*member, const char* sentence) {
       tags.value(tag, member, Self().*member, "Pa", sentence, input::positive());
     };
-    const auto exponent = [&](const char* tag, double Self::* member, const char* sentence) {
+    const auto exponent = [&](const char* tag, double Self::*member, const char* sentence) {
       tags.value(tag, member, Self().*member, "1", sentence, input::positive());
     };
     stress("coeff_backstress_evol", &Self::backGrowth, "A1: growth of the back stress with the strain");

@@ -168,8 +168,7 @@ class Scatter {
   }
   /// Adds particles that touch only the nodes of their cell, whose records stay in registers meanwhile.
   void addTogether(const CellFrame<D>& frame, const Index<D>& cell, int first, int count, const Matrix3* moments) const
-    requires(sharesNodes<Shape>)
-  {
+      requires(sharesNodes<Shape>) {
     CellRecords<D> records(windowFrom(record_, cell));
     forEachStencilOf(frame, cell, x_, extents_, first, count, [&](int k, const auto& stencil) {
       const Share share = shareOf(first + k, moments[k]);
