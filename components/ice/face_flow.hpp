@@ -15,8 +15,7 @@ namespace tushar::ice {
 struct IceSettings {
   euler::Diffusion diffusion;
   Vec3 gravity = Vec3::Zero();  ///< m/s²
-  double soundSpeedKnob =
-      0;  ///< fraction of the speed of sound that limits implicit steps; 0: only the flow limits them
+  double soundSpeedKnob = 0;    ///< fraction of the speed of sound that limits implicit steps; 0: none
   solvers::LinearSettings solver = {};
 };
 

@@ -13,8 +13,7 @@ struct SedovProblem {
   double energy = 1;    ///< energy in all space: J/m² of a plane (both sides of it), J/m of a line, J of a point
   double gamma = 1.4;   ///< ratio of specific heats
   Vec3 centre = Vec3::Zero();  ///< m
-  Vec3 round =
-      Vec3(1, 1, 1);  ///< 1 along the axes in which the distance from the centre is measured: 1, 2 or 3 of them
+  Vec3 round = Vec3(1, 1, 1);  ///< 1 along the 1, 2 or 3 axes of the distance from the centre
 };
 
 /// The self-similar blast wave of Sedov, Taylor and von Neumann in d = 1, 2 or 3 dimensions.

@@ -54,9 +54,8 @@ class ParticleOrder {
   data::Warehouse* warehouse_;
   int material_;
   GridOrder order_;
-  std::vector<Row> rows_;  ///< patch by patch, row by row, from left to right
-  std::vector<std::vector<std::int32_t>>
-      counts_;  ///< by patch: the number of particles in each cell, in the order of the rows
+  std::vector<Row> rows_;                          ///< patch by patch, row by row, from left to right
+  std::vector<std::vector<std::int32_t>> counts_;  ///< by patch: particles in each cell, in the order of the rows
   std::size_t count_ = 0;
 };
 

@@ -26,11 +26,10 @@ struct TagForm {
 
   std::vector<std::string> tags = {};
   Kind kind = Kind::anything;
-  std::string type = {};  ///< name of a value's type in the manual: see typeName
-  std::vector<std::string> choices =
-      {};                            ///< allowed words for a value; compared as values of the type, if there is one
-  std::string pattern = {};          ///< a regular expression of XML Schema for a value, instead of the type
-  std::vector<Demand> demands = {};  ///< attributes of a tag whose contents may be anything
+  std::string type = {};                  ///< name of a value's type in the manual: see typeName
+  std::vector<std::string> choices = {};  ///< allowed words for a value; compared as the type, if any
+  std::string pattern = {};               ///< a regular expression of XML Schema for a value, instead of the type
+  std::vector<Demand> demands = {};       ///< attributes of a tag whose contents may be anything
   /// The schemas of a section; called when all schemas are complete.
   std::function<std::vector<Alternative>()> alternatives = {};
   int atLeast = 0;      ///< smallest number of occurrences of each tag

@@ -31,10 +31,9 @@ class Hdf5Input {
   Array::Values dataset(const std::string& name) const;
   /// The place of a dataset in the file.
   struct Placed {
-    Array::Values type;     ///< no values, but their type
-    std::size_t count = 0;  ///< number of values, whatever the shape
-    std::int64_t offset =
-        -1;  ///< offset of the first value in the file; -1 if their layout differs from that in memory
+    Array::Values type;        ///< no values, but their type
+    std::size_t count = 0;     ///< number of values, whatever the shape
+    std::int64_t offset = -1;  ///< of the first value; -1 if the layout differs from that in memory
   };
   Placed placed(const std::string& name) const;
   /// A dataset that Hdf5File::text wrote.

@@ -14,8 +14,7 @@ namespace tushar::output {
 class ArchiveIndex {
  public:
   static constexpr const char* rootName = "tushar_archive";
-  static constexpr int format =
-      2;  ///< newest format of archives, which is raised if older readers would misread a new one
+  static constexpr int format = 2;         ///< newest format, raised if older readers would misread it
   static constexpr int uniformFormat = 1;  ///< format of archives with grids of one level
 
   explicit ArchiveIndex(std::string version) : version_(std::move(version)) {}

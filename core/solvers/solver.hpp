@@ -20,8 +20,7 @@ struct Unknowns {
   /// The positions of the owned blocks, `block` numbers each [m]: gives multigrid the rigid motions of a solid. Empty:
   /// none.
   std::vector<double> coordinates;
-  bool constantIsFree =
-      false;  ///< whether a solution plus any constant is also a solution: the one with mean 0 is taken
+  bool constantIsFree = false;  ///< adding a constant gives another solution: mean 0 is taken
 };
 
 /// A matrix that is being assembled.
@@ -79,8 +78,7 @@ class NonlinearProblem {
 struct NewtonSettings {
   LinearSettings linear{"gmres", "gamg", 1e-8, 1000, ""};
   double displacement = 1e-10;  ///< square of the last change of u, relative to that of the largest change
-  double energy =
-      4e-10;  ///< product of the last change of u and the residual before it, relative to the first such product
+  double energy = 4e-10;        ///< last change of u times the residual before it, relative to the first such product
   int maxIterations = 25;
 };
 

@@ -22,8 +22,7 @@ struct GhostFill {
 /// The ghost exchanges before a task. All of it goes in one message per pair of patches' owners.
 struct Stage {
   std::vector<GhostFill> fills;
-  int ready =
-      -1;  ///< the task after which everything may be sent, and no ghosts of an earlier stage are read; -1: at once
+  int ready = -1;  ///< the task after which it may be sent: all values exist, and earlier stages are read; -1: at once
 };
 
 /// The particle set of each access: the old one until the list relocates or makes particles, then the new one.

@@ -203,8 +203,7 @@ struct TensorShape {
     }
 
     Index<D> cell_;
-    std::array<Real, D>
-        first_;  ///< first node that a particle touches along each axis, counted from the lower node of the cell
+    std::array<Real, D> first_;  ///< first touched node along each axis, from the lower node of the cell
     std::array<std::array<Real, n>, D> s_, ds_;  ///< by axis and node along it
     std::array<Real, Axisymmetric ? n : 0> hoop_;
     std::array<std::array<Real, D>, D == 1 ? 0 : rows> factors_;

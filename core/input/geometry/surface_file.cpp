@@ -18,7 +18,7 @@ namespace tushar::input {
 namespace {
 
 constexpr std::size_t headerBytes = 84,
-                      facetBytes = 50;  ///< sizes in a binary file: the header (80 characters and a count), and a facet
+                      facetBytes = 50;  ///< of a binary file: header with a count, facet
 
 /// The content of a file, or why it cannot be used.
 struct Read {

@@ -19,8 +19,7 @@ namespace tushar::mpm::gas::conserving {
 /// interval has the mirrored numbers, to the bit.
 template <int Overhang>
 struct Span {
-  static constexpr int most =
-      2 * Overhang + 1;  ///< largest number of cells that the intervals of one batch may overlap
+  static constexpr int most = 2 * Overhang + 1;  ///< largest number of cells overlapped in one batch
 
   LaneIntegers first;                  ///< cell, and node below it
   int below = 0;                       ///< number of cells below that of the centre that some interval overlaps

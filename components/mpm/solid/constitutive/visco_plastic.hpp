@@ -41,8 +41,7 @@ struct ViscoPlastic {
        {"p.backstress", "Pa", "back stress", 9}}};
   static constexpr std::string_view name = "visco_plastic";
   static constexpr bool strainEnergyIsRate = true;
-  static constexpr double heatedShare =
-      0.9;  ///< heated fraction of the inelastic work: the Taylor-Quinney coefficient, as in Uintah
+  static constexpr double heatedShare = 0.9;  ///< the Taylor-Quinney coefficient, as in Uintah, 1
 
   MaterialConstants material;
   double bulkModulus = 0;   ///< K, Pa

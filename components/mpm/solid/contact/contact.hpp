@@ -51,13 +51,11 @@ struct Contact {
 
   double friction = 0;              ///< coefficient mu
   Profile<double> frictionOfColor;  ///< mu over p.color of the master instead of time; empty: mu is `friction`
-  bool onlyOnApproach =
-      false;  ///< friction: also bodies under compression may separate, if they do not approach each other
+  bool onlyOnApproach = false;      ///< friction: bodies under compression may separate, too
   bool normalsInCells =
       false;              ///< friction: mass gradients are taken per cell, not per m, as axisymmetric ones in Uintah
   bool oneNormal = true;  ///< friction: bodies that meet share their normal; otherwise each has its own
-  bool keepsMomentum =
-      false;  ///< friction: one normal for all, which are in contact if the stresses of all are compressive
+  bool keepsMomentum = false;   ///< friction: one normal, and contact if all stresses are compressive
   double separationFactor = 0;  ///< friction: bodies farther apart than this many cells do not touch
   double volumeConstraint =
       0;  ///< friction: the fraction of the volume around a node that must be filled for a contact

@@ -51,9 +51,8 @@ class PointStates {
         f_bar_(count) {}
 
   std::vector<Matrix3> deformation, stress;  ///< F, 1; Cauchy stress, Pa
-  std::vector<Matrix3>
-      gradient;  ///< gradient of the displacement in the step with respect to the position at its start, 1
-  std::vector<double> stretch;  ///< factor of F in F-bar, which the model gets, 1
+  std::vector<Matrix3> gradient;  ///< of the displacement, with respect to the position at the start of the step, 1
+  std::vector<double> stretch;    ///< factor of F in F-bar, which the model gets, 1
 
   /// Whether F-bar applies to the points of a run: only for models that support it.
   bool sharesVolume(const PointRun& run) const { return shares_volume_ && run.group->material->model->supportsFBar(); }

@@ -7,9 +7,8 @@ namespace tushar::mpm::solid::implicit {
 
 /// Settings of implicit steps; names and defaults are Uintah's.
 struct ImplicitMethod {
-  bool dynamic = true;  ///< Newmark's method; otherwise no inertia, and each step ends in equilibrium
-  bool resetsGrid =
-      true;  ///< otherwise the grid moves with the solid: shape functions are those at the initial positions
+  bool dynamic = true;        ///< Newmark's method; otherwise no inertia, and each step ends in equilibrium
+  bool resetsGrid = true;     ///< otherwise the grid moves with the solid, and shape functions stay
   bool sharesVolume = false;  ///< F-bar: the particles of a cell share one change of volume, so that they do not lock
   solvers::NewtonSettings newton;
   bool conductsHeat = false;

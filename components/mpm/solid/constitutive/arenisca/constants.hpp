@@ -19,8 +19,8 @@ struct Constants {
   double b0 = 0, b1 = 0;     ///< bulk modulus at low pressure, and its increase at high pressure, Pa
   double b2 = 0;             ///< the pressure at which it increases, times 3, Pa
   double b3 = 0,
-         b4 = 0;  ///< reduction of the bulk modulus by plastic compaction, Pa, and the strain at which it occurs, 1
-  double g0 = 0;  ///< shear modulus, Pa
+         b4 = 0;             ///< its reduction by plastic compaction, Pa, and the strain for that, 1
+  double g0 = 0;             ///< shear modulus, Pa
   double g1 = 0, g2 = 0;     ///< Poisson's ratio at low pressure, and its increase at high pressure, 1; 0: G = g0
   double p0 = 0;             ///< I1 at which pores begin to collapse, Pa
   double p1 = 0;             ///< constant of the crush curve, 1/Pa
