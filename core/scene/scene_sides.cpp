@@ -119,7 +119,7 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
       .optionalAttribute("major_radius", &FaceSection::majorRadius, "m", "longer semi-axis of an ellipse",
                          input::positive())
       .optionalAttribute("angle", &FaceSection::angle, "degree",
-                         "between the longer axis of an ellipse, seen from outside, and y on x+ and x-, z on y+ and "
+                         "angle of the longer axis of an ellipse, seen from outside, with y on x+ and x-, z on y+ and "
                          "y-, x on z+ and z-")
       .optionalAttribute("lower", &FaceSection::lower, "m", point("a corner of a rectangle"))
       .optionalAttribute("upper", &FaceSection::upper, "m", point("the opposite corner"))

@@ -24,7 +24,7 @@ struct MpmSection {
 const Schema<MpmSection>& mpmSchema() {
   static const Schema<MpmSection> schema =
       Schema<MpmSection>("MPM", "The Material Point Method.")
-          .choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0, "how time advances")
+          .choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0, "the time integrator")
           .choice("interpolator", &MpmSection::interpolator, {{"linear", 0}}, 0, "shape functions")
           .section("gas_dynamics", &MpmSection::gas, paper::methodSchema())
           .ours()
