@@ -12,9 +12,9 @@
 
 namespace tushar::collect {
 
-/// The order (cell, id) of the old particles of a material over the whole grid, which no layout changes, and where the
-/// patches of this rank have theirs. Cells come with the first axis fastest; if there are several levels, block by
-/// block. A rank stores the counts of its own cells alone.
+/// The order (cell, id) of the old particles of a material over the whole grid, which is the same for every layout, and
+/// the places of this rank's patches in it. Cells come with the first axis fastest; if there are several levels, block
+/// by block. A rank stores the counts of its own cells alone.
 class ParticleOrder {
  public:
   /// Orders the particles that the warehouses of all ranks hold. Collective.
@@ -34,7 +34,7 @@ class ParticleOrder {
   std::shared_ptr<const output::Source> perCell() const;
   /// Gives each patch its particles, without their values.
   void install();
-  /// The rows of cells that have particles, of the patches of this rank.
+  /// The rows of cells with particles in the patches of this rank.
   Runs runs() const;
 
  private:

@@ -42,7 +42,7 @@ class MortonCurve {
   Index3 descend(IsUpper&& isUpper) const;
 
   Cuts cuts_;
-  Box all_;       ///< of blocks
+  Box all_;       ///< all blocks
   int bits_ = 0;  ///< bits of the largest index of a block along an axis
 };
 

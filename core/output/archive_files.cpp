@@ -66,8 +66,9 @@ void refuseToReplace(const fs::path& filebase) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(filebase, error);
   if (fs::exists(status) && !fs::is_symlink(status))
-    throw FileError(fmt::format("cannot make '{}' the link to the newest archive: it is a {}; move it away",
-                                filebase.string(), fs::is_directory(status) ? "folder" : "file"));
+    throw FileError(
+        fmt::format("cannot create '{}' as a link to the newest archive: there is a {} of that name; move it away",
+                    filebase.string(), fs::is_directory(status) ? "folder" : "file"));
 }
 
 void writeFile(const fs::path& file, const std::function<void(std::ostream&)>& write) {

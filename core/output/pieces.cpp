@@ -9,7 +9,7 @@ namespace tushar::output {
 
 namespace {
 
-/// A number in as few bytes as possible, seven bits to a byte.
+/// Appends a number in as few bytes as possible, seven bits to a byte.
 void appendShort(mpi::Bytes& bytes, std::uint32_t number) {
   for (; number >= 128; number >>= 7) bytes.push_back(static_cast<std::byte>(number | 128));
   bytes.push_back(static_cast<std::byte>(number));

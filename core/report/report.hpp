@@ -71,14 +71,14 @@ struct Report {
   int steps = 0, retries = 0;  ///< steps taken; undone and repeated
   std::vector<std::pair<std::string, int>>
       limits;                   ///< reasons that limit the time step, and how many steps each has limited
-  double time = 0;              ///< reached, s
+  double time = 0;              ///< time reached, s
   std::string ended;            ///< reason: maxTime, max_Timesteps, max_wall_time, stop_now, interrupted, failed
   std::string failure, advice;  ///< for a run that failed: the unphysical value, and what to try
   double particleSteps = 0;
   ResidentMemory memory;  ///< memory of the rank with the largest, after the last step
   MemoryOfRanks memoryOfRanks;
   double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
-  double wallOutputWait = 0;  ///< s of that spent waiting for an output that was still being written
+  double wallOutputWait = 0;  ///< part of wallOutput: waiting for an output still being written, s
   Compression compression;
   TimeUse use;
   Rebalancing rebalancing;

@@ -146,7 +146,7 @@ const Schema<ThresholdsSection>& thresholdsSchema() {
     input::noteTag(section, "orderOf_CFI_Interpolation", order);
     input::noteTag(section, "CFI_interpolator", order);
     section.ignored("ClampSpecificVolume", "Uintah does not read it here either");
-    const std::string region = "a further <Level> of <Grid> says where cells are finer";
+    const std::string region = "where cells are finer is specified by a further <Level> of <Grid>";
     for (const char* tag : {"min_grid_level", "max_grid_level", "manualGrid", "Refine_Regions"})
       input::noteTag(section, tag, region);
     return section;

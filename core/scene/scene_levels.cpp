@@ -190,10 +190,11 @@ class Refiner {
                                                 "Level, expected 2, 4, 8 or another power of two",
                                                 ratio, "xyz"[axis]));
       else if (first && *first != halvings)
-        diagnostics_.error(element, fmt::format("its cells are {:g} times as fine along {}, but {:g} times along {}; "
-                                                "refine all axes alike, and give one more Level where one needs more",
-                                                std::ldexp(1, *first), "xyz"[coarsest_.axis(0)],
-                                                std::ldexp(1, halvings), "xyz"[axis]));
+        diagnostics_.error(
+            element,
+            fmt::format("its cells are {:g} times as fine along {}, but {:g} times along {}; refine all axes alike, "
+                        "and add another Level where one axis needs finer cells",
+                        std::ldexp(1, *first), "xyz"[coarsest_.axis(0)], std::ldexp(1, halvings), "xyz"[axis]));
       if (!first) first = halvings;
     }
     return diagnostics_.size() == before ? first : std::nullopt;

@@ -174,7 +174,7 @@ void takeValue(const ConditionSection& given, const Element& tag, bool mayVary, 
 std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPlane) {
   const bool symmetry = condition.kind == grid::BoundaryKind::symmetry;
   if (symmetry != (condition.variable == grid::symmetric))
-    return fmt::format("found label '{}' with var '{}'; 'Symmetric' goes with 'symmetry', and with nothing else",
+    return fmt::format("found label '{}' with var '{}'; 'Symmetric' and 'symmetry' are allowed only together",
                        condition.variable.name, nameOf(condition.kind));
   if (!symmetry && onOddPlane &&
       (condition.kind == grid::BoundaryKind::dirichlet || condition.formula || condition.value != Vec3::Zero()))

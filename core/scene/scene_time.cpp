@@ -25,8 +25,9 @@ constexpr double unlimited = std::numeric_limits<double>::max();
 void refuseRestartStep(TimeSettings&, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("override_restart_delt");
   if (given && input::parse<double>(given->text()).value != 0.0)
-    diagnostics.error(*given,
-                      fmt::format("found '{}', expected 0: a restart continues as the run would have", given->text()));
+    diagnostics.error(
+        *given, fmt::format("found '{}', expected 0: a restart continues with the step that the run would have taken",
+                            given->text()));
 }
 
 const Schema<TimeSettings>& timeSchema() {
@@ -55,10 +56,9 @@ const Schema<TimeSettings>& timeSchema() {
           .ours()
           .value("initial_delt_range", &TimeSettings::initialDeltRange, 0, "s",
                  "time until which delt_init limits the steps; it always limits the first", input::nonNegative())
-          .custom(
-              "override_restart_delt", refuseRestartStep, {"override_restart_delt"},
-              "only 0: a restart continues as the run would have; sus --restart --set Time/delt_max=… makes its steps "
-              "shorter")
+          .custom("override_restart_delt", refuseRestartStep, {"override_restart_delt"},
+                  "only 0: a restart continues with the step that the run would have taken; sus --restart --set "
+                  "Time/delt_max=… makes its steps shorter")
           .forms({input::patternForm({"override_restart_delt"}, input::zeroPattern)})
           .check([](const TimeSettings& time, const Element& element, Diagnostics& diagnostics) {
             if (time.maxTime <= time.initTime)

@@ -41,8 +41,8 @@ class RunReport {
   double start_up_ = 0, loop_ = 0;  ///< s, without outputs
   report::TimeUse use_;
   long particle_steps_ = 0;            ///< of this rank's particles
-  double updates_ = 0;                 ///< of cells, of all ranks
-  double uniform_updates_ = 0;         ///< the same if all cells were as fine as the finest
+  double updates_ = 0;                 ///< updates of cells, over all ranks
+  double uniform_updates_ = 0;         ///< what they would be if all cells were as fine as the finest
   std::vector<double> level_updates_;  ///< of the cells of each level, where finer ones take smaller steps
 };
 

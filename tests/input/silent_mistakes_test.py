@@ -100,7 +100,7 @@ class SilentMistakes(unittest.TestCase):
                 "SCENE:17:102: Grid/BoundaryConditions/Face/BCType: Temperature already has a condition on this face, "
                 "at SCENE:17:24; keep one")
         refused(plane, plane.replace('symmetry"/>', 'Dirichlet"><value>3</value></BCType>'),
-                "found label 'Symmetric' with var 'Dirichlet'; 'Symmetric' goes with 'symmetry', and with nothing else")
+                "found label 'Symmetric' with var 'Dirichlet'; 'Symmetric' and 'symmetry' are allowed only together")
         refused(plane, plane.replace("Symmetric", "Temperature"), "found label 'Temperature' with var 'symmetry'")
         refused(plane, plane + cold, "this face is a plane of symmetry: the only other condition that it allows is a "
                                      "Neumann condition of 0")

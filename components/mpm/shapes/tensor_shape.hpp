@@ -147,7 +147,7 @@ struct TensorShape {
       }
     };
 
-    /// Of particles at x (m) in a cell, of a size at the start (cells); lanes without a particle repeat one.
+    /// For particles at x (m) in a cell, with their sizes at the start (cells); lanes without a particle repeat one.
     Stencils(const CellFrame<D>& frame, const Index<D>& cell, const std::array<Lanes, D>& x,
              const std::array<Lanes, D>& size)
         : cell_(cell) {

@@ -67,7 +67,7 @@ struct ElasticPlastic {
   std::variant<VonMisesYield, GursonYield> yieldCondition;    ///< with GursonYield the model is GursonPlastic
   bool poresEvolve = true;                                    ///< this and the following: only with GursonYield
   double initialPorosity = 0.002, porosityDeviation = 0.002;  ///< f at the start, mean and standard deviation, 1
-  bool porositySpreads = false;                               ///< f at the start by a normal distribution
+  bool porositySpreads = false;                               ///< f at the start is normally distributed
   double nucleating = 0.1;                                    ///< f_N, 1
   double nucleationStrain = 0.3, nucleationDeviation = 0.1;   ///< e_N and s_N, 1
 
@@ -158,7 +158,7 @@ struct ElasticPlastic {
         .value("taylor_quinney_coeff", &Self::heatedShare, 0.9, "1", "fraction of the plastic work that becomes heat",
                input::between(0, 1))
         .value("initial_material_temperature", &Self::initialTemperature, 294, "K",
-               "temperature at which heat adds no pressure", input::nonNegative());
+               "temperature at which the thermal pressure vanishes", input::nonNegative());
     typedTag(tags, "flow_model", &Self::flow, "the model of the yield stress", true);
     typedTag(tags, "equation_of_state", &Self::equationOfState,
              "the model of the mean stress; default_hyper if left out", false);

@@ -69,7 +69,7 @@ struct FibreElasticity {
         .ignored("max_fiber_strain", "only Uintah's failure_option 1 uses it")
         .ignored("max_matrix_strain", "only Uintah's failure_option 1 uses it")
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it");
-    refuseSwitch(tags, "failure_option", "nothing fails");
+    refuseSwitch(tags, "failure_option", "neither the fibres nor the matrix fail");
   }
 
   /// tau = 2 dev((w1 + I1 w2) B' - w2 B'²) + g dev(a a) + K ln J I, Pa: w1 and w2 the derivatives of W_m by I1 and I2,

@@ -115,9 +115,10 @@ struct JwlppMpm {
         .required("jwl_A", &Self::a, "Pa", "products: factor of exp(-R1 V)", input::nonNegative())
         .required("jwl_B", &Self::b, "Pa", "products: factor of exp(-R2 V)")
         .required("jwl_C", &Self::c, "Pa", "products: factor of V^-(1 + om)", input::nonNegative())
-        .required("jwl_R1", &Self::r1, "1", "products: constant in the equation of state", input::positive())
-        .required("jwl_R2", &Self::r2, "1", "products: constant in the equation of state", input::positive())
-        .required("jwl_om", &Self::omega, "1", "products: constant in the equation of state", input::nonNegative())
+        .required("jwl_R1", &Self::r1, "1", "constant in the equation of state of the products", input::positive())
+        .required("jwl_R2", &Self::r2, "1", "constant in the equation of state of the products", input::positive())
+        .required("jwl_om", &Self::omega, "1", "constant in the equation of state of the products",
+                  input::nonNegative())
         .required("reaction_G", &Self::rate, "1/(s Pa^b)", "factor of the burn rate", input::nonNegative())
         .required("reaction_b", &Self::power, "1", "exponent of the pressure in the burn rate", input::nonNegative())
         .value("max_burned_fraction", &Self::greatestFraction, 1, "1", "fraction at which burning stops",

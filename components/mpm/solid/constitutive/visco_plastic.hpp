@@ -137,7 +137,7 @@ struct ViscoPlastic {
     tags.required("bulk_modulus", &Self::bulkModulus, "Pa", "K", input::positive())
         .required("shear_modulus", &Self::shearModulus, "Pa", "G", input::positive())
         .value("initial_material_temperature", &Self::initialTemperature, 269.15, "K",
-               "temperature at which heat adds no pressure", input::nonNegative())
+               "temperature at which the thermal pressure vanishes", input::nonNegative())
         .value("check_failure", &Self::canFail, false, "1", "whether particles can fail")
         .value("failure_by_stress", &Self::byStress, true, "1",
                "true: particles fail by the largest principal stress; false: by strain")

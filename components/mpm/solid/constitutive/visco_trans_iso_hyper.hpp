@@ -34,7 +34,7 @@ struct ViscoTransIsoHyper : FibreElasticity {
        {"p.history4", "Pa", "stress of the Maxwell element 4 for y4 = 1", 9},
        {"p.history5", "Pa", "stress of the Maxwell element 5 for y5 = 1", 9},
        {"p.history6", "Pa", "stress of the Maxwell element 6 for y6 = 1", 9}}};
-  static constexpr std::array<StateVariable, 1> absentVariables{{{"p.fail", "1", "0: nothing fails"}}};
+  static constexpr std::array<StateVariable, 1> absentVariables{{{"p.fail", "1", "0: no particle fails"}}};
   static constexpr std::string_view name = "visco_trans_iso_hyper";
   static constexpr bool strainEnergyIsRate = false;
 

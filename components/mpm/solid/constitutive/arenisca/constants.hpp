@@ -134,10 +134,10 @@ void addSoilTags(input::Schema<M>& schema) {
   tags.require("BETA_nonassociativity", &Constants::flowFactor, "1", "1: plastic flow is normal to the yield surface",
                input::positive());
   tags.require("B1", &Constants::b1, "Pa", "increase of the bulk modulus at high pressure", input::nonNegative());
-  tags.require("B2", &Constants::b2, "Pa", "scale of the trace of stress over which this happens",
+  tags.require("B2", &Constants::b2, "Pa", "scale of the trace of the stress in the increase <B1>",
                input::nonNegative());
   tags.require("B3", &Constants::b3, "Pa", "reduction of the bulk modulus by plastic compaction", input::nonNegative());
-  tags.require("B4", &Constants::b4, "1", "scale of the volumetric strain over which this happens",
+  tags.require("B4", &Constants::b4, "1", "scale of the volumetric plastic strain in the reduction <B3>",
                input::nonNegative());
   tags.require("G1", &Constants::g1, "1", "Poisson's ratio at low pressure, instead of <G0>");
   tags.require("G2", &Constants::g2, "1",

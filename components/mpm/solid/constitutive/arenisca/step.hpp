@@ -52,7 +52,7 @@ class Substep {
   };
 
   bool contains(const YieldSurface& surface) const { return surface.contains(trial_.i1, trial_.rootJ2, trial_.theta); }
-  /// A fluid under tension tears.
+  /// At most 0: the fluid carries no tension.
   double zetaAfter(double volume) const { return std::min(start_.zeta + stiffness_ * volume, 0.0); }
   YieldSurface surfaceAfter(double volume) const { return {c_, capEnd(c_, start_volume_ + volume), zetaAfter(volume)}; }
   bool moves(const Return& atRest) const {

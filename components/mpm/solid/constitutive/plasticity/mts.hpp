@@ -56,9 +56,9 @@ struct MechanicalThreshold {
         .required("koverbcubed", &Self::boltzmann, "Pa/K", "Boltzmann's constant over Burgers' vector cubed",
                   input::positive())
         .required("g_0i", &Self::energyI, "1", "activation energy for interstitial obstacles", input::nonNegative())
-        .required("g_0e", &Self::energyE, "1", "for dislocations", input::positive())
+        .required("g_0e", &Self::energyE, "1", "activation energy for dislocations", input::positive())
         .required("edot_0i", &Self::rateI, "1/s", "reference rate for interstitial obstacles", input::nonNegative())
-        .required("edot_0e", &Self::rateE, "1/s", "for dislocations", input::positive())
+        .required("edot_0e", &Self::rateE, "1/s", "reference rate for dislocations", input::positive())
         .required("p_i", &Self::pI, "1", "exponent; 0: no interstitial obstacles", input::nonNegative())
         .required("q_i", &Self::qI, "1", "exponent", input::nonNegative())
         .required("p_e", &Self::pE, "1", "exponent", input::positive())

@@ -28,11 +28,11 @@ struct PrestonTonksWallace {
             .required("theta", &Self::theta, "1", "hardening", input::positive())
             .required("p", &Self::p, "1", "shape of the saturation of hardening", input::positive())
             .required("s0", &Self::s0, "1", "saturated stress at 0 K", input::positive())
-            .required("sinf", &Self::sInfinite, "1", "at temperatures near melting", input::nonNegative())
+            .required("sinf", &Self::sInfinite, "1", "saturated stress near melting", input::nonNegative())
             .required("kappa", &Self::kappa, "1", "softening with the temperature", input::nonNegative())
             .required("gamma", &Self::gamma, "1", "factor of the reference strain rate", input::positive())
             .required("y0", &Self::y0, "1", "yield stress at 0 K", input::nonNegative())
-            .required("yinf", &Self::yInfinite, "1", "at temperatures near melting", input::nonNegative())
+            .required("yinf", &Self::yInfinite, "1", "yield stress near melting", input::nonNegative())
             .required("y1", &Self::y1, "1", "yield stress in strong shocks", input::nonNegative())
             .required("y2", &Self::y2, "1", "exponent of the yield stress in strong shocks", input::nonNegative())
             .required("beta", &Self::beta, "1", "exponent of the saturated stress in strong shocks",

@@ -59,7 +59,7 @@ struct SteinbergCochranGuinan {
     return (thermal(state) + std::min(hardened(state), greatest)) * state.shearModulus / shearModulus;
   }
   bool dependsOnPlasticRate() const { return c1 > 0; }
-  /// At a constant rate.
+  /// The slope of the flow stress at a constant rate.
   double hardening(const FlowState& state) const {
     if (hardened(state) >= greatest) return 0;
     return beta * n * hardened(state) / base(state) * state.shearModulus / shearModulus;

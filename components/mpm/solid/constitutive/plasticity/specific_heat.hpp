@@ -41,12 +41,12 @@ struct CopperHeat {
             "specific_heat_model",
             "For copper: a cubic polynomial in T below a transition temperature, and a linear one above.")
             .value("T_transition", &Self::transition, 270, "K", "transition temperature", input::positive())
-            .value("A_LowT", &Self::a0, 0.0000416, "J/(kg K^4)", "factor of T^3, below")
-            .value("B_LowT", &Self::b0, 0.027, "J/(kg K^3)", "factor of -T^2, below")
-            .value("C_LowT", &Self::c0, 6.21, "J/(kg K^2)", "factor of T, below")
-            .value("D_LowT", &Self::d0, 142.6, "J/(kg K)", "constant that is subtracted, below")
-            .value("A_HighT", &Self::a1, 0.1009, "J/(kg K^2)", "factor of T, above")
-            .value("B_HighT", &Self::b1, 358.4, "J/(kg K)", "constant that is added, above");
+            .value("A_LowT", &Self::a0, 0.0000416, "J/(kg K^4)", "factor of T^3 below the transition")
+            .value("B_LowT", &Self::b0, 0.027, "J/(kg K^3)", "factor of -T^2 below the transition")
+            .value("C_LowT", &Self::c0, 6.21, "J/(kg K^2)", "factor of T below the transition")
+            .value("D_LowT", &Self::d0, 142.6, "J/(kg K)", "constant subtracted below the transition")
+            .value("A_HighT", &Self::a1, 0.1009, "J/(kg K^2)", "factor of T above the transition")
+            .value("B_HighT", &Self::b1, 358.4, "J/(kg K)", "constant added above the transition");
     return schema;
   }
   double specificHeat(const HeatState& s, double) const {
