@@ -31,8 +31,8 @@ class Pieces {
   /// `writers` must outlive it.
   explicit Pieces(const Writers& writers) : writers_(&writers), outbox_(writers.ranks()) {}
 
-  /// Sends each writer its piece of the array, which has a source; `of[w]` is for writer w. Returns the entries of this
-  /// rank's own piece, in `into`, which grows to hold them. Collective.
+  /// Sends each writer its piece of the array, which must have a source; `of[w]` is for writer w. Returns the entries
+  /// of this rank's own piece, in `into`, which grows to hold them. Collective.
   std::span<std::byte> bring(const Array& array, std::span<const Piece> of, std::vector<std::byte>& into);
 
  private:

@@ -48,7 +48,7 @@ int numberOf(const std::string& word, const Known& known, std::string& problem) 
   const auto number = input::parse<int>(word);
   if (word.empty()) return 0;
   if (number.value && *number.value >= 0 && *number.value < count) return *number.value;
-  problem = number.value ? fmt::format("there is no material {}; materials are counted from 0 to {}", word, count - 1)
+  problem = number.value ? fmt::format("there is no material {}; materials are numbered from 0 to {}", word, count - 1)
             : all.empty()
                 ? fmt::format("there is no material '{}': the variables of this component belong to none", word)
                 : fmt::format("there is no material '{}'{}; available: {}", word, didYouMean(word, all), allOf(all));

@@ -93,7 +93,7 @@ Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>&
     tag.requiredAttribute("label", &ConditionSection::label, "1", "the variable");
   else
     tag.requiredChoiceAttribute("label", &ConditionSection::label, wordsOf(names), "the variable");
-  return tag.requiredChoiceAttribute("var", &ConditionSection::var, wordsOf(kinds), "what it does")
+  return tag.requiredChoiceAttribute("var", &ConditionSection::var, wordsOf(kinds), "the kind of condition")
       .optional("value", &ConditionSection::value, "SI unit of the variable",
                 "a number or a vector; for some components also formulas");
 }
@@ -112,8 +112,10 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
       .oneOfLast(6)
       .optionalAttribute("origin", &FaceSection::origin, "m", point("the centre of a circle, annulus or ellipse"))
       .optionalAttribute("radius", &FaceSection::radius, "m", "radius of a circle", input::positive())
-      .optionalAttribute("inner_radius", &FaceSection::innerRadius, "m", "of an annulus", input::positive())
-      .optionalAttribute("outer_radius", &FaceSection::outerRadius, "m", "of an annulus", input::positive())
+      .optionalAttribute("inner_radius", &FaceSection::innerRadius, "m", "inner radius of an annulus",
+                         input::positive())
+      .optionalAttribute("outer_radius", &FaceSection::outerRadius, "m", "outer radius of an annulus",
+                         input::positive())
       .optionalAttribute("minor_radius", &FaceSection::minorRadius, "m", "shorter semi-axis of an ellipse",
                          input::positive())
       .optionalAttribute("major_radius", &FaceSection::majorRadius, "m", "longer semi-axis of an ellipse",
@@ -205,7 +207,7 @@ std::optional<Location> givenBefore(const ConditionSection& given, const Locatio
 struct ReadFace {
   const SideWords& words;
   const Element& sides;                              ///< the section with all sides
-  int axis;                                          ///< across it
+  int axis;                                          ///< axis across the face
   std::vector<grid::BoundaryCondition>& conditions;  ///< conditions of this face, and of the same part read before
   SeenConditions& seen;                              ///< the place of each condition
 };

@@ -190,7 +190,7 @@ std::vector<std::string> Phases::remarksOn(const SaveRequest& save) const {
           fmt::format("in Uintah material {} means all materials together; here '{}' is saved for each of them", number,
                       save.label));
     else if (number > count)
-      remarks.push_back(fmt::format("does nothing for {}: materials are counted from 0 to {}", number, count - 1));
+      remarks.push_back(fmt::format("does nothing for {}: materials are numbered from 0 to {}", number, count - 1));
   return remarks;
 }
 

@@ -21,7 +21,7 @@ output::Snapshot emptySnapshot(const RunState& run, output::GridInfo grid) {
   return snapshot;
 }
 
-/// The particles of every material with p.x only; without it for materials that are not wanted.
+/// An entry for every material with p.x, which holds p.x if the material is wanted.
 template <class IsWanted>
 output::Snapshot positions(const RunState& run, Gather& gather, const IsWanted& isWanted) {
   output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(*run.problem.grid));

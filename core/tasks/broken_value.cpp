@@ -155,7 +155,7 @@ class Search {
     });
   }
 
-  /// The text of the one rank that has it, on all ranks; the others pass an empty one. Collective.
+  /// Broadcasts the text of the one rank that passes a text; the others pass an empty one. Collective.
   std::string said(const std::string& mine) const {
     if (warehouse_.ranks().isAlone()) return mine;
     for (const std::string& text : warehouse_.ranks().gather(mine))
@@ -258,7 +258,7 @@ class Search {
   const Grid& grid_;
   Bounded written_;
   Bound bound_;
-  int of_level_;  ///< -1: any
+  int of_level_;  ///< -1: any level
   const Label& label_;
   int material_;
   Found found_;

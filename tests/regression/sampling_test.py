@@ -179,7 +179,7 @@ class Sampling(ModuleTest):
             module("minMax", "<material>air</material>"):
                 "there is no material 'air': the variables of this component belong to none",
             module("minMax", variables=('label="c.density" matl="2"',)):
-                "there is no material 2; materials are counted from 0 to 0",
+                "there is no material 2; materials are numbered from 0 to 0",
             module("minMax", variables=("TotalMass",)):
                 "found 'TotalMass', expected a variable of cells (c.) or nodes (g.)",
             module("minMax", variables=()): "analyze",

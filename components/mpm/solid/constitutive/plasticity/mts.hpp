@@ -72,7 +72,7 @@ struct MechanicalThreshold {
         .required("edot_es0", &Self::rateSaturated, "1/s", "reference rate of saturation", input::positive())
         .required("g_0es", &Self::energySaturated, "1", "activation energy of saturation", input::positive())
         .required("sigma_es0", &Self::sigmaSaturated, "Pa", "saturated threshold at 0 K", input::positive())
-        .ignored("theta_IV", "as in Uintah, the hardening ends at 0")
+        .ignored("theta_IV", "as in Uintah, hardening falls to 0 at saturation")
         .ignored("D", "it is part of the <shear_modulus_model>")
         .ignored("T_0", "it is part of the <shear_modulus_model>");
     refuseTag(tags, "T_c", "there is one phase");
