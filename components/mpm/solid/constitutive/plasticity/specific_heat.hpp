@@ -68,14 +68,14 @@ struct SteelHeat {
     static const input::Schema<Self> schema =
         input::Schema<Self>("specific_heat_model", "For steel, with the peak at the transition of iron.")
             .value("T_transition", &Self::transition, 1040, "K", "T_c, where t = T/T_c - 1 is 0", input::positive())
-            .value("A_LowT", &Self::a0, 190.14, "J/(kg K)", "constant part, below")
-            .value("B_LowT", &Self::b0, 273.75, "J/(kg K)", "factor of t, below")
-            .value("C_LowT", &Self::c0, 418.3, "J/(kg K)", "factor of |t|^-n, below")
-            .value("n_LowT", &Self::n0, 0.2, "1", "n, below")
-            .value("A_HighT", &Self::a1, 465.21, "J/(kg K)", "constant part, above")
-            .value("B_HighT", &Self::b1, 267.52, "J/(kg K)", "factor of t, above")
-            .value("C_HighT", &Self::c1, 58.16, "J/(kg K)", "factor of |t|^-n, above")
-            .value("n_HighT", &Self::n1, 0.35, "1", "n, above");
+            .value("A_LowT", &Self::a0, 190.14, "J/(kg K)", "constant part below the transition")
+            .value("B_LowT", &Self::b0, 273.75, "J/(kg K)", "factor of t below the transition")
+            .value("C_LowT", &Self::c0, 418.3, "J/(kg K)", "factor of |t|^-n below the transition")
+            .value("n_LowT", &Self::n0, 0.2, "1", "n below the transition")
+            .value("A_HighT", &Self::a1, 465.21, "J/(kg K)", "constant part above the transition")
+            .value("B_HighT", &Self::b1, 267.52, "J/(kg K)", "factor of t above the transition")
+            .value("C_HighT", &Self::c1, 58.16, "J/(kg K)", "factor of |t|^-n above the transition")
+            .value("n_HighT", &Self::n1, 0.35, "1", "n above the transition");
     return schema;
   }
   /// At T_c itself the value one kelvin below it, as in Uintah.
