@@ -75,7 +75,7 @@ class FaceInterpolation {
     return (u - 1) * (u - 2) / 2 - 1;
   }
   /// Visits the cells of s_a s_b times the mixed difference: the mean over the corners of the cell whose other cells
-  /// are there.
+  /// exist.
   template <class Visit>
   double addMixed(int level, const Index<D>& cell, int a, int b, const std::array<double, D>& shift,
                   Visit&& visit) const {

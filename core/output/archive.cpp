@@ -121,7 +121,7 @@ void Archive::flush() {
   if (state_->vtkhdf_pace.isBehind()) state_->writeVtkHdfFiles();
 }
 
-/// The lists keep their pace: a run that continues from here takes the list of the checkpoint, and adds the later
+/// Does not write the lists: a run that continues from here takes the list of the checkpoint, and adds the later
 /// outputs again.
 ArchivePoint Archive::sync(int step, double time) {
   state_->globals.sync();

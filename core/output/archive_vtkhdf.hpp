@@ -38,7 +38,7 @@ class VtkHdfIndex {
  private:
   struct Block {
     std::string name;
-    bool isMesh;  ///< or particles
+    bool isMesh;  ///< false: particles
     Image image;
     std::vector<ShownOutput> outputs;
   };

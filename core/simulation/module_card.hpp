@@ -6,7 +6,7 @@ class Catalogue;
 
 /// Properties that a module and the program that loads it must share.
 struct ModuleAbi {
-  const char* version;    ///< of Tushar
+  const char* version;    ///< version of Tushar
   const char* compiler;   ///< name and version of the compiler
   const char* interface;  ///< a hash of the headers of core
   int checks;             ///< 1 if every index of every view is checked

@@ -58,8 +58,8 @@ inline constexpr NodeLabel<Matrix3> stress{"g.stressFS", "Pa",
 inline constexpr NodeLabel<NodeRecord> record{
     "g.record", "SI units", "velocity, mass, force and volume of a step in progress", Counts::nearParticles};
 inline constexpr NodeLabel<NodeRecord> stressRecord{
-    "g.stressRecord", "SI units", "velocity and mass for the stress update, if the velocity is not that of the step",
-    Counts::nearParticles};
+    "g.stressRecord", "SI units",
+    "velocity and mass for the stress update, if it uses another velocity than the motion", Counts::nearParticles};
 inline constexpr NodeLabel<NodeRecord> smoothRecord{
     "g.smoothRecord", "SI units", "p.velocitySSPlus gathered from particles, and mass", Counts::nearParticles};
 template <int D>
@@ -121,7 +121,7 @@ inline constexpr ReductionLabel<Sum> strainEnergy{
 /// Sums of the numbers of p.work, in their order.
 inline constexpr std::array<ReductionLabel<Sum>, 7> work{{
     {"ExternalWork", "J", "work of loads and gravity since the start"},
-    {"BoundaryWork", "J", "work of faces of the grid with a given velocity, since the start"},
+    {"BoundaryWork", "J", "work of the grid's sides where a velocity is given, since the start"},
     {"ContactWork", "J", "work of contact since the start: positive from a driven master, negative from friction"},
     {"DissipatedWork", "J", "energy taken by artificial viscosity and damping since the start"},
     {"StrainWork", "J",
