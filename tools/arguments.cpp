@@ -17,7 +17,7 @@ namespace {
 
 void complain(const std::string& sentence) { fmt::print(stderr, "sus: {}\n", withNumber(sentence)); }
 
-/// Uintah's words begin with one dash: -validate becomes --validate. Single letters stay.
+/// Adds a dash to Uintah's options: -validate becomes --validate. Single letters stay.
 std::string withTwoDashes(const std::string& word) {
   const bool oneDash = word.size() > 2 && word[0] == '-' && word[1] != '-' && std::isalpha(word[1]);
   return oneDash ? "-" + word : word;
@@ -31,8 +31,8 @@ void setThreads(int count, grid::Workers& workers) {
 void setLayout(const std::string& text, grid::Workers& workers) {
   workers.layout = grid::parseLayout(text);
   if (!workers.layout)
-    throw CLI::ValidationError(
-        fmt::format("--layout: found '{}', expected AxBxC, the patches along x, y and z, such as 4x2x1", text));
+    throw CLI::ValidationError(fmt::format(
+        "--layout: found '{}', expected AxBxC, the numbers of patches along x, y and z, such as 4x2x1", text));
 }
 
 double checkpointInterval(const std::string& text) {
@@ -51,7 +51,7 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   return names;
 }
 
-/// The words as CLI11 takes them, the last first; what follows --petsc is PETSc's and stays as it is.
+/// The words in the order for CLI11, the last first; the word after --petsc is left unchanged.
 std::vector<std::string> backwards(const std::vector<std::string>& given) {
   std::vector<std::string> words;
   for (const std::string& word : given)
@@ -60,7 +60,7 @@ std::vector<std::string> backwards(const std::vector<std::string>& given) {
   return words;
 }
 
-/// Says which words of the command line mean nothing: the options, as they were written, or else a second scene.
+/// Reports the invalid words of the command line: unknown options, as given, or a second scene.
 void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, const std::string& scene) {
   const std::vector<std::string> unknown = app.remaining(), names = optionNames(app);
   bool options = false;
@@ -70,25 +70,26 @@ void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, c
     complain(fmt::format("unknown option '{}'{}; sus -h lists the options", word, didYouMean(full, names)));
     options = true;
   }
-  if (!options) complain(fmt::format("runs one scene at a time: found '{}' after '{}'", unknown.front(), scene));
+  if (!options) complain(fmt::format("only one scene can be run: found '{}' after '{}'", unknown.front(), scene));
 }
 
-/// Declares the options that say who does the work of a run.
+/// Declares the options for patches, threads and writers.
 void declareWorkers(CLI::App& app, Arguments& arguments) {
   app.add_option_function<std::string>(
       "--layout", [&](const std::string& text) { setLayout(text, arguments.workers); },
-      "patches along x, y, z, in place of those of the scene: AxBxC, such as 4x2x1; of a grid of several levels, the "
-      "most blocks of a patch");
+      "patches along x, y, z, instead of those of the scene: AxBxC, such as 4x2x1; on several levels, the largest "
+      "number of blocks in a patch");
   app.add_option_function<int>(
          "--nthreads", [&](int count) { setThreads(count, arguments.workers); },
          "number of threads; by default one per available core, fewer for a small grid")
       ->check(CLI::Range(1, 1024));
   app.add_option("--writers", arguments.run.writers,
-                 "ranks that write outputs and checkpoints; by default one on each node. The files do not depend on it")
+                 "number of ranks that write outputs and checkpoints; by default one on each node. It does not affect "
+                 "the files")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--behind", arguments.run.behind,
-                 "MB of an output that a writer may hold while the run continues; by default the share of a rank, at "
-                 "least 16. 0: the run waits until the output is written")
+                 "MB of an output that a writer may keep in memory while the run continues; by default the size of a "
+                 "rank's part, at least 16. 0: the run waits until the output is written")
       ->check(CLI::Range(0, 1'000'000));
 }
 
@@ -99,8 +100,9 @@ void declare(CLI::App& app, Arguments& arguments) {
       "            4 a value became unphysical during the run, 5 interrupted (output written)");
   app.add_option("scene", arguments.scene, "the scene to run (.ups), or with --restart the folder of a run (.uda)");
   CLI::Option* restart = app.add_flag("--restart", arguments.restart,
-                                      "continue the run of a .uda, in that folder, from its last intact checkpoint");
-  app.add_option("-t", arguments.checkpoint, "with --restart: from the checkpoint of this step; later ones are removed")
+                                      "continue a run in its .uda folder, from the last intact checkpoint");
+  app.add_option("-t", arguments.checkpoint,
+                 "with --restart: continue from the checkpoint of this step; later ones are removed")
       ->needs(restart);
   app.add_option("--set", arguments.overrides,
                  "override a value of the scene: PATH=VALUE, e.g.\n"
@@ -109,13 +111,13 @@ void declare(CLI::App& app, Arguments& arguments) {
   declareWorkers(app, arguments);
   app.add_option("--trace", arguments.trace,
                  "record what each thread does and when, in a file for ui.perfetto.dev or chrome://tracing");
-  app.add_option("--json", arguments.run.jsonPath,
-                 "write the report to a file, as JSON; with --check what is wrong with the scene, to the screen where "
-                 "no file is given")
+  app.add_option(
+         "--json", arguments.run.jsonPath,
+         "write the report to a file, as JSON; with --check: write the problems of the scene, by default to the screen")
       ->expected(0, 1);
   app.add_option_function<std::string>(
       "--checkpoint", [&](const std::string& text) { arguments.checkpointInterval = checkpointInterval(text); },
-      "write a checkpoint every so often, such as 30s, 10min or 2h of wall time, beside those of the scene");
+      "write a checkpoint at this interval of wall time, such as 30s, 10min or 2h, in addition to those of the scene");
   app.add_option("--load", arguments.modules, "load a module of your own: a shared library; may be repeated")
       ->allow_extra_args(false);
   app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
@@ -125,10 +127,10 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("--check,--validate", arguments.check,
                "check the scene and compute its initial state; run and write nothing");
   app.add_option("--dry-run", arguments.dryRun,
-                 "compile the tasks of one rank of this many and print what they need; run nothing")
+                 "compile the tasks of one of this many ranks, and print their cost; run nothing")
       ->check(CLI::Range(1, 10'000'000));
   app.add_flag("--schedule", arguments.schedule,
-               "print the tasks in order, what they read and write, what is left out");
+               "print the tasks in order, what they read and write, and which are left out");
   app.add_option("--graph", arguments.graph, "write the tasks of a step to a file, for Graphviz (dot)");
   app.add_flag("--list", arguments.list, "list components, analysis modules and shapes");
   app.add_option("--describe", arguments.describe, "the manual of a component, a module, or 'scene'");
@@ -141,7 +143,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("-V,--version", arguments.version, "version, commit, compiler and libraries");
 }
 
-/// What is wrong with the words of the command line.
+/// The problem with the command line, in a sentence.
 std::string sentenceOf(const CLI::App* app, const CLI::Error& error) {
   const std::string text = CLI::FailureMessage::simple(app, error);
   const std::size_t line = text.find('\n');

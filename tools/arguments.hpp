@@ -14,12 +14,13 @@ namespace tushar {
 /// The options and names on the command line.
 struct Arguments {
   std::string scene, describe, graph, petsc, trace, schema, completion, paths;
-  std::vector<std::string> overrides, words;  ///< of --set; all of the command line, with the program's name
-  std::vector<std::string> modules;           ///< files of the user's own
-  std::vector<std::string> optionNames;       ///< all that are shown, with two dashes
+  std::vector<std::string> overrides,
+      words;                             ///< values of --set; all words of the command line, with the program's name
+  std::vector<std::string> modules;      ///< files of the user's own
+  std::vector<std::string> optionNames;  ///< all that are shown, with two dashes
   bool check = false, list = false, restart = false, schedule = false, version = false;
   bool asksForJson = false;                  ///< --json was given; its file may be missing
-  std::optional<int> checkpoint;             ///< step of the one to restart from
+  std::optional<int> checkpoint;             ///< step of the checkpoint from which to restart
   std::optional<double> checkpointInterval;  ///< wall time between checkpoints, s
   std::optional<int> dryRun;
   grid::Workers workers{allowedThreads(), true, 1, {}};
@@ -29,7 +30,7 @@ struct Arguments {
   bool isQuestion() const {
     return version || list || !(describe.empty() && schema.empty() && completion.empty() && paths.empty());
   }
-  /// Whether the problems of a scene that is only checked go to the screen as JSON, and nothing else does.
+  /// Whether the problems of a scene that is only checked are printed as JSON, and nothing else.
   bool showsJson() const { return check && asksForJson && (run.jsonPath.empty() || run.jsonPath == "-"); }
 };
 

@@ -31,7 +31,7 @@ namespace tushar {
 
 namespace {
 
-/// When the process started: now, less the processor time that it has used.
+/// The start time of the process: the current time, less the processor time used.
 std::chrono::steady_clock::time_point processStart() {
   const double used = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   return std::chrono::steady_clock::now() -
@@ -52,7 +52,7 @@ void checkWritable(const std::string& path) {
 
 void warn(const std::string& sentence) { fmt::print(stderr, "sus: {}\n", withNumber(sentence)); }
 
-/// Finds the checkpoint to go on from; the first rank says what was found damaged on the way.
+/// Finds the checkpoint from which to continue; the first rank reports damaged ones found on the way.
 simulation::Restart findRestart(const Arguments& arguments, const mpi::Communicator& ranks) {
   const simulation::Restart restart = scene::findRestart(arguments.scene, arguments.checkpoint, ranks);
   if (!ranks.isFirst() || restart.notes.empty()) return restart;
@@ -61,7 +61,8 @@ simulation::Restart findRestart(const Arguments& arguments, const mpi::Communica
   return restart;
 }
 
-/// Adds what the command line requests. A scene without <DataArchiver> has no name for the folder of its run.
+/// Adds the checkpoints that the command line requests. A scene without <DataArchiver> has no name for the folder of
+/// its run.
 void addCheckpoints(const Arguments& arguments, const std::filesystem::path& name,
                     simulation::ArchiveSettings& archive) {
   if (arguments.checkpointInterval) simulation::addWallTimeInterval(archive.checkpoint, *arguments.checkpointInterval);
@@ -85,7 +86,7 @@ simulation::Problem readProblem(const Arguments& arguments, const simulation::Ca
   return problem;
 }
 
-/// The first rank writes what all have recorded.
+/// Writes, on the first rank, the spans recorded on all ranks.
 void writeTrace(const std::string& path, const mpi::Communicator& ranks) {
   std::string all;
   for (const std::string& events : ranks.gather(trace::events(ranks.rank())))
@@ -110,7 +111,7 @@ void writeProblems(const Arguments& arguments, const std::vector<InputProblem>& 
     writeFile(arguments.run.jsonPath, text);
 }
 
-/// Prints what can be said about a scene without running it.
+/// Prints information about a scene without running it.
 void inspect(const Arguments& arguments, simulation::Simulation& run, bool isFirst) {
   const long particles = arguments.check ? run.tryStart() : 0;
   if (!isFirst) return;
@@ -125,7 +126,7 @@ void inspect(const Arguments& arguments, simulation::Simulation& run, bool isFir
   if (!arguments.showsJson()) fmt::print("{}: fine, {}\n", arguments.scene, sizeOf(run, particles));
 }
 
-/// Options that a typing error may have made useless.
+/// Notes options without effect, which may be misspelt.
 void noteUnused(const Arguments& arguments, const report::Report& report) {
   for (const std::string& option : report.unusedOptions)
     fmt::print(stderr, "note: {}\n", withNumber(fmt::format("PETSc: no solve has used the option {}", option)));
@@ -186,11 +187,11 @@ ExitCode dispatch(const Arguments& arguments, const OpenCatalogue& open,
   if (!arguments.restart && std::filesystem::is_directory(arguments.scene + "/checkpoints"))
     return refuse(fmt::format("{0} is the folder of a run; sus --restart {0} continues it", arguments.scene));
   if (arguments.asksForJson && !arguments.check && arguments.run.jsonPath.empty())
-    return refuse("--json needs the name of a file for the report");
+    return refuse("--json needs a file name for the report");
   if (arguments.check && arguments.asksForJson && !arguments.showsJson() && launchedRank() == 0)
     checkWritable(arguments.run.jsonPath);
   if (arguments.restart && !arguments.run.outputFolder.empty())
-    return refuse("--output has no meaning with --restart: a run continues in its own folder");
+    return refuse("--output cannot be used with --restart: a run continues in its own folder");
   if (arguments.dryRun) {
     const grid::Workers workers{arguments.workers.threads, true, *arguments.dryRun, arguments.workers.layout};
     if (launchedRank() == 0)
@@ -218,7 +219,7 @@ std::string listOf(const std::vector<InputProblem>& problems) {
   return text;
 }
 
-/// What went wrong; no text where another rank has it.
+/// The failure behind an exception; without text if another rank has it.
 Failure failureOf(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);
@@ -248,7 +249,7 @@ void keepMemory() {
 /// writes outputs would use next to nothing: where addresses are limited, the state would lack them.
 void shareMemory(int threads) { mallopt(M_ARENA_MAX, threads); }
 
-/// Says once for all ranks what went wrong, and ends them.
+/// Reports a failure once for all ranks, and ends them.
 int endWith(const Failure& failure, const Arguments& arguments, std::optional<mpi::Session>& session) {
   int code = static_cast<int>(failure.code);
   const bool speaks = !session || session->speaks(!failure.text.empty(), code);

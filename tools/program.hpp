@@ -4,7 +4,7 @@
 
 namespace tushar {
 
-/// Opens everything that a scene can pick, and the modules in the files that --load names.
+/// Opens everything that a scene can select, and the modules in the files given by --load.
 using OpenCatalogue = std::function<simulation::Catalogue(const std::vector<std::string>& files)>;
 
 /// Runs sus with its command line. Returns the exit code.

@@ -39,22 +39,22 @@ const input::Schema<FluxSettings>& fluxSchema() {
           .location(&Extent::where)
           .location(&Extent::whereOfName, "label")
           .requiredAttribute("label", &Extent::name, "1", "name of the file in the archive, without .dat")
-          .required("min", &Extent::start, "m", "its lower corner")
-          .required("max", &Extent::end, "m", "its upper corner");
+          .required("min", &Extent::start, "m", "lower corner")
+          .required("max", &Extent::end, "m", "upper corner");
   static const input::Schema<Boxes> boxes =
       input::Schema<Boxes>("controlVolumes", "The control volumes.").list("box", &Boxes::list, box, "a box", 1);
   static const input::Schema<FluxSettings> schema = [] {
-    input::Schema<FluxSettings> tags("Module", "The mass of a gas in boxes, and what flows through their sides.");
+    input::Schema<FluxSettings> tags("Module", "The mass of a gas in boxes, and the mass flow through their sides.");
     tags.requiredAttribute("name", &FluxSettings::name, "1", "controlVolFluxes")
         .location(&FluxSettings::where)
         .value("material", &FluxSettings::material, "", "1", "name of the gas");
     addTimes(tags);
-    return tags.requiredSection("controlVolumes", &FluxSettings::boxes, boxes, "where it samples");
+    return tags.requiredSection("controlVolumes", &FluxSettings::boxes, boxes, "the boxes to sample");
   }();
   return schema;
 }
 
-/// The velocity through the side of a cell at which the grid ends, along the axis.
+/// The velocity along the axis at a side of a cell at which the grid ends.
 template <int D>
 double velocityAtEnd(const Level& level, int d, int side, int material, const Vec<D>& inside) {
   if (level.isSymmetry(d, side, material)) return 0;
@@ -71,7 +71,7 @@ class ControlVolFluxes : public Analysis {
     for (const Extent& box : boxes_) {
       cells_.push_back(cellsOf(box, level));
       names_.push_back("flow of " + box.name);
-      labels_.emplace_back(names_.back(), "kg", "mass in a box, and what flows through its sides per time");
+      labels_.emplace_back(names_.back(), "kg", "mass in a box, and mass flow through its sides");
     }
   }
 
@@ -133,7 +133,7 @@ class ControlVolFluxes : public Analysis {
   CellLabel<double> density_{densityName, "kg/m^3", "density"};
   CellLabel<Vec<D>> velocity_{velocityName, "m/s", "velocity"};
   int material_;
-  std::deque<std::string> names_;  ///< stay where they are: labels refer to them
+  std::deque<std::string> names_;  ///< their addresses must not change, as labels refer to them
   std::deque<ReductionLabel<BoxFlow>> labels_;
   SampleTimes times_;
   SampleFiles files_;
@@ -144,7 +144,7 @@ void checkBoxes(const std::vector<Extent>& boxes, const Level& level, const Elem
   const std::string path = "DataAnalysis/Module/controlVolumes/box";
   if (level.domain().refinement.levels > 1)
     problems.push_back({module.where(), "DataAnalysis/Module",
-                        "controlVolFluxes needs a grid of one level; take the module out, or the finer Levels and "
+                        "controlVolFluxes needs a grid of one level; remove the module, or the finer Levels and "
                         "<AMR>"});
   std::vector<std::string> names;
   for (const Extent& box : boxes) {
@@ -211,12 +211,12 @@ template void addBoxFlow<3>(const Patch&, const Box&, int, CellView<const double
 
 AnalysisKind controlVolFluxesKind() {
   return simulation::moduleMadeBy(
-      "controlVolFluxes", "the mass of a gas in boxes, and what flows through their sides", fluxSchema(),
+      "controlVolFluxes", "the mass of a gas in boxes, and the mass flow through their sides", fluxSchema(),
       [](const FluxSettings& settings, const Element& module, const Component& component, const Level& level) {
         const auto density = isDerived(component, densityName), velocity = isDerived(component, velocityName);
         if (!density || !velocity)
           throw InputError({{module.where(), "DataAnalysis/Module",
-                             "this component has no density and velocity of a gas in cells; take the module out"}});
+                             "this component has no density and velocity of a gas in cells; remove the module"}});
         checkGas(settings.material, component, module);
         checkBoxes(settings.boxes.list, level, module);
         const std::array<bool, 2> derived{*density, *velocity};

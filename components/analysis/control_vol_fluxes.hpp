@@ -8,9 +8,9 @@
 
 namespace tushar::analysis {
 
-/// `controlVolFluxes`: the mass of a gas in boxes of cells over time and what flows through their sides, in a file for
-/// each: `<label>.dat` in the archive, where Uintah writes them. A line has the time [s], the mass [kg], what flows in
-/// along x, y and z less what flows out, and the flux through each side, x- x+ y- y+ z- z+, along the axis [kg/s].
+/// `controlVolFluxes`: the mass of a gas in boxes of cells over time, and the mass flow through their sides, one file
+/// per box: `<label>.dat` in the archive, where Uintah writes them. A line has the time [s], the mass [kg], what flows
+/// in along x, y and z less what flows out, and the flux through each side, x- x+ y- y+ z- z+, along the axis [kg/s].
 simulation::AnalysisKind controlVolFluxesKind();
 
 /// The mass in a box, and the flux through each side: 2 * axis + side, along x, y and z.

@@ -51,15 +51,15 @@ struct ExactSolutionSettings {
 const Schema<ExactSolutionSettings>& exactSolutionSchema() {
   static const Schema<ExactSolutionSettings> schema =
       Schema<ExactSolutionSettings>("Module",
-                                    "Errors of a variable against a formula, in the middle of cells or at nodes.")
+                                    "Errors of a variable against a formula, at the centres of cells or at nodes.")
           .requiredAttribute("name", &ExactSolutionSettings::name, "1", "exactSolution")
           .required("label", &ExactSolutionSettings::label, "1",
-                    "a variable of cells (c.) or nodes (g.) that belongs to no material")
+                    "a cell (c.) or node (g.) variable that belongs to no material")
           .ours()
           .optionalChoice("component", &ExactSolutionSettings::component, {{"x", 0}, {"y", 1}, {"z", 2}},
                           "the component of a vector variable")
           .ours()
-          .required("value", &ExactSolutionSettings::value, "SI unit of the variable", "its exact value")
+          .required("value", &ExactSolutionSettings::value, "SI unit of the variable", "exact value of the variable")
           .ours();
   return schema;
 }
@@ -95,12 +95,12 @@ Measurable findMeasurable(const Component& component, const ExactSolutionSetting
   const std::map<std::string, Measurable> found = measurables(component, settings.component.has_value());
   if (const auto entry = found.find(name); entry != found.end()) return entry->second;
   if (!settings.component && measurables(component, true).contains(name))
-    throw InputError({{where, "DataAnalysis/Module/label",
-                       fmt::format("'{}' is a vector: <component> says which of x, y and z", name)}});
+    throw InputError(
+        {{where, "DataAnalysis/Module/label", fmt::format("'{}' is a vector: give its <component>, x, y or z", name)}});
   std::vector<std::string> names;
   for (const auto& entry : found) names.push_back(entry.first);
   const std::string none =
-      fmt::format("this component has no {} variable of cells or nodes without a material; take the module out",
+      fmt::format("this component has no {} cell or node variable without a material; remove the module",
                   settings.component ? "vector" : "scalar");
   throw InputError({{where, "DataAnalysis/Module/label", names.empty() ? none : input::choiceProblem(name, names)}});
 }

@@ -16,22 +16,22 @@ using input::Schema;
 
 namespace {
 
-constexpr double slack = 1e-9;  ///< of a cell: what counts as the face between two
+constexpr double slack = 1e-9;  ///< fraction of a cell within which a point counts as on a face
 
 Schema<Extent> extentSchema(const std::string& tag, const std::string& sentence) {
   return Schema<Extent>(tag, sentence)
       .location(&Extent::where)
       .location(&Extent::whereOfName, "name")
       .requiredAttribute("name", &Extent::name, "1", "the folder in the archive")
-      .required("startingPt", &Extent::start, "m", "where it begins")
-      .required("endingPt", &Extent::end, "m", "where it ends");
+      .required("startingPt", &Extent::start, "m", "first point")
+      .required("endingPt", &Extent::end, "m", "last point");
 }
 
 std::string pathOf(int axes) {
   return axes == 1 ? "DataAnalysis/Module/lines/line" : "DataAnalysis/Module/planes/plane";
 }
 
-/// Why a name is invalid; empty if it can be a folder beside those that an archive has.
+/// Why a name is invalid; empty if it can name a folder in an archive.
 std::string problemOfName(const std::string& name) {
   static const std::set<std::string> taken{"checkpoints", "slice", "particleExtract", "MinMax", "planeAverage"};
   const bool isPath = name.empty() || name.starts_with('.') || name.find('/') != std::string::npos;
@@ -41,7 +41,7 @@ std::string problemOfName(const std::string& name) {
   return {};
 }
 
-/// Why the points are invalid; empty if the grid has cells between them.
+/// Why the points are invalid; empty if there are cells of the grid between them.
 std::string problemOf(const Extent& extent, int axes, const Level& level) {
   const Vec3 lower = level.domain().lower, upper = level.domain().upper;
   int along = 0;
@@ -49,8 +49,8 @@ std::string problemOf(const Extent& extent, int axes, const Level& level) {
     const double from = extent.start[axis], to = extent.end[axis];
     const double rounding = slack * (upper[axis] - lower[axis]);
     if (from > to)
-      return fmt::format("found endingPt at {} = {:g} m, expected {:g} m or more, where it begins", "xyz"[axis], to,
-                         from);
+      return fmt::format("found endingPt at {} = {:g} m, expected {:g} m or more, the coordinate of startingPt",
+                         "xyz"[axis], to, from);
     if (from < lower[axis] - rounding || to > upper[axis] + rounding)
       return fmt::format("found {} from {:g} to {:g} m, expected places on the grid, from {:g} to {:g} m", "xyz"[axis],
                          from, to, lower[axis], upper[axis]);
@@ -67,17 +67,18 @@ const Schema<ExtentList>& linesSchema() {
   static const Schema<Extent> line =
       extentSchema("line", "A line along an axis.")
           .value("stepSize", &Extent::step, 0, "m",
-                 "distance of the cells that are written, rounded up to cells; 0: every cell", input::nonNegative());
+                 "spacing of the cells that are written, rounded up to whole cells; 0: every cell",
+                 input::nonNegative());
   static const Schema<ExtentList> schema = Schema<ExtentList>("lines", "The lines that are sampled.")
                                                .list("line", &ExtentList::list, line, "a line along an axis", 1);
   return schema;
 }
 
 const Schema<ExtentList>& planesSchema() {
-  static const Schema<Extent> plane = extentSchema("plane", "A part of a plane across an axis.");
+  static const Schema<Extent> plane = extentSchema("plane", "A part of a plane perpendicular to an axis.");
   static const Schema<ExtentList> schema =
       Schema<ExtentList>("planes", "The planes that are sampled.")
-          .list("plane", &ExtentList::list, plane, "a part of a plane across an axis", 1);
+          .list("plane", &ExtentList::list, plane, "a part of a plane perpendicular to an axis", 1);
   return schema;
 }
 

@@ -26,7 +26,7 @@ struct ExtentList {
   std::vector<Extent> list;
 };
 
-/// The schema of `<lines>` with tags `line`; of planes likewise. `fewest` is the number of axes along which one goes.
+/// The schema of `<lines>` with tags `line`; likewise for planes. `fewest` is the number of axes along which one goes.
 const input::Schema<ExtentList>& linesSchema();
 const input::Schema<ExtentList>& planesSchema();
 
@@ -34,8 +34,8 @@ const input::Schema<ExtentList>& planesSchema();
 /// that cannot be folders of the archive.
 void checkExtents(const std::vector<Extent>& extents, int axes, const grid::Level& level);
 
-/// The cells that it goes through, as a box; where it lies between two cells those above it. Nodes are those at the
-/// lower corners of these cells. `level`: the finest; the cells are of one `coarser` by so many.
+/// The cells through which it goes, as a box; the upper ones if it lies between cells. Nodes are those at the lower
+/// corners of these cells. `level`: the finest; the cells are of one `coarser` by so many.
 grid::Box cellsOf(const Extent& extent, const grid::Level& level, int coarser = 0);
 
 /// Cells of a level, 0 the coarsest.
@@ -49,7 +49,7 @@ struct ExtentSettings : Sampling {
   ExtentList extents;
 };
 
-/// A module that samples variables in extents: it gets a part for each. Throws what checkExtents throws.
+/// A module that samples variables in extents; it gets one part of the state for each. Throws what checkExtents throws.
 class ExtentModule : public SamplingModule {
  public:
   ExtentModule(const ExtentSettings& settings, int axes, const grid::Level& level);
@@ -68,9 +68,9 @@ class ExtentModule : public SamplingModule {
 /// The axis (0 for x, 1 for y, 2 for z) along which a line goes.
 int axisOf(const Extent& line);
 
-/// The number of a cell along x, y, z: 0 along the axes that the grid leaves out.
+/// The index of a cell along x, y, z; 0 along the axes that the grid leaves out.
 Index3 sceneIndex(const Index3& cell, const grid::Level& level);
-/// The middle of a cell, or its lower corner; the middle of the domain along the axes that the grid leaves out [m].
+/// The centre of a cell, or its lower corner; along the axes that the grid leaves out, the middle of the domain [m].
 /// `coarser`: as of cellsOf.
 Vec3 placeOf(const Index3& cell, bool isCorner, const grid::Level& level, int coarser = 0);
 

@@ -17,8 +17,8 @@ namespace {
 
 const input::Schema<ExtentSettings>& lineSchema() {
   static const input::Schema<ExtentSettings> schema =
-      samplingSchema<ExtentSettings>("lineExtract", "Variables on lines over time, in a file for each cell.")
-          .requiredSection("lines", &ExtentSettings::extents, linesSchema(), "where it samples");
+      samplingSchema<ExtentSettings>("lineExtract", "Variables on lines over time, one file per cell.")
+          .requiredSection("lines", &ExtentSettings::extents, linesSchema(), "the lines to sample");
   return schema;
 }
 
@@ -41,7 +41,7 @@ class LineExtract : public ExtentModule {
   }
 
  private:
-  /// Every how many cells of a line are written.
+  /// The spacing, in cells, of the cells of a line that are written.
   int strideOf(const Extent& line, int level) const {
     const double width = std::ldexp(level_->cellWidth(axisOf(line)), level_->number() - level);
     return width > 0 ? std::max(1, static_cast<int>(std::ceil(line.step / width - 1e-9))) : 1;
@@ -58,7 +58,7 @@ class LineExtract : public ExtentModule {
     }
   }
 
-  /// The cells of a box, of which the first is entry `before` of the part.
+  /// Writes the cells of a box, whose first cell is entry `before` of the part.
   void write(std::size_t line, const Snapshot& part, const std::vector<Found>& columns, const LevelBox& box,
              std::size_t before, const std::filesystem::path& folder) {
     const bool isOfNodes = columns.front().field->centring == output::Centring::node;
@@ -88,7 +88,7 @@ class LineExtract : public ExtentModule {
     const bool isMixed = columns.back().field->centring != columns.front().field->centring;
     const std::string_view centre = isOfNodes ? "NC" : "CC";
     std::string text;
-    if (isMixed) text = "# positions are the middles of cells; nodes are at their lower corners\n";
+    if (isMixed) text = "# positions are the centres of cells; nodes are at their lower corners\n";
     text += fmt::format("{:<16} {:<16} {:<16} {:<16} {:<16}", fmt::format("# X_{}", centre),
                         fmt::format("Y_{}", centre), fmt::format("Z_{}", centre), "Timestep", "Time [s]");
     for (const Found& column : columns) {
@@ -105,7 +105,7 @@ class LineExtract : public ExtentModule {
 }  // namespace
 
 AnalysisKind lineExtractKind() {
-  return simulation::moduleWithTags<LineExtract>("lineExtract", "variables on lines over time, in a file for each cell",
+  return simulation::moduleWithTags<LineExtract>("lineExtract", "variables on lines over time, one file per cell",
                                                  lineSchema());
 }
 

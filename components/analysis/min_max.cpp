@@ -14,8 +14,8 @@ using simulation::AnalysisKind;
 namespace {
 
 const input::Schema<Sampling>& minMaxSchema() {
-  static const input::Schema<Sampling> schema = samplingSchema<Sampling>(
-      "minMax", "The least and the greatest value of variables over time, in a file for each.");
+  static const input::Schema<Sampling> schema =
+      samplingSchema<Sampling>("minMax", "The minimum and maximum of variables over time, one file per variable.");
   return schema;
 }
 
@@ -57,8 +57,7 @@ class MinMax : public SamplingModule {
 }  // namespace
 
 AnalysisKind minMaxKind() {
-  return simulation::moduleWithTags<MinMax>("minMax", "the least and the greatest value of variables over time",
-                                            minMaxSchema());
+  return simulation::moduleWithTags<MinMax>("minMax", "the minimum and maximum of variables over time", minMaxSchema());
 }
 
 }  // namespace tushar::analysis

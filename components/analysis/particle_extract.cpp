@@ -47,22 +47,23 @@ const Schema<Variables>& variablesSchema() {
       Schema<Variable>("analyze", "A particle variable.")
           .location(&Variable::where, "label")
           .requiredAttribute("label", &Variable::label, "1", "its name, such as p.velocity")
-          .ignoredAttribute("matl", "the material is given by the module");
-  static const Schema<Variables> schema = Schema<Variables>("Variables", "What is written.")
+          .ignoredAttribute("matl", "<material> of the module holds for all variables");
+  static const Schema<Variables> schema = Schema<Variables>("Variables", "The variables that are written.")
                                               .list("analyze", &Variables::list, variable, "a particle variable", 1);
   return schema;
 }
 
 const Schema<ExtractSettings>& extractSchema() {
   static const Schema<ExtractSettings> schema = [] {
-    Schema<ExtractSettings> tags("Module", "Variables of chosen particles over time, in a file for each.");
+    Schema<ExtractSettings> tags("Module", "Variables of selected particles over time, one file per particle.");
     addTimes(tags);
     return tags.requiredAttribute("name", &ExtractSettings::name, "1", "particleExtract")
         .location(&ExtractSettings::where)
         .value("material", &ExtractSettings::material, "", "1",
-               "name of the material whose particles are sampled; the first")
-        .required("colorThreshold", &ExtractSettings::threshold, "1", "particles whose p.color is greater are written")
-        .requiredSection("Variables", &ExtractSettings::variables, variablesSchema(), "what is written");
+               "name of the material whose particles are sampled; the first by default")
+        .required("colorThreshold", &ExtractSettings::threshold, "1",
+                  "only particles whose p.color is greater than this are written")
+        .requiredSection("Variables", &ExtractSettings::variables, variablesSchema(), "the variables that are written");
   }();
   return schema;
 }
@@ -156,7 +157,7 @@ std::string extractLine(double time, const std::vector<Array>& columns, std::siz
 
 AnalysisKind particleExtractKind() {
   return simulation::moduleWithTags<ParticleExtract>(
-      "particleExtract", "variables of chosen particles over time, in a file for each", extractSchema());
+      "particleExtract", "variables of selected particles over time, one file per particle", extractSchema());
 }
 
 }  // namespace tushar::analysis

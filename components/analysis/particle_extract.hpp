@@ -6,9 +6,10 @@
 
 namespace tushar::analysis {
 
-/// `particleExtract`: variables of chosen particles over time, in a file for each: those of one material whose p.color
-/// is above a threshold. The files are `particleExtract/L-0/<p.particleID>` in the archive, as Uintah writes them: a
-/// line of names, then for every sample time, place, and the variables: numbers first, vectors, tensors by rows.
+/// `particleExtract`: variables of selected particles over time, one file per particle: those of one material whose
+/// p.color is above a threshold. The files are `particleExtract/L-0/<p.particleID>` in the archive, as Uintah writes
+/// them: a line of names, then for every sample time, place, and the variables: numbers first, vectors, tensors by
+/// rows.
 simulation::AnalysisKind particleExtractKind();
 
 /// The first line of a file: the names, for columns of particle variables.

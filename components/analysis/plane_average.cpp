@@ -23,7 +23,7 @@ struct Weight {
 };
 
 struct AverageSettings : Sampling {
-  int axis = 0;  ///< across the planes
+  int axis = 0;  ///< axis perpendicular to the planes
   std::optional<Weight> weight;
 };
 
@@ -31,20 +31,21 @@ void checkWeight(const AverageSettings& read, const input::Element& module, inpu
   const auto& all = read.variables.list;
   const auto isWeighted = [](const Analyzed& one) { return one.weighting == Weighting::weight; };
   if (!read.weight && std::any_of(all.begin(), all.end(), isWeighted))
-    diagnostics.error(module, "missing tag <weight> in <Module>: a weighting of mass needs a label");
+    diagnostics.error(module, "missing tag <weight> in <Module>: weighting=\"mass\" needs it");
 }
 
 const input::Schema<AverageSettings>& averageSchema() {
   static const input::Schema<Weight> weight =
-      input::Schema<Weight>("weight", "What a weighting of mass divides by.")
+      input::Schema<Weight>("weight", "The variable whose sum divides those of weighting=\"mass\".")
           .location(&Weight::where, "label")
           .requiredAttribute("label", &Weight::label, "1", "a variable of cells, such as c.density");
   static const input::Schema<AverageSettings> schema =
-      samplingSchema<AverageSettings>(
-          "planeAverage", "Means over planes of cells, in a file for each variable at each time.", weightedSchema())
+      samplingSchema<AverageSettings>("planeAverage", "Means over planes of cells, one file per variable and time.",
+                                      weightedSchema())
           .requiredChoice("planeOrientation", &AverageSettings::axis, {{"YZ", 0}, {"XZ", 1}, {"XY", 2}},
                           "the axes along which the planes lie")
-          .section("weight", &AverageSettings::weight, weight, "what a weighting of mass divides by")
+          .section("weight", &AverageSettings::weight, weight,
+                   "the variable whose sum divides those of weighting=\"mass\"")
           .check(checkWeight);
   return schema;
 }
@@ -53,9 +54,8 @@ class PlaneAverage : public SamplingModule {
  public:
   PlaneAverage(const AverageSettings& settings, const Level& level) : SamplingModule(settings), level_(&level) {
     if (level.domain().refinement.levels > 1)
-      throw InputError(
-          {{settings.where, "DataAnalysis/Module",
-            "planeAverage needs a grid of one level; take the module out, or the finer Levels and <AMR>"}});
+      throw InputError({{settings.where, "DataAnalysis/Module",
+                         "planeAverage needs a grid of one level; remove the module, or the finer Levels and <AMR>"}});
     for (int d = 0; d < level.dimension(); ++d)
       if (level.axis(d) == settings.axis) across_ = d;
     for (const Analyzed& one : settings.variables.list) weightings_[one.where.text()] = one.weighting;
@@ -131,9 +131,9 @@ class PlaneAverage : public SamplingModule {
   }
 
   const Level* level_;
-  int across_ = -1;                              ///< kernel axis; -1: the grid leaves it out, and there is one plane
-  std::map<std::string, Weighting> weightings_;  ///< by where the scene names the variable
-  std::string weight_;                           ///< where it names that of <weight>
+  int across_ = -1;  ///< kernel axis perpendicular to the planes; -1: the grid leaves it out, and there is one plane
+  std::map<std::string, Weighting> weightings_;  ///< by place of the variable in the scene
+  std::string weight_;                           ///< place of the variable of <weight>
 };
 
 }  // namespace

@@ -16,8 +16,8 @@ namespace {
 
 const input::Schema<ExtentSettings>& planeExtractSchema() {
   static const input::Schema<ExtentSettings> schema =
-      samplingSchema<ExtentSettings>("planeExtract", "Variables on parts of planes, in a file for each at each time.")
-          .requiredSection("planes", &ExtentSettings::extents, planesSchema(), "where it samples");
+      samplingSchema<ExtentSettings>("planeExtract", "Variables on parts of planes, one file per variable and time.")
+          .requiredSection("planes", &ExtentSettings::extents, planesSchema(), "the planes to sample");
   return schema;
 }
 
@@ -40,7 +40,7 @@ class PlaneExtract : public ExtentModule {
   }
 
  private:
-  /// A file for each level that has cells there.
+  /// The text of the file for each level that has cells there.
   std::map<int, std::string> textsOf(const std::vector<LevelBox>& boxes, const Snapshot& part,
                                      const Found& found) const {
     std::map<int, std::string> texts;
@@ -77,7 +77,7 @@ class PlaneExtract : public ExtentModule {
 
 AnalysisKind planeExtractKind() {
   return simulation::moduleWithTags<PlaneExtract>(
-      "planeExtract", "variables on parts of planes, in a file for each at each time", planeExtractSchema());
+      "planeExtract", "variables on parts of planes, one file per variable and time", planeExtractSchema());
 }
 
 }  // namespace tushar::analysis

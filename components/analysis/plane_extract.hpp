@@ -4,7 +4,7 @@
 
 namespace tushar::analysis {
 
-/// `planeExtract`: variables on parts of planes, in a file for each at each time: `<plane>/t00012/L-0/0:press_CC_0.dat`
+/// `planeExtract`: variables on parts of planes, one file per variable and time: `<plane>/t00012/L-0/0:press_CC_0.dat`
 /// in the archive, where Uintah, if it has one patch, writes them. A line has the place of a cell or node and the
 /// value.
 simulation::AnalysisKind planeExtractKind();

@@ -21,7 +21,7 @@ using simulation::SaveRequest;
 namespace {
 
 Schema<Analyzed> variableSchema() {
-  return Schema<Analyzed>("analyze", "A variable of cells or nodes.")
+  return Schema<Analyzed>("analyze", "A cell or node variable.")
       .location(&Analyzed::where, "label")
       .location(&Analyzed::whereOfMaterial, "matl")
       .requiredAttribute("label", &Analyzed::label, "1", "its name, such as press_CC or c.pressure")
@@ -33,8 +33,8 @@ Schema<Analyzed> variableSchema() {
 }
 
 Schema<AnalyzedList> listSchema(const Schema<Analyzed>& variable) {
-  return Schema<AnalyzedList>("Variables", "What is sampled.")
-      .list("analyze", &AnalyzedList::list, variable, "a variable of cells or nodes", 1);
+  return Schema<AnalyzedList>("Variables", "The variables that are sampled.")
+      .list("analyze", &AnalyzedList::list, variable, "a cell or node variable", 1);
 }
 
 }  // namespace
@@ -49,7 +49,8 @@ const Schema<AnalyzedList>& weightedSchema() {
   static const Schema<Analyzed> variable = variableSchema().choiceAttribute(
       "weighting", &Analyzed::weighting,
       {{"none", Weighting::none}, {"nCells", Weighting::cells}, {"mass", Weighting::weight}}, Weighting::none,
-      "its sum over the plane, that over the number of cells, or that over the sum of <weight>");
+      "the sum over the plane (none), divided by the number of cells (nCells), or divided by the sum of <weight> "
+      "(mass)");
   static const Schema<AnalyzedList> schema = listSchema(variable);
   return schema;
 }

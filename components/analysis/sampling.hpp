@@ -26,7 +26,7 @@ struct AnalyzedList {
   std::vector<Analyzed> list;
 };
 
-/// When a module samples, from its tags.
+/// The sampling times of a module, from its tags.
 struct Times {
   double frequency = 0, start = 0, stop = 0;  ///< 1/s, s, s
 };
@@ -35,12 +35,12 @@ struct Times {
 struct Sampling : Times {
   std::string name;
   Location where;
-  std::string material;  ///< of variables that name none
+  std::string material;  ///< material of variables without matl
   AnalyzedList variables;
 };
 
 const input::Schema<AnalyzedList>& analyzedSchema();
-/// The same with an attribute `weighting`.
+/// The same schema with an attribute `weighting`.
 const input::Schema<AnalyzedList>& weightedSchema();
 void checkTimes(const Times& times, const input::Element& module, input::Diagnostics& diagnostics);
 
@@ -53,8 +53,8 @@ void addTimes(input::Schema<Settings>& schema) {
   schema
       .required("samplingFrequency", frequency, "1/s", "samples per second of simulated time; never more than steps",
                 input::positive())
-      .required("timeStart", start, "s", "no sample before")
-      .required("timeStop", stop, "s", "no sample after")
+      .required("timeStart", start, "s", "no samples before this time")
+      .required("timeStop", stop, "s", "no samples after this time")
       .check([](const Settings& read, const input::Element& module, input::Diagnostics& diagnostics) {
         checkTimes(read, module, diagnostics);
       });
@@ -71,9 +71,9 @@ input::Schema<Settings> samplingSchema(const std::string& name, const std::strin
   input::Schema<Settings> schema("Module", sentence);
   schema.requiredAttribute("name", called, "1", name)
       .location(where)
-      .value("material", material, "", "1", "name of the material of variables that name none; the first");
+      .value("material", material, "", "1", "name of the material of variables without matl; the first by default");
   addTimes(schema);
-  return schema.requiredSection("Variables", variables, list, "what it samples");
+  return schema.requiredSection("Variables", variables, list, "the variables to sample");
 }
 
 /// When samples are due: after the first step in the time from `start` to `stop`, and then after each that passes a
@@ -84,7 +84,7 @@ class SampleTimes {
   SampleTimes(double frequency, double start, double stop) : frequency_(frequency), start_(start), stop_(stop) {}
   explicit SampleTimes(const Times& times) : SampleTimes(times.frequency, times.start, times.stop) {}
 
-  /// The state is now that of `time`, `sinceStart` after the start of the first run [s].
+  /// Sets the time of the state and the time since the start of the first run [s].
   void pass(double time, double sinceStart);
   bool isDue() const { return due_; }
 
@@ -94,15 +94,15 @@ class SampleTimes {
   bool due_ = false;
 };
 
-/// The lines of a file before a time [s], and its comments: what remains valid of a run that is now repeated from there
-/// on. The time is in a column, counted from 0. An incomplete last line, left by a kill, is dropped.
+/// The lines of a file before a time [s], and its comments: the part that stays valid if a run is repeated from that
+/// time on. The time is in a column, counted from 0. An incomplete last line, left by a kill, is dropped.
 std::string linesBefore(const std::string& text, double time, int column = 0);
 
 /// Text files that get a line for each sample. If an earlier run has left one, the lines that are now repeated are
 /// removed from it.
 class SampleFiles {
  public:
-  /// `column`: of the time [s] in a line.
+  /// `column` is that of the time [s] in a line.
   explicit SampleFiles(int column = 0) : column_(column) {}
   /// Throws FileError.
   void add(const std::filesystem::path& file, const std::string& header, const std::string& line, double time);
@@ -124,16 +124,16 @@ class SamplingModule : public simulation::Analysis {
   bool isSampleDue(int) const override { return times_.isDue() && !variables_.empty(); }
 
  protected:
-  /// The values of a variable; null if they are not known at this time.
+  /// The values of a variable; null if it has none at this time.
   static const output::FieldBlock* find(const output::Snapshot& snapshot, const simulation::SampledVariable& variable);
-  /// Those of all variables, as far as they are known.
+  /// The variables that have values at this time.
   struct Found {
     const simulation::SampledVariable* variable;
     const output::FieldBlock* field;
   };
   std::vector<Found> findAll(const output::Snapshot& snapshot) const;
-  /// The name of a variable in files: its name in the scene with the number of the material, as far as a path can have
-  /// it.
+  /// The name of a variable in paths: its name in the scene and the number of the material, without characters that
+  /// paths cannot contain.
   static std::string nameOf(const simulation::SampledVariable& variable);
   /// One for each variable.
   std::vector<simulation::OwnFile> filesIn(const std::string& folder) const;
@@ -144,7 +144,7 @@ class SamplingModule : public simulation::Analysis {
   SampleTimes times_;
 };
 
-/// The name of a component of a variable in the heads of files: `v`, `v.x` of a vector, `v(0,1)` of a tensor.
+/// The name of a component of a variable in file headers: `v`, `v.x` of a vector, `v(0,1)` of a tensor.
 std::string nameOfComponent(const std::string& name, int component, int components);
 
 /// A number of an array, whatever its type.

@@ -47,14 +47,14 @@ struct SliceSettings {
 
 const Schema<Word>& planeSchema() {
   static const Schema<Word> schema =
-      Schema<Word>("plane", "A plane across an axis of the grid.")
+      Schema<Word>("plane", "A plane perpendicular to an axis of the grid.")
           .location(&Word::where)
-          .text(&Word::text, "m", "the coordinate that its points share, such as z = 0.5");
+          .text(&Word::text, "m", "the common coordinate of its points, such as z = 0.5");
   return schema;
 }
 
 const Schema<Word>& labelSchema() {
-  static const Schema<Word> schema = Schema<Word>("label", "A variable of cells or nodes.")
+  static const Schema<Word> schema = Schema<Word>("label", "A cell or node variable.")
                                          .location(&Word::where)
                                          .text(&Word::text, "1", "its name, such as c.density or g.velocity");
   return schema;
@@ -83,14 +83,16 @@ void checkSettings(const SliceSettings& settings, const Element& module, Diagnos
 
 const Schema<SliceSettings>& sliceSchema() {
   static const Schema<SliceSettings> schema =
-      Schema<SliceSettings>("Module", "Variables on planes, often: archives of their own in slice/<plane>.")
+      Schema<SliceSettings>(
+          "Module", "Variables on planes, saved more often than the rest: an archive for each plane, in slice/<plane>.")
           .requiredAttribute("name", &SliceSettings::name, "1", "slice")
           .location(&SliceSettings::where)
           .list("plane", &SliceSettings::planes, planeSchema(), "a plane, whose cells and nearest nodes are written", 1)
           .ours()
-          .list("label", &SliceSettings::labels, labelSchema(), "a variable of cells or nodes", 1)
+          .list("label", &SliceSettings::labels, labelSchema(), "a cell or node variable", 1)
           .ours()
-          .value("material", &SliceSettings::material, "", "1", "name of the material whose variables are written; all")
+          .value("material", &SliceSettings::material, "", "1",
+                 "name of the material whose variables are written; all by default")
           .ours()
           .value("outputInterval", &SliceSettings::interval, 0, "s", "simulated time between two slices",
                  input::positive())
@@ -104,10 +106,10 @@ const Schema<SliceSettings>& sliceSchema() {
 
 char nameOf(int axis) { return "xyz"[axis]; }
 
-/// Why a grid has no cells on a plane; empty if it has.
+/// Why a grid has no cells on a plane; empty if it has some.
 std::string problemOf(const Plane& plane, const Level& level) {
   const double lower = level.domain().lower[plane.axis], upper = level.domain().upper[plane.axis];
-  if (level.dimension() < 2) return "a slice of a grid along one axis would be a point; take the module out";
+  if (level.dimension() < 2) return "a slice of a grid along one axis would be a point; remove the module";
   bool isUsed = false;
   for (int d = 0; d < level.dimension(); ++d) {
     isUsed = isUsed || level.axis(d) == plane.axis;
@@ -167,7 +169,7 @@ class Slice : public Analysis {
       archives_[k]->write(parts[k]);
     }
   }
-  /// The lists of a plane's archive may be out of date, and a restart removes outputs that they lack.
+  /// Updates the lists of each plane's archive, as a restart removes outputs that are not listed.
   void flush() override {
     for (const auto& archive : archives_)
       if (archive) archive->flush();
@@ -180,7 +182,7 @@ class Slice : public Analysis {
   }
 
  private:
-  /// In the archive.
+  /// The folder of a plane in the archive.
   static std::string folderOf(const Word& plane) {
     const Plane at = *planeOf(plane.text);
     return fmt::format("slice/{}={}", nameOf(at.axis), at.at);
@@ -201,7 +203,7 @@ class Slice : public Analysis {
   simulation::Milestones times_;  ///< since the start of the first run, s
   double since_start_ = -1;
   bool time_is_due_ = false;
-  std::vector<std::unique_ptr<Archive>> archives_;  ///< of each plane, once it is written
+  std::vector<std::unique_ptr<Archive>> archives_;  ///< archive of each plane, once it has outputs
 };
 
 }  // namespace
@@ -230,7 +232,8 @@ Layer layerAt(const Plane& plane, const Level& level) {
 }
 
 AnalysisKind sliceKind() {
-  return simulation::moduleWithTags<Slice>("slice", "variables of cells and nodes on planes, often", sliceSchema());
+  return simulation::moduleWithTags<Slice>("slice", "cell and node variables on planes, saved more often than the rest",
+                                           sliceSchema());
 }
 
 }  // namespace tushar::analysis

@@ -22,7 +22,8 @@ struct VorticitySettings {
 
 const input::Schema<VorticitySettings>& vorticitySchema() {
   static const input::Schema<VorticitySettings> schema =
-      input::Schema<VorticitySettings>("Module", "The rotation of the velocity of the gas, c.vorticity, to be saved.")
+      input::Schema<VorticitySettings>("Module",
+                                       "The vorticity of the gas, as a variable c.vorticity that can be saved.")
           .requiredAttribute("name", &VorticitySettings::name, "1", "vorticity")
           .value("material", &VorticitySettings::material, "", "1", "name of the gas");
   return schema;
@@ -74,12 +75,12 @@ template void computeVorticity<3>(const Patch&, CellView<const Vec<3>>, CellView
 
 AnalysisKind vorticityKind() {
   return simulation::moduleMadeBy(
-      "vorticity", "the rotation of the velocity of the gas, as a variable of cells", vorticitySchema(),
+      "vorticity", "the vorticity of the gas, as a cell variable", vorticitySchema(),
       [](const VorticitySettings& settings, const Element& module, const Component& component, const Level& level) {
         const std::optional<bool> derived = isDerived(component, gasVelocityName);
         if (!derived)
           throw InputError({{module.where(), "DataAnalysis/Module",
-                             "this component has no velocity of a gas in cells; take the module out"}});
+                             "this component has no velocity of a gas in cells; remove the module"}});
         checkGas(settings.material, component, module);
         return simulation::analysisByDimension<Vorticity>(level, *derived);
       });

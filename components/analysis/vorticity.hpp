@@ -5,12 +5,12 @@
 
 namespace tushar::analysis {
 
-/// `vorticity`: the rotation of the velocity of the gas as a variable of cells, `c.vorticity`, that can be saved and
-/// that other modules can sample; Uintah's `vorticity`.
+/// `vorticity`: the curl of the gas velocity as a cell variable `c.vorticity`, which can be saved, and sampled by other
+/// modules; Uintah's `vorticity`.
 simulation::AnalysisKind vorticityKind();
 
-/// It always has three components: those across the axes that the grid uses are the others.
-inline constexpr CellLabel<Vec3> vorticityLabel{"c.vorticity", "1/s", "rotation of the velocity"};
+/// It always has three components, of which some are 0 if the grid leaves out axes.
+inline constexpr CellLabel<Vec3> vorticityLabel{"c.vorticity", "1/s", "vorticity, the curl of the velocity"};
 
 /// curl v by differences over the two neighbours of a cell, over one at a side of the grid. The velocity has a layer of
 /// ghosts; along the axes that the grid leaves out nothing varies, and it has no component.

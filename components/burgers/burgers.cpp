@@ -8,11 +8,11 @@ namespace tushar::burgers {
 
 namespace {
 
-constexpr int kReach = 2;  ///< cells to each side that a cell's fluxes depend on
+constexpr int kReach = 2;  ///< number of cells to each side on which a cell's fluxes depend
 
 double noSlope(double, double) { return 0; }
 
-/// u in a cell of which all but coordinate `d` are in the grid; beyond an end of it, what comes in or goes out there.
+/// u in a cell that may be beyond the grid along axis `d`: there, the value that flows in or out.
 template <int D>
 double valueAt(const Patch& patch, const BoundarySides<double>& sides, CellView<const double> u, Index<D> cell, int d) {
   if (patch.cellsWithin(kReach).contains(cell)) return u[cell];
@@ -42,7 +42,7 @@ double fluxThrough(const Patch& patch, const Settings& settings, const BoundaryS
   return faceFlux(row, slopeOf(settings.limiter), settings.viscosity * patch.level().inverseSpacing(d));
 }
 
-/// Half of the fluxes through the rim by one of the two stages.
+/// Keeps half of the fluxes through the rim in one of the two stages.
 template <int D>
 void keepHalf(const Patch& patch, const Settings& settings, const BoundarySides<double>& sides,
               CellView<const double> u, RimFlux<double> flux) {
@@ -168,8 +168,8 @@ const input::Schema<Settings>& schema() {
           .allOurs()
           .value("viscosity", &Settings::viscosity, 0, "m^2/s", "nu", input::nonNegative())
           .choice("limiter", &Settings::limiter, {{"first_order", 0}, {"minmod", 1}, {"van_leer", 2}, {"mc", 3}}, 2,
-                  "of the slopes within cells; first_order has none")
-          .value("cfl", &Settings::cfl, 0.5, "1", "dt times the greatest sum of |u| / h + 2 nu / h^2 over the axes",
+                  "limiter of the slopes within cells; first_order has no slopes")
+          .value("cfl", &Settings::cfl, 0.5, "1", "dt times the largest sum of |u| / h + 2 nu / h^2 over the axes",
                  input::positive(), input::atMost(1))
           .required("velocity", &Settings::velocity, "m/s", "u at the start");
   return schema;

@@ -22,7 +22,7 @@ using Slope = double (*)(double, double);
 /// The `Burgers` section.
 struct Settings {
   double viscosity = 0;             ///< nu, m²/s
-  double cfl = 0.5;                 ///< part of 1 / (sum_d |u| / h_d + 2 nu / h_d²)
+  double cfl = 0.5;                 ///< fraction of 1 / (sum_d |u| / h_d + 2 nu / h_d²)
   int limiter = 2;                  ///< an index of slopeOf
   input::Expression velocity{0.0};  ///< u at the start, m/s
 };
@@ -60,7 +60,7 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> u
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, CellView<const double> u, Minimum& dt);
 
-/// The flux u²/2 between two states: the greatest between them if left > right, else the least.
+/// The flux u²/2 between two states: its maximum between them if left > right, otherwise its minimum.
 double godunovFlux(double left, double right);
 
 /// u* = u + dt L(u), L minus the sum of the fluxes out of a cell over its volume.

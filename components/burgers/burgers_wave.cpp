@@ -15,15 +15,15 @@ using reference::kGauss5;
 namespace {
 
 constexpr long kSteps = 8192;
-constexpr double kFar = 40;  ///< exp(-kFar) is nothing
+constexpr double kFar = 40;  ///< exp(-kFar) is negligible
 
 }  // namespace
 
 BurgersWave::BurgersWave(BurgersProblem problem) : problem_(std::move(problem)) {
   if (!(problem_.viscosity >= 0 && problem_.upper > problem_.lower))
     throw std::invalid_argument(
-        fmt::format("A wave of Burgers' equation needs a viscosity of at least 0 and an extent, not "
-                    "{} and [{}, {}].",
+        fmt::format("A wave of Burgers' equation needs a viscosity of at least 0 and an interval that is not empty, "
+                    "not {} and [{}, {}].",
                     problem_.viscosity, problem_.lower, problem_.upper));
   step_ = (problem_.upper - problem_.lower) / kSteps;
   least_ = greatest_ = problem_.velocity(problem_.lower);
@@ -56,7 +56,7 @@ double BurgersWave::profile(double y) const {
   return problem_.velocity(std::clamp(y, problem_.lower, problem_.upper));
 }
 
-/// U at any node, beyond the table too.
+/// U at any node, also beyond the table.
 double BurgersWave::integralAt(long node) const {
   if (problem_.periodic) {
     const long turns = node >= 0 ? node / kSteps : -((kSteps - 1 - node) / kSteps);
@@ -85,7 +85,7 @@ BurgersWave::Least BurgersWave::leastOfNodes(double x, double t, long first, lon
   return best;
 }
 
-/// The least is where y + t u(y) = x, and no farther from x than the profile can have come.
+/// Finds the minimum, which is where y + t u(y) = x, no farther from x than the profile can have travelled.
 BurgersWave::Least BurgersWave::least(double x, double t) const {
   const Least node = leastOfNodes(x, t, nodeBelow(x - greatest_ * t), nodeBelow(x - least_ * t) + 1);
   double lower = node.place - step_, upper = node.place + step_;

@@ -12,7 +12,7 @@ struct BurgersProblem {
   std::function<double(double)> velocity;  ///< u at t = 0, m/s, over x in m; bounded
   double viscosity = 0;                    ///< nu, m²/s
   double lower = 0, upper = 1;             ///< where the profile begins and ends, m
-  bool periodic = false;                   ///< repeats beyond its ends; if false, keeps its end values there
+  bool periodic = false;  ///< whether it repeats beyond its ends; otherwise it keeps its end values there
 };
 
 /// The exact solution of Burgers' equation in one dimension, shocks included.
@@ -38,7 +38,7 @@ class BurgersWave {
   bool holdsAt(double t) const;
 
  private:
-  /// A place y, and the value of U(y) + (x-y)²/2t there.
+  /// A point y, and the value of U(y) + (x-y)²/2t there.
   struct Least {
     double place, value;
   };

@@ -12,7 +12,7 @@ namespace {
 
 inline constexpr ReductionLabel<Norm> waveError{"CellError.u", "m/s", "error of the mean u of cells"};
 
-/// What the task needs, set before it runs.
+/// The exact solution for the task, set before it runs.
 struct Exact {
   BurgersWave wave;
   double time = 0;
@@ -83,7 +83,7 @@ BurgersWave waveOf(const Burgers<1>& burgers, const Level& level) {
 
 std::unique_ptr<simulation::Analysis> makeModule(const Component& component, const Level& level) {
   const auto* burgers = dynamic_cast<const Burgers<1>*>(&component);
-  if (!burgers) throw std::invalid_argument("measures the component burgers in one dimension; take the module out");
+  if (!burgers) throw std::invalid_argument("measures the component burgers in one dimension; remove the module");
   return std::make_unique<WaveError>(waveOf(*burgers, level));
 }
 

@@ -6,7 +6,7 @@ namespace tushar::euler {
 
 namespace {
 
-/// What density, pressure and temperature prescribe of a gas with a law of its own.
+/// Adds to a rule what density, pressure and temperature prescribe for a gas with a law of its own.
 template <int D>
 void prescribeByLaw(const Place& place, const Gas& gas, std::optional<double> density,
                     const std::optional<double>& pressure, GhostRule<D>& rule) {
@@ -28,7 +28,7 @@ void prescribeByLaw(const Place& place, const Gas& gas, std::optional<double> de
   }
 }
 
-/// How a side that lets waves out relaxes; not at all where it does not.
+/// The relaxation at a side that lets waves out; none at other sides.
 Relaxation relaxationAt(const Place& place, const Gas& gas) {
   const auto given = givenAt(place, gas, boundary::waves);
   if (!given) return {};
@@ -78,7 +78,7 @@ GhostRule<D> ghostRule(const Place& place, const Gas& gas) {
   return rule;
 }
 
-/// The temperature [K] that is given at a place, or that a density and a pressure make.
+/// The temperature [K] at a place, as given or from a given density and pressure.
 std::optional<double> temperatureAt(const Place& place, const Gas& gas) {
   if (const auto given = givenAt(place, gas, boundary::temperature)) return given;
   const auto density = givenAt(place, gas, boundary::density), pressure = pressureAt(place, gas);
@@ -107,7 +107,7 @@ GhostRule<D> diffusionRule(const Place& place, const Gas& gas) {
   return rule;
 }
 
-/// Whether any of the conditions at a side that may be of a gas is a formula.
+/// Whether any condition for a gas at a side is a formula.
 bool hasFormulas(const Level& level, int axis, int side) {
   const auto hasSome = [](const std::vector<grid::BoundaryCondition>& conditions) {
     return std::any_of(conditions.begin(), conditions.end(), [](const auto& one) { return one.formula != nullptr; });
@@ -138,8 +138,8 @@ void checkGiven(const Place& place, const Gas& gas, std::uint64_t cell) {
   require(!velocity || velocity->allFinite(), boundary::velocity, "not finite");
 }
 
-/// The rules of all sides, where `makeRule(place, gas)` gives one, and `pointAt(axis, side, cell)` says where formulas
-/// count.
+/// The rules of all sides: `makeRule(place, gas)` makes one, and `pointAt(axis, side, cell)` is the point at which
+/// formulas are evaluated.
 template <int D, class MakeRule, class PointAt>
 GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, MakeRule makeRule, PointAt pointAt) {
   GhostRules<D> rules;
@@ -163,16 +163,16 @@ GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, MakeRule 
   return rules;
 }
 
-/// The cell along an axis of `cells` cells that a cell beyond its ends is made from.
+/// The cell, along an axis of `cells` cells, from which a cell beyond its ends is made.
 int sourceOf(int cell, int cells, bool mirrored) {
   const int inside = cell < 0 ? (mirrored ? -1 - cell : 0) : (mirrored ? 2 * cells - 1 - cell : cells - 1);
   return std::clamp(inside, 0, cells - 1);
 }
 
-/// How many cells a cell beyond the ends of an axis of `cells` cells is away from them.
+/// The distance, in cells, of a cell from the end of an axis of `cells` cells beyond which it lies.
 int depthOf(int cell, int cells) { return cell < 0 ? -cell : cell - cells + 1; }
 
-/// The cell of the grid that a cell beyond its sides is made from along axes before `axis`.
+/// The cell of the grid from which a cell beyond its sides is made, along the axes before `axis`.
 template <int D>
 Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, int axis) {
   for (int d = 0; d < axis; ++d) {
@@ -183,7 +183,7 @@ Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, i
   return cell;
 }
 
-/// Weakens the incoming wave of a state as a side that lets waves out does over so many cells, at the same entropy.
+/// Weakens the incoming wave of a state as a side that lets waves out does over `cells` cells, at constant entropy.
 template <int D, std::size_t N>
 void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
   const Relaxation& side = rule.relaxes;
@@ -195,7 +195,7 @@ void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
   w[kPressure<D>] -= half;
 }
 
-/// The state so many cells beyond a side, by a rule and the state of the cell that it is made from.
+/// The state of a cell `cells` cells beyond a side, by a rule and the state of the cell from which it is made.
 template <int D, std::size_t N>
 std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array<double, N> w) {
   for (std::size_t k = 0; k < rule.factor.size(); ++k) w[k] = rule.factor[k] * w[k] + rule.value[k];

@@ -23,8 +23,8 @@ struct Relaxation {
   int axis = 0, outwards = 0;
 
   bool acts() const { return farPressure > 0; }
-  /// What the incoming characteristic of a state loses across the side, Pa, at a velocity u_n [m/s] outwards, where it
-  /// needs `crossings` times the time that sound takes through a cell.
+  /// The loss of the incoming characteristic of a state across the side, Pa, at an outward velocity u_n [m/s], over
+  /// `crossings` times the time in which sound crosses a cell.
   double loss(double pressure, double speed, double sound, double crossings = 1) const {
     const double mach = std::clamp(speed / sound, -1.0, 1.0);
     const double share = sigma * thickness * std::max(1 + mach, crossings * (1 - mach * mach));
@@ -37,21 +37,21 @@ template <int D>
 struct GhostRule {
   bool mirrored = false;
   State<D> factor, value;
-  double densityOfPressure = 0;  ///< where above 0, rho is that times p + p_inf, kg/(m³ Pa)
+  double densityOfPressure = 0;  ///< if above 0, rho is this times p + p_inf, kg/(m³ Pa)
   double pInfinity = 0;          ///< Pa
-  double temperature = 0;        ///< where above 0, that of a gas with a law of its own, K
+  double temperature = 0;        ///< if above 0, the temperature of a gas with a law of its own, K
   const Gas* gas = nullptr;      ///< that gas
-  Relaxation relaxes = {};       ///< what comes in of a side that lets waves out
+  Relaxation relaxes = {};       ///< relaxation at a side that lets waves out
 };
 
-/// The rules of a side: of what is outside of its parts, and of each part.
+/// The rules of a side: outside its parts, and for each part.
 template <int D>
 struct SideRules : GhostRule<D> {
   std::vector<GhostRule<D>> parts = {};
-  /// Where the scene gives formulas: the rule for a cell beyond a part of the side; else empty.
+  /// If the scene gives formulas: the rule for a cell beyond a part of the side; otherwise empty.
   std::function<GhostRule<D>(int part, const Index<D>& cell)> varying = {};
 
-  /// Whether the first is the rule for all cells.
+  /// Whether the side has the same rule for all cells.
   bool areOne() const { return parts.empty() && !varying; }
 };
 
@@ -68,7 +68,7 @@ struct Place {
   double time = 0;
 };
 
-/// The value that a scene gives for a variable of a gas at a place, if it does.
+/// The value that a scene gives for a variable of a gas at a place, if any.
 template <class T>
 std::optional<T> givenAt(const Place& place, const Gas& gas, const BoundaryLabel<T>& label) {
   const auto condition = place.level.boundary(place.axis, place.side, label, gas.material, place.part);
@@ -90,12 +90,12 @@ bool isWall(const Place& place, const Gas& gas);
 template <int D>
 GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time = 0);
 
-/// The same for differences across the sides, of velocities and, in place of densities, temperatures: what is given
-/// holds at the side itself, and the rest is mirrored. Formulas count in the middle of each face.
+/// The same for differences across the sides, of velocities and, instead of densities, temperatures: given values hold
+/// at the side itself, and the others are mirrored. Formulas count in the middle of each face.
 template <int D>
 GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time = 0);
 
-/// The rule for a cell beyond a side, or beside it: that of the part that the face between both belongs to.
+/// The rule for a cell beyond a side, or inside next to it: that of the part to which the face belongs.
 template <int D>
 GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, int side, const Index<D>& cell);
 

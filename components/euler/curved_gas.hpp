@@ -6,8 +6,8 @@
 
 namespace tushar::euler {
 
-/// What a substance has at a density, without heat: pressure [Pa] and energy [J/m³], dE/drho = (E + p) / rho, so that
-/// compressing it without heat costs p dV.
+/// The cold curve of a substance: pressure [Pa] and energy [J/m³] as functions of density, with dE/drho = (E + p) /
+/// rho, so that compression without heat costs p dV.
 struct ColdCurve {
   enum class Kind { jwl, murnaghan };
 
@@ -52,7 +52,7 @@ struct ColdCurve {
     if (ratio < 1) return pressureThere * std::pow(ratio, 1 / (compressibility * pressureThere));
     return pressureThere + (std::pow(ratio, exponent) - 1) / (exponent * compressibility);
   }
-  /// Energy over the volume at rho_0.
+  /// Energy per volume at rho_0.
   double murnaghanEnergy(double ratio) const {
     if (ratio < 1) return pressureThere * rise(ratio, 1 / (compressibility * pressureThere));
     const double bulk = 1 / (exponent * compressibility);
@@ -75,18 +75,18 @@ struct ColdCurve {
 /// of possible states is positive.
 class CurvedGas {
  public:
-  /// `gamma` is Grueneisen's, 0 or above; the specific heat is c_v, J/(kg K).
+  /// `gamma` is the Grüneisen parameter, at least 0; the specific heat is c_v, J/(kg K).
   CurvedGas(const ColdCurve& cold, double gamma, double specificHeat)
       : cold_(cold), gamma_(gamma), specificHeat_(specificHeat) {}
 
   const ColdCurve& cold() const { return cold_; }
   bool isBarotropic() const { return gamma_ == 0; }
 
-  /// p [Pa] of an internal energy per volume [J/m³].
+  /// p [Pa] for an internal energy per volume [J/m³].
   double pressure(double rho, double energy) const {
     return cold_.pressure(rho) + (isBarotropic() ? 0.0 : gamma_ * (energy - cold_.energy(rho)));
   }
-  /// The second number of a state with an internal energy per volume.
+  /// The second number of a state for an internal energy per volume.
   double last(double rho, double energy) const {
     return isBarotropic() ? energy - cold_.energy(rho) : pressure(rho, energy);
   }
@@ -104,12 +104,12 @@ class CurvedGas {
   static double greatestEnergy(double) { return std::numeric_limits<double>::infinity(); }
 
   double temperature(double rho, double energy) const { return (energy - cold_.energy(rho)) / (rho * specificHeat_); }
-  /// The second number of a state of a temperature [K].
+  /// The second number of a state for a temperature [K].
   double lastAt(double rho, double temperature) const {
     const double heat = rho * specificHeat_ * temperature;
     return isBarotropic() ? heat : cold_.pressure(rho) + gamma_ * heat;
   }
-  /// rho of a pressure and a temperature, by bisection to round-off.
+  /// rho for a pressure and a temperature, by bisection to round-off.
   double densityAt(double pressure, double temperature) const {
     const auto below = [&](double rho) { return pressureOf(rho, lastAt(rho, temperature)) < pressure; };
     double least = cold_.density, most = cold_.density;
@@ -126,7 +126,7 @@ class CurvedGas {
   double entropy(double rho, double energy) const {
     return std::log(temperature(rho, energy)) - gamma_ * std::log(rho);
   }
-  /// About p behind a strong shock over rho u², u the speed that it gives to gas at rest.
+  /// Approximately p / (rho u²) behind a strong shock, where u is the speed that it gives to gas at rest.
   double shockSlope() const {
     return 0.5 * (cold_.kind == ColdCurve::Kind::murnaghan ? cold_.exponent + 1 : gamma_ + 2);
   }
@@ -188,7 +188,7 @@ class Water {
     const double perHeat = expansion(x), perPressure = n_.volume * (2 * n_.bend * n_.a * x - n_.stiffness);
     return -1 / (rho * rho * (perPressure + t * perHeat * perHeat / heatOfPressure(last, t)));
   }
-  /// Above 0 in possible states.
+  /// Greater than 0 in possible states.
   double heat(double rho, double last) const {
     const double square = xSquared(rho, last);
     return std::min(square, greatestX_ * greatestX_ - square);

@@ -65,12 +65,13 @@ template <int D>
 std::vector<reference::GasLaw> Euler<D>::gases() const {
   if (settings_.gas.law)
     throw std::invalid_argument(
-        "the solution is of an ideal or a stiffened gas, but that of the scene has another "
-        "equation of state");
+        "the exact solution is that of an ideal or a stiffened gas, but the gas of the scene has another equation of "
+        "state");
   return {{settings_.gas.gamma, settings_.gas.pInfinity}};
 }
 
-/// Two gases that move apart have equal densities and pressures at first: the velocity must be compared, too.
+/// The criteria of a gas. They include the velocity, as two gases that move apart have equal densities and pressures at
+/// first.
 template <int D>
 std::vector<simulation::Criterion> criteria() {
   std::vector<simulation::Criterion> criteria(3);

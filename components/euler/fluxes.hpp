@@ -5,15 +5,15 @@
 
 namespace tushar::euler {
 
-/// The gas at a face while two states meet there: rho, v and the pressure, and total energy per volume.
+/// The gas at a face at which two states meet: rho, v, the pressure, and total energy per volume.
 template <int D, int K = 1>
 struct FaceState {
   State<D, K> w;
   double energy;
 };
 
-/// F = (m, m v + p n, (E + p) v_n) through a face across `Axis`, m = rho v_n; of several gases, of each mass and share
-/// times v_n, too.
+/// F = (m, m v + p n, (E + p) v_n) through a face across `Axis`, m = rho v_n; for several gases, also each mass and
+/// share times v_n.
 template <int D, int Axis, int K>
 State<D, K> fluxOf(const FaceState<D, K>& face) {
   const double normal = face.w[kVelocity(Axis)];
@@ -27,7 +27,7 @@ State<D, K> fluxOf(const FaceState<D, K>& face) {
   return flux;
 }
 
-/// The approximate Riemann solver of three waves.
+/// The approximate Riemann solver with three waves (HLLC).
 ///
 /// Wave speeds: the outer ones of both states and of Einfeldt's mean (section 10.5), of the contact (10.37). Between
 /// the waves the states (10.39) and the mean of the two pressures (10.36), which are equal except for round-off: so the
@@ -78,7 +78,7 @@ struct Hllc {
   }
 };
 
-/// The exact solution at x/t = 0 (Toro, chapter 4), of the ideal gas of pressure p + p_inf.
+/// The exact solution at x/t = 0 (Toro, chapter 4), for an ideal gas with the pressure p + p_inf.
 struct ExactFlux {
   template <int D, int Axis, class G>
   static FaceState<D> solve(const G& gas, const State<D>& left, const State<D>& right) {

@@ -24,7 +24,7 @@ inline constexpr std::size_t kDensity = 0;
 constexpr std::size_t kVelocity(int axis) { return axis + 1; }
 template <int D>
 inline constexpr std::size_t kPressure = D + 1;
-/// Of gas k out of K: its mass, its share.
+/// Places of the mass and the share of gas k.
 template <int D>
 constexpr std::size_t kMass(int k) {
   return D + 2 + k;
@@ -46,7 +46,7 @@ struct StiffenedGas {
   double soundSpeedSquared(double density, double pressure) const { return gamma * (pressure + pInfinity) / density; }
   /// Internal energy per volume [J/m³] = (p + gamma p_inf) / (gamma - 1).
   double energyOf(double, double pressure) const { return (pressure + gamma * pInfinity) * (1 / (gamma - 1)); }
-  /// Pressure [Pa] of an internal energy per volume [J/m³].
+  /// Pressure [Pa] for an internal energy per volume [J/m³].
   double pressure(double, double internalEnergyPerVolume) const {
     return (gamma - 1) * internalEnergyPerVolume - gamma * pInfinity;
   }
@@ -64,13 +64,14 @@ struct StiffenedGas {
 struct Gas {
   using Law = std::variant<CurvedGas, Water>;
 
-  double gamma = 1.4;       ///< ratio of specific heats, above 1
-  double pInfinity = 0;     ///< Pa
-  double specificHeat = 0;  ///< c_v, J/(kg K); 0: no temperature is known
-  int material = 0;         ///< its number in the scene, where sides of the grid have conditions for it
-  std::shared_ptr<const Law> law = nullptr;  ///< instead of that of a stiffened gas
+  double gamma = 1.4;                        ///< ratio of specific heats, above 1
+  double pInfinity = 0;                      ///< Pa
+  double specificHeat = 0;                   ///< c_v, J/(kg K); 0: no temperature is known
+  int material = 0;                          ///< its number in the scene, for conditions at sides of the grid
+  std::shared_ptr<const Law> law = nullptr;  ///< null for a stiffened gas
 
-  /// Calls `use` with the gas as a StiffenedGas, or with its law: for loops that branch on the law once, in front.
+  /// Calls `use` with the gas as a StiffenedGas, or with its law, so that loops branch on the law only once, at the
+  /// start.
   template <class Use>
   decltype(auto) withLaw(Use&& use) const {
     if (!law) return use(StiffenedGas{gamma, pInfinity});
@@ -92,11 +93,11 @@ struct Gas {
   double pressureOf(double density, double last) const {
     return withLaw([&](const auto& of) { return of.pressureOf(density, last); });
   }
-  /// What must be above 0: p + p_inf, the heat, or a number of its sign.
+  /// A number that must be greater than 0: p + p_inf, the heat, or one with the same sign.
   double heat(double density, double last) const {
     return withLaw([&](const auto& of) { return of.heat(density, last); });
   }
-  /// Pressure [Pa] of an internal energy per volume [J/m³].
+  /// Pressure [Pa] for an internal energy per volume [J/m³].
   double pressure(double density, double internalEnergyPerVolume) const {
     return withLaw([&](const auto& of) { return of.pressure(density, internalEnergyPerVolume); });
   }
@@ -105,24 +106,24 @@ struct Gas {
     return withLaw([&](const auto& of) { return of.last(density, internalEnergyPerVolume); });
   }
 
-  /// R [J/(kg K)] = (gamma - 1) c_v of p + p_inf = rho R T.
+  /// R [J/(kg K)] = (gamma - 1) c_v in p + p_inf = rho R T.
   double gasConstant() const { return (gamma - 1) * specificHeat; }
-  /// The last number of a state of a temperature [K].
+  /// The last number of a state for a temperature [K].
   double lastAt(double density, double temperature) const {
     if (!law) return gasConstant() * density * temperature - pInfinity;
     return std::visit([&](const auto& of) { return of.lastAt(density, temperature); }, *law);
   }
-  /// Density [kg/m³] of a pressure [Pa] and a temperature [K].
+  /// Density [kg/m³] for a pressure [Pa] and a temperature [K].
   double densityAt(double pressure, double temperature) const {
     if (!law) return (pressure + pInfinity) / (gasConstant() * temperature);
     return std::visit([&](const auto& of) { return of.densityAt(pressure, temperature); }, *law);
   }
-  /// T [K] of a density and an internal energy per volume [J/m³]: c_v T = e - p_inf / rho if there is no law.
+  /// T [K] for a density and an internal energy per volume [J/m³]: c_v T = e - p_inf / rho if there is no law.
   double temperature(double density, double internalEnergyPerVolume) const {
     if (!law) return (internalEnergyPerVolume - pInfinity) / (density * specificHeat);
     return std::visit([&](const auto& of) { return of.temperature(density, internalEnergyPerVolume); }, *law);
   }
-  /// The limits that a law has for the internal energy, J/kg.
+  /// The limits of a law for the internal energy, J/kg.
   std::pair<double, double> energyLimits(double density) const {
     return std::visit(
         [&](const auto& of) {
@@ -130,7 +131,7 @@ struct Gas {
         },
         *law);
   }
-  /// p behind a strong shock over rho u², u the speed that it gives to gas at rest: (gamma + 1) / 2.
+  /// p / (rho u²) behind a strong shock, where u is the speed that it gives to gas at rest: (gamma + 1) / 2.
   double shockSlope() const {
     return withLaw([](const auto& of) { return of.shockSlope(); });
   }
@@ -140,7 +141,7 @@ struct Gas {
   }
 };
 
-/// The law of a gas that is known to have it.
+/// The law of a gas, which must have this type.
 template <class Law>
 Law lawOf(const Gas& gas) {
   if constexpr (std::is_same_v<Law, StiffenedGas>)
@@ -152,7 +153,7 @@ Law lawOf(const Gas& gas) {
 /// The number of gases that a law describes.
 template <class G>
 inline constexpr int kGases = 1;
-/// The law that holds in a state: if there is one gas, its own.
+/// The law in a state: for a single gas, its own.
 template <int D, class G>
 const G& lawIn(const G& gas, const State<D>&) {
   return gas;  // NOLINT(bugprone-return-const-ref-from-parameter): callers keep the gas
@@ -166,7 +167,7 @@ double speedSquared(const std::array<double, N>& w) {
   return sum;
 }
 
-/// rho, rho v, E of rho, v and the last number; G is Gas, one of its laws or that of a mixture.
+/// rho, rho v, E from rho, v and the last number; G is Gas, one of its laws, or that of a mixture.
 template <int D, class G>
 State<D, kGases<G>> conserved(const G& gas, const State<D, kGases<G>>& w) {
   State<D, kGases<G>> u = w;
@@ -175,7 +176,7 @@ State<D, kGases<G>> conserved(const G& gas, const State<D, kGases<G>>& w) {
   return u;
 }
 
-/// rho, v and the last number of rho, rho v, E.
+/// rho, v and the last number from rho, rho v, E.
 template <int D, class G>
 State<D, kGases<G>> primitive(const G& gas, const State<D, kGases<G>>& u) {
   State<D, kGases<G>> w = u;

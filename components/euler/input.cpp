@@ -19,7 +19,7 @@ const Schema<GasObject>& objectSchema() {
                            "The gas of a region at the start; where regions overlap, the last one counts.");
     tags.allOurs();
     input::addShape(tags, &GasObject::where, &GasObject::shape,
-                    "the region: cells whose middle is inside; several are united")
+                    "the region: cells whose centre is inside; several shapes form their union")
         .required("density", &GasObject::density, "kg/m^3", "density at the start", input::positive(),
                   input::WithoutTime())
         .value("velocity", &GasObject::velocity, input::VectorExpression(), "m/s", "velocity at the start",
@@ -69,11 +69,12 @@ const Schema<EulerSection>& schema() {
                   "the Riemann solver at faces: three waves, or the exact solution (slow)")
           .choice("reconstruction", &EulerSection::reconstruction,
                   {{"first_order", Reconstruction::firstOrder}, {"muscl_hancock", Reconstruction::musclHancock}},
-                  Reconstruction::musclHancock, "constant cells, or cells with slopes and a half step: second order")
+                  Reconstruction::musclHancock,
+                  "constant values in cells, or slopes in cells and a half step, which is of second order")
           .choice("limiter", &EulerSection::limiter,
                   {{"minmod", Limiter::minmod}, {"van_leer", Limiter::vanLeer}, {"mc", Limiter::mc}}, Limiter::vanLeer,
-                  "of the slopes, from the most to the least diffusive")
-          .value("cfl", &EulerSection::cfl, 0.8, "1", "dt times the greatest sum over axes of (|v| + c) / h",
+                  "limiter of the slopes, from the most to the least diffusive")
+          .value("cfl", &EulerSection::cfl, 0.8, "1", "dt times the largest sum over axes of (|v| + c) / h",
                  input::positive(), input::atMost(1))
           .section("gas", &EulerSection::gas, gasSchema())
           .list(
@@ -88,8 +89,8 @@ void checkBoundaries(const Element& root, double pInfinity, Diagnostics& diagnos
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
     if (label != grid::symmetric.name && var != nameOf(BoundaryKind::dirichlet))
-      diagnostics.error(condition, fmt::format("var: found '{}', expected 'Dirichlet' for {} of inflowing gas; through "
-                                               "a face without a condition gas flows out",
+      diagnostics.error(condition, fmt::format("var: found '{}', expected 'Dirichlet' for {} of inflowing gas; at a "
+                                               "face without conditions, gas flows out",
                                                var, label));
     const auto text = condition.child("value");
     const auto value = text ? input::parse<double>(text->text()) : input::parse<double>("1");

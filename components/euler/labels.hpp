@@ -22,11 +22,12 @@ inline constexpr CellLabel<double> pressure{"c.pressure", "Pa", "pressure"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> velocity{"c.velocity", "m/s", "velocity"};
 template <int D>
-inline constexpr CellLabel<Vec<D>> mach{"c.mach", "1", "velocity over the speed of sound"};
+inline constexpr CellLabel<Vec<D>> mach{"c.mach", "1", "speed over the speed of sound"};
 inline constexpr CellLabel<double> internalEnergy{"c.internalEnergy", "J/kg", "internal energy per mass"};
 /// The state of each of several gases.
-inline constexpr CellLabel<double> gasMass{"c.gasMass", "kg/m^3", "mass of a gas per volume of the cell"};
-inline constexpr CellLabel<double> gasShare{"c.gasShare", "1", "share of a gas in the volume of the cell"};
+inline constexpr CellLabel<double> gasMass{"c.gasMass", "kg/m^3",
+                                           "mass of one of several gases per volume of the cell"};
+inline constexpr CellLabel<double> gasShare{"c.gasShare", "1", "fraction of the cell that the gas fills"};
 }  // namespace c
 
 /// The state of gas that flows in through a side of the grid.
@@ -35,7 +36,7 @@ inline constexpr BoundaryLabel<double> density{"Density"};
 inline constexpr BoundaryLabel<Vec3> velocity{"Velocity"};
 inline constexpr BoundaryLabel<double> pressure{"Pressure"};
 inline constexpr BoundaryLabel<double> temperature{"Temperature"};
-/// Lets waves out: the pressure far away [Pa], sigma and 0.
+/// The condition that lets waves out: the pressure far away [Pa], sigma and 0.
 inline constexpr BoundaryLabel<Vec3> waves{"LODI"};
 }  // namespace boundary
 

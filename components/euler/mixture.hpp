@@ -14,7 +14,7 @@ struct MixedGas {
   double softness = 0;   ///< G
   double stiffness = 0;  ///< S, J/m³
 
-  /// Adds a gas in its share of the volume.
+  /// Adds a gas with its volume fraction.
   void add(double share, double gamma, double pInfinity) {
     softness += share / (gamma - 1);
     stiffness += share * gamma * pInfinity / (gamma - 1);
@@ -33,10 +33,10 @@ struct MixedGas {
     return pressure(density, internalEnergyPerVolume);
   }
   static double pressureOf(double, double pressure) { return pressure; }
-  /// p + p_inf of a stiffened gas that has the same G and S [Pa], which must be above 0.
+  /// p + p_inf [Pa] of the stiffened gas with the same G and S, which must be greater than 0.
   double heat(double, double pressure) const { return pressure + leastPressure(); }
   double leastPressure() const { return stiffness / (1 + softness); }
-  /// That stiffened gas; its numbers are NaN for impossible shares.
+  /// The equivalent stiffened gas; its numbers are NaN for impossible shares.
   Gas alike() const {
     Gas gas;
     gas.gamma = softness > 0 ? 1 + 1 / softness : std::nan("");
@@ -45,7 +45,7 @@ struct MixedGas {
   }
 };
 
-/// K gases: what a MixedGas has of each.
+/// The laws of K gases.
 template <int K>
 struct Mixture {
   std::array<double, K> softness{}, stiffness{};
@@ -53,7 +53,7 @@ struct Mixture {
 template <int K>
 inline constexpr int kGases<Mixture<K>> = K;
 
-/// The law that holds where the shares of the gases are those of a state.
+/// The law for the shares of the gases in a state.
 template <int D, int K>
 MixedGas lawIn(const Mixture<K>& gases, const State<D, K>& w) {
   MixedGas mixed;

@@ -10,7 +10,7 @@
 
 namespace tushar::euler {
 
-/// Where a row of `count` cells of a view begins; both of its ends are checked where views are.
+/// The address of a row of `count` cells of a view; in builds with checks, both ends are checked.
 template <int D, class T>
 T* rowOf(const CellView<T>& view, Index<D> first, int count) {
   T* row = &view[first];
@@ -19,7 +19,7 @@ T* rowOf(const CellView<T>& view, Index<D> first, int count) {
   return row;
 }
 
-/// Cells of a block of work: it and what it needs around it stay in the second-level cache.
+/// Largest number of cells of a block of work: the block and its surroundings fit into the second-level cache.
 template <int D>
 inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
                                  : D == 2 ? Index3{{128, 16, 1}}
@@ -94,7 +94,7 @@ class Rows {
   explicit Rows(std::size_t cells, int planes = 0) : Rows(cells, planes, Values(room(cells, planes), 0.0)) {}
   static Rows unfilled(std::size_t cells, int planes = 0) { return {cells, planes, Values(room(cells, planes))}; }
 
-  /// The box that the rows hold from now on.
+  /// Sets the box that the rows hold.
   void hold(const Box& box) {
     box_ = box;
     stride_ = {1, box.extent(0), static_cast<std::ptrdiff_t>(box.extent(0)) * box.extent(1)};
@@ -103,7 +103,7 @@ class Rows {
   /// Distance in memory of neighbours along an axis; not along z where it holds some planes.
   std::ptrdiff_t stride(int axis) const { return stride_[axis]; }
 
-  /// The numbers of a cell; those of the next cell of its row follow.
+  /// Pointers to the numbers of a cell, which are followed by those of the next cell of its row.
   Pointers at(const Index<D>& cell) {
     const std::ptrdiff_t offset = offsetOf(cell);
     Pointers pointers;

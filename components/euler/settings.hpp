@@ -18,10 +18,10 @@ struct GasObject {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
   input::Expression density;                          ///< kg/m³
-  input::Expression pressure;                         ///< Pa; ignored where there is a temperature
+  input::Expression pressure;                         ///< Pa; ignored if there is a temperature
   input::VectorExpression velocity;                   ///< m/s
   std::optional<input::Expression> temperature = {};  ///< K
-  std::optional<input::Expression> share = {};        ///< in the volume, where several gases are; 1 without
+  std::optional<input::Expression> share = {};        ///< volume fraction, if there are several gases; 1 by default
 };
 
 enum class FluxKind { exact, hllc };
@@ -38,13 +38,14 @@ struct Method {
 /// The `Euler` section.
 struct Settings {
   Location where;                 ///< in the scene
-  std::string section = "Euler";  ///< that has the objects
-  std::string name = {};          ///< of the gas
+  std::string section = "Euler";  ///< path of the section with the objects
+  std::string name = {};          ///< name of the gas
   Method method;
   double cfl = 0.8;  ///< dt max(sum_d (|v_d| + c) / h_d)
   Gas gas;
   std::vector<GasObject> objects;  ///< where they overlap, the last one counts
-  /// Changes velocity and temperature of objects that have one, at a point where the density is `rho`, at the start.
+  /// Changes the velocity and, for objects that have one, the temperature at the start, at a point with the density
+  /// `rho`.
   std::function<void(const Vec3& point, double rho, Vec3& velocity, double& temperature)> disturb = {};
 };
 

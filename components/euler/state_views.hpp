@@ -16,7 +16,7 @@ struct StateViews {
   CellView<T> totalEnergy;
 };
 
-/// The state of several gases: that of all together, and what each has.
+/// The state of several gases: of all together, and of each.
 template <int D, class T>
 struct MixtureViews : StateViews<D, T> {
   std::vector<CellView<T>> masses, shares;
@@ -34,7 +34,7 @@ struct OldState : StateViews<D, const double> {
   }
 };
 
-/// The state that a step makes.
+/// The state that a step computes.
 template <int D>
 struct NewState : StateViews<D, double> {
   static NewState from(auto& take) {

@@ -20,7 +20,7 @@ struct Sutherland {
   }
 };
 
-/// A box in which the gas has another viscosity, such as a layer that absorbs waves before a side of the grid.
+/// A box in which the gas has another viscosity, such as a layer that absorbs waves in front of a side of the grid.
 struct SpongeLayer {
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< m
   double viscosity = 0;                             ///< Pa s
@@ -30,15 +30,15 @@ struct SpongeLayer {
   }
 };
 
-/// Viscosity and conduction that differ from place to place, or with the flow.
+/// Viscosity and conduction that vary in space or with the flow.
 struct VaryingDiffusion {
-  Diffusion uniform = {};                     ///< where nothing of the rest holds
-  std::optional<Sutherland> sutherland = {};  ///< in place of the uniform viscosity
-  std::vector<SpongeLayer> sponges = {};      ///< in place of both; the last one counts
+  Diffusion uniform = {};                     ///< used where none of the following applies
+  std::optional<Sutherland> sutherland = {};  ///< instead of the uniform viscosity
+  std::vector<SpongeLayer> sponges = {};      ///< instead of both; the last one counts
   double smagorinsky = 0;                     ///< C of eddies: mu + rho (C Delta)² sqrt(2 S : S)
 
   bool varies() const { return sutherland || !sponges.empty() || smagorinsky > 0; }
-  /// That of the gas at a point [m] with a temperature [K], without eddies.
+  /// The coefficients of the gas at a point [m] with a temperature [K], without eddies.
   Diffusion at(const Vec3& point, double temperature) const {
     Diffusion here = uniform;
     if (sutherland) here.viscosity = sutherland->viscosity(temperature);

@@ -41,12 +41,12 @@ simulation::ComponentKind kind() {
                input::WithoutTime(), input::positive())
         .value("density", &Settings::density, 1, "kg/m^3", "rho", input::positive())
         .value("specific_heat", &Settings::specificHeat, 1, "J/(kg K)", "c", input::positive())
-        .value("cfl", &Settings::cfl, 0.9, "1", "part of the greatest stable time step", input::positive(),
+        .value("cfl", &Settings::cfl, 0.9, "1", "fraction of the largest stable time step", input::positive(),
                input::atMost(1))
         .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime())
         .value("refinement_tolerance", &Settings::refinementTolerance, 0, "K",
-               "on an adaptive grid, cells are refined where linear interpolation between them errs by more; 0: only a "
-               "<Variable> of <AMR> refines",
+               "on an adaptive grid, cells are refined where the error of linear interpolation between them is larger; "
+               "0: only a <Variable> of <AMR> refines them",
                input::nonNegative());
     input::refuseOtherValues(section, "time_integrator", {"explicit"},
                              "for implicit steps, use <SimulationComponent type=\"implicit_heat\"/>");

@@ -21,7 +21,7 @@ struct Settings {
   input::Expression conductivity{1.0};  ///< k, W/(m K)
   double density = 1;                   ///< rho, kg/m³
   double specificHeat = 1;              ///< c, J/(kg K)
-  double cfl = 0.9;                     ///< fraction of the greatest stable time step
+  double cfl = 0.9;                     ///< fraction of the largest stable time step
   input::Expression temperature{0.0};   ///< at the start, K
   double refinementTolerance = 0;       ///< error between cells above which they are refined, K; 0: never
 
@@ -56,7 +56,7 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> t
   numerics::CheckedFormula{settings.conductivity, "Heat/thermal_conductivity", "W/(m K)"}.requirePositive<D>(patch);
 }
 
-/// dt = cfl rho c / max(sum over the cell's faces of k / h_d²), for a uniform k the limit of von Neumann: no cell
+/// dt = cfl rho c / max(sum over the cell's faces of k / h_d²), which for a uniform k is von Neumann's limit: no cell
 /// overshoots its neighbours.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum& dt) {
@@ -66,8 +66,8 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum
   });
 }
 
-/// The fluxes are those of T, K m/s. T' = T + dt sum_d (k_{i-1/2} (T_{i-1} - T_i) + k_{i+1/2} (T_{i+1} - T_i)) / (rho c
-/// h_d²), k at faces as in Diffusion.
+/// One explicit step; the kept fluxes are those of T, K m/s. T' = T + dt sum_d (k_{i-1/2} (T_{i-1} - T_i) + k_{i+1/2}
+/// (T_{i+1} - T_i)) / (rho c h_d²), k at faces as in Diffusion.
 template <int D>
 void conduct(const Patch& patch, const Settings& settings, CellView<const double> temperature, double dt,
              CellView<double> newTemperature, RimFlux<double> flux = {}) {
@@ -80,7 +80,7 @@ void conduct(const Patch& patch, const Settings& settings, CellView<const double
   });
 }
 
-/// Marks cells beside which a straight line between cells is wrong by more than `tolerance` [K]: |T_{i-1} - 2 T_i +
+/// Marks cells at which the error of linear interpolation between cells exceeds `tolerance` [K]: |T_{i-1} - 2 T_i +
 /// T_{i+1}| / 8 along the worst axis, which is h² |T''| / 8. It is four times as much on cells twice as wide, so that
 /// those with more than a quarter stay. At a side of the grid the inner neighbour decides.
 template <int D>

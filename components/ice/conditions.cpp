@@ -26,18 +26,18 @@ struct WavesSection {
 const Schema<WavesSection>& wavesSchema() {
   static const Schema<WavesSection> schema = [] {
     Schema<WavesSection> tags(wavesTag, "Sides that let waves out, where Pressure and Velocity have var LODI.");
-    tags.required("press_infinity", &WavesSection::farPressure, "Pa", "the pressure far away, to which the gas goes",
-                  input::positive())
+    tags.required("press_infinity", &WavesSection::farPressure, "Pa",
+                  "the pressure far away, towards which that of the gas relaxes", input::positive())
         .value("sigma", &WavesSection::sigma, 0.27, "1",
-               "how fast: at sigma (1 - M^2) c over the grid's length; 0: not at all", input::nonNegative())
+               "the pressure relaxes at the rate sigma (1 - M^2) c over the grid's length", input::nonNegative())
         .ignored("material", "there is one gas")
-        .ignored("Li_scale", "all waves count in full");
+        .ignored("Li_scale", "waves are not scaled");
     return tags;
   }();
   return schema;
 }
 
-/// `SINE_BC`: what oscillates at a side.
+/// `SINE_BC`: an oscillation at a side.
 struct SineSection {
   double omega = 0, amplitude = 0, pressure = 0;
   Vec3 velocity = Vec3::Zero();
@@ -45,16 +45,16 @@ struct SineSection {
 
 const Schema<SineSection>& sineSchema() {
   static const Schema<SineSection> schema =
-      Schema<SineSection>(sineTag, "Pressures or velocities at sides that oscillate: r + A sin(omega t), var Sine.")
+      Schema<SineSection>(sineTag, "Oscillating pressures or velocities at sides with var Sine: r + A sin(omega t).")
           .required("omega", &SineSection::omega, "1/s", "2 pi times the frequency")
           .required("A", &SineSection::amplitude, "Pa or m/s", "the amplitude")
-          .value("reference_pressure", &SineSection::pressure, 0, "Pa", "r of a Pressure")
+          .value("reference_pressure", &SineSection::pressure, 0, "Pa", "r for a Pressure")
           .value("reference_velocity", &SineSection::velocity, Vec3::Zero(), "m/s",
-                 "r of a Velocity; components of 0 do not oscillate");
+                 "r for a Velocity; components of 0 do not oscillate");
   return schema;
 }
 
-/// The section of BoundaryConditions that a condition needs, as its schema reads it.
+/// Reads the section of BoundaryConditions that a condition needs.
 template <class S>
 std::optional<S> sectionOf(const Schema<S>& schema, const Element& sides, const Element& condition,
                            Diagnostics& diagnostics) {

@@ -16,7 +16,7 @@ const Schema<EquationOfState>& idealSchema() {
   static const Schema<EquationOfState> schema = [] {
     Schema<EquationOfState> tags("EOS", "p = (gamma - 1) c_v rho T.");
     tags.foreignAttribute("type", "ideal_gas");
-    for (const char* tag : {"A", "B", "C", "R1", "R2", "om", "rho0"}) tags.ignored(tag, "belongs to explosives");
+    for (const char* tag : {"A", "B", "C", "R1", "R2", "om", "rho0"}) tags.ignored(tag, "belongs to JWL and JWLC");
     tags.ignored("gas_constant", "it is (gamma - 1) c_v");
     return tags;
   }();
@@ -37,12 +37,12 @@ const Schema<EquationOfState>& stiffenedSchema() {
 Schema<euler::ColdCurve> jwlTags(const char* type, const char* sentence) {
   Schema<euler::ColdCurve> tags("EOS", sentence);
   tags.foreignAttribute("type", type)
-      .required("A", &euler::ColdCurve::a, "Pa", "of exp(-R1 rho0 / rho)", input::nonNegative())
-      .required("B", &euler::ColdCurve::b, "Pa", "of exp(-R2 rho0 / rho)", input::nonNegative())
-      .required("R1", &euler::ColdCurve::r1, "1", "rate of the first part", input::positive())
-      .required("R2", &euler::ColdCurve::r2, "1", "rate of the second part", input::positive())
-      .required("om", &euler::ColdCurve::omega, "1", "omega: Grueneisen's number", input::positive())
-      .required("rho0", &euler::ColdCurve::density, "kg/m^3", "of the explosive", input::positive());
+      .required("A", &euler::ColdCurve::a, "Pa", "factor of exp(-R1 rho0 / rho)", input::nonNegative())
+      .required("B", &euler::ColdCurve::b, "Pa", "factor of exp(-R2 rho0 / rho)", input::nonNegative())
+      .required("R1", &euler::ColdCurve::r1, "1", "factor in the first exponent", input::positive())
+      .required("R2", &euler::ColdCurve::r2, "1", "factor in the second exponent", input::positive())
+      .required("om", &euler::ColdCurve::omega, "1", "omega, the Grüneisen parameter", input::positive())
+      .required("rho0", &euler::ColdCurve::density, "kg/m^3", "density of the explosive", input::positive());
   return tags;
 }
 const Schema<euler::ColdCurve>& jwlSchema() {
@@ -54,12 +54,13 @@ const Schema<euler::ColdCurve>& jwlSchema() {
 const Schema<euler::ColdCurve>& jwlcSchema() {
   static const Schema<euler::ColdCurve> schema = std::move(
       jwlTags("JWLC", "p = A exp(-R1 rho0 / rho) + B exp(-R2 rho0 / rho) + C (rho / rho0)^(1 + om), whatever T is.")
-          .required("C", &euler::ColdCurve::c, "Pa", "of the power", input::nonNegative()));
+          .required("C", &euler::ColdCurve::c, "Pa", "factor of the power of rho", input::nonNegative()));
   return schema;
 }
 const Schema<euler::ColdCurve>& murnaghanSchema() {
   static const Schema<euler::ColdCurve> schema =
-      Schema<euler::ColdCurve>("EOS", "p = P0 + ((rho / rho0)^n - 1) / (n K), below rho0 P0 (rho / rho0)^(1 / (K P0)).")
+      Schema<euler::ColdCurve>(
+          "EOS", "p = P0 + ((rho / rho0)^n - 1) / (n K); for rho < rho0, p = P0 (rho / rho0)^(1 / (K P0)).")
           .foreignAttribute("type", "Murnaghan")
           .required("n", &euler::ColdCurve::exponent, "1", "slope of the bulk modulus", input::positive())
           .required("K", &euler::ColdCurve::compressibility, "1/Pa", "compressibility at rho0", input::positive())
@@ -72,12 +73,13 @@ const Schema<euler::Water::Numbers>& waterSchema() {
   static const Schema<Numbers> schema =
       Schema<Numbers>("EOS", "1 / rho = vo (1 - ko p + L (a p + T - To)^2), c_p = co + b (To - T) at p = 0.")
           .foreignAttribute("type", "Thomsen_Hartka_water")
-          .required("a", &Numbers::a, "K/Pa", "fall of To with the pressure", input::positive())
-          .required("b", &Numbers::b, "J/(kg K^2)", "fall of c_p with the temperature", input::nonNegative())
+          .required("a", &Numbers::a, "K/Pa", "rate at which To falls with pressure", input::positive())
+          .required("b", &Numbers::b, "J/(kg K^2)", "rate at which c_p falls with temperature", input::nonNegative())
           .required("co", &Numbers::heat, "J/(kg K)", "c_p at To and p = 0", input::positive())
           .required("ko", &Numbers::stiffness, "1/Pa", "compressibility at To and p = 0", input::positive())
-          .required("To", &Numbers::temperature, "K", "where water is densest at p = 0", input::positive())
-          .required("L", &Numbers::bend, "1/K^2", "growth of the volume away from To", input::positive())
+          .required("To", &Numbers::temperature, "K", "temperature at which water is densest at p = 0",
+                    input::positive())
+          .required("L", &Numbers::bend, "1/K^2", "curvature of the volume around To", input::positive())
           .required("vo", &Numbers::volume, "m^3/kg", "volume per mass at To and p = 0", input::positive());
   return schema;
 }

@@ -15,17 +15,17 @@ struct EquationOfState {
 
   Kind kind = Kind::ideal;
   double pInfinity = 0;        ///< Pa
-  euler::ColdCurve cold = {};  ///< of JWL, JWLC and Murnaghan's
+  euler::ColdCurve cold = {};  ///< for JWL, JWLC and Murnaghan
   euler::Water::Numbers water = {};
 
-  /// The law of a gas of a specific heat [J/(kg K)]; none if it is a stiffened gas.
+  /// The law of a gas with a given specific heat [J/(kg K)]; null for a stiffened gas.
   std::shared_ptr<const euler::Gas::Law> law(double specificHeat) const;
 };
 
 /// Reads the `<EOS>` of a `<material>`. Every problem goes to the diagnostics.
 EquationOfState readEquationOfState(const input::Element& material, input::Diagnostics& diagnostics);
 
-/// Its types, with Uintah's names except for stiffened_gas.
+/// The types of equations of state, with Uintah's names except for stiffened_gas.
 const std::vector<std::string>& equationsOfState();
 
 }  // namespace tushar::ice

@@ -11,19 +11,19 @@
 
 namespace tushar::ice {
 
-/// Gravity and diffusion of a gas, and the settings of steps that sound does not limit.
+/// Gravity and diffusion of a gas, and the settings of implicit steps.
 struct IceSettings {
   euler::Diffusion diffusion;
   Vec3 gravity = Vec3::Zero();  ///< m/s²
-  double soundSpeedKnob = 0;    ///< part of the speed of sound that limits implicit steps; 0: the flow alone does
+  double soundSpeedKnob = 0;    ///< fraction of the speed of sound that limits implicit steps; 0: none
   solvers::LinearSettings solver = {};
 };
 
-/// Whether a cell has no slopes because of a body in or beside it; an empty function if all have slopes.
+/// Tells whether a cell has no slopes because of a body in it or next to it; empty if all cells have slopes.
 template <int D>
 using IsFlat = std::function<bool(const Index<D>&)>;
 
-/// The gas before a step, also beyond sides of the grid, and the values that sides prescribe at their faces. A face is
+/// The gas before a step, also beyond sides of the grid, and the values prescribed at faces in these sides. A face is
 /// named by an axis and the cell above it.
 template <int D>
 class GasBefore {
@@ -38,7 +38,7 @@ class GasBefore {
         is_flat_(std::move(isFlat)),
         old_(cells) {}
 
-  /// Moves to the gas in the cells of `box`.
+  /// Loads the gas in the cells of `box`.
   void hold(const Box& box, const euler::StateViews<D, const double>& before) {
     old_.hold(box);
     gas_.withLaw([&](const auto& law) { euler::recover<D>(law, level_, before, old_); });
@@ -50,15 +50,15 @@ class GasBefore {
   const Vec<D>& gravity() const { return gravity_; }
   /// rho, v and p.
   const euler::Rows<D>& old() const { return old_; }
-  /// Fills `rows`, beyond sides too, with the old state but another pressure in the cells of the grid.
+  /// Fills `rows`, also beyond sides, with the old state but another pressure in the cells of the grid.
   void fillWithPressure(const CellView<const double>& pressure, euler::Rows<D>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double) { return pressure[cell]; });
   }
-  /// As above, with the old pressure and its change.
+  /// The same with the old pressure and its change.
   void fillWithChange(const CellView<const double>& change, euler::Rows<D>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double old) { return old + change[cell]; });
   }
-  /// Whether a cell is on the grid, or an image of one that is.
+  /// Whether a cell, or a cell of which it is an image, is on the grid.
   bool isOnGrid(const Index<D>& cell) const {
     for (int d = 0; d < D; ++d)
       if (!level_.isPeriodic(d) && (cell[d] < 0 || cell[d] >= level_.cells().upper[d])) return false;
@@ -73,7 +73,7 @@ class GasBefore {
     return VanLeer::slope(middle - old_.number(cell - step, number), old_.number(cell + step, number) - middle);
   }
 
-  /// The normal velocity of a face where it does not depend on the pressure, m/s.
+  /// The normal velocity at a face if it does not depend on the pressure, m/s.
   std::optional<double> givenVelocity(const Index<D>& face, int axis) const {
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     if (rule && rule->mirrored) return 0.0;
@@ -101,7 +101,7 @@ class GasBefore {
   }
 
  protected:
-  /// How the side that contains a face relaxes.
+  /// The relaxation at the side that contains a face.
   euler::Relaxation relaxationOf(const Index<D>& face, int axis) const {
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     return rule ? rule->relaxes : euler::Relaxation();
@@ -120,7 +120,7 @@ class GasBefore {
     });
     euler::fillBeyondGrid<D>(level_, rules_, rows);
   }
-  /// The rule at a face that lies in a side of the grid: that of the cell beyond, where formulas count.
+  /// The rule at a face that lies in a side of the grid: that of the cell beyond.
   std::optional<euler::GhostRule<D>> ruleOf(const Index<D>& face, int axis) const {
     const bool isUpper = face[axis] == level_.cells().upper[axis];
     if (level_.isPeriodic(axis) || (face[axis] != 0 && !isUpper)) return {};
@@ -161,16 +161,16 @@ class FaceFlow : public GasBefore<D> {
         hasSlopes_(method.method.reconstruction != euler::Reconstruction::firstOrder),
         ahead_(this->old()) {}
 
-  /// Moves to the faces of the cells in `box`, from the state in two more layers.
+  /// Loads the faces of the cells in `box`, from the state in two more layers.
   void hold(const Box& box, const euler::StateViews<D, const double>& before) {
     GasBefore<D>::hold(box.grown(2, D), before);
     ahead_ = this->old();
     if (hasSlopes_) carryVelocities(this->level().clipCells(box.grown(1, D)));
   }
-  /// Whether cells have van Leer's slopes, or are constant.
+  /// Whether cells have van Leer's slopes, rather than constant values.
   bool hasSlopes() const { return hasSlopes_; }
 
-  /// u_f [m/s] where no pressure changes in the step.
+  /// u_f [m/s] for unchanged pressures.
   double unchanged(const Index<D>& face, int axis) const {
     if (const auto given = this->givenVelocity(face, axis)) return *given;
     if (this->isFree(face, axis)) {
@@ -183,14 +183,14 @@ class FaceFlow : public GasBefore<D> {
     return this->mean(ahead_, face, axis, euler::kVelocity(axis)) + dt_ * this->gravity()[axis] -
            this->mobility(face, axis, dt_) * rise;
   }
-  /// The decrease of u_f per Pa of change of the pressure in the cell above the face, and its increase per Pa in the
-  /// cell below; beyond a side the pressure does not change. m/(s Pa).
+  /// The decrease of u_f per increase of pressure in the cell above the face, and its increase per increase in the cell
+  /// below, m/(s Pa); beyond a side the pressure does not change.
   double loss(const Index<D>& face, int axis) const {
     if (!this->isOpen(face, axis)) return this->mobility(face, axis, dt_);
     const OpenSide side = openSide(face, axis);
     return side.lightness * side.push / (side.push + side.lightness);
   }
-  /// p' [Pa] in an open side, where that of the cell beside it has changed by `change` [Pa].
+  /// p' [Pa] in an open side if the pressure of the adjacent cell changes by `change` [Pa].
   double openPressure(const Index<D>& face, int axis, double change) const {
     const OpenSide side = openSide(face, axis);
     return side.pressure +
@@ -198,15 +198,15 @@ class FaceFlow : public GasBefore<D> {
   }
 
  private:
-  /// An open side and the cell beside it.
+  /// An open side and the adjacent cell.
   struct OpenSide {
-    double normal;     ///< 1 or -1: which way is outwards
-    double speed;      ///< outwards, before the step, m/s
-    double carried;    ///< what (v . grad) v adds to it in the step, m/s
+    double normal;     ///< 1 or -1: the outward direction
+    double speed;      ///< outward velocity before the step, m/s
+    double carried;    ///< its change by (v . grad) v in the step, m/s
     double pressure;   ///< p_o, Pa
     double lightness;  ///< 1 / (rho c), m/(s Pa)
     double push;       ///< dt / (rho h / 2), m/(s Pa)
-    double relaxed;    ///< what the incoming wave loses where the side relaxes, Pa
+    double relaxed;    ///< loss of the incoming wave by relaxation, Pa
   };
   OpenSide openSide(const Index<D>& face, int axis) const {
     const bool isLower = face[axis] == 0;
@@ -224,7 +224,7 @@ class FaceFlow : public GasBefore<D> {
             .push = 2 * dt_ / (rho * h),
             .relaxed = relaxes.acts() ? relaxes.loss(pressure, normal * speed, sound, sound * dt_ / h) : 0};
   }
-  /// The velocities of cells become v - dt (v . grad) v.
+  /// Changes the velocities of cells to v - dt (v . grad) v.
   void carryVelocities(const Box& cells) {
     forEach<D>(cells, [&](const Index<D>& cell) {
       const euler::State<D> w = this->old().state(cell);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* solverTag = "Solver";
 
-/// The number of the material that a condition holds for; -1 for all, or if the id is invalid, which the grid reports.
+/// The number of the material for which a condition holds; -1 for all, or if the id is invalid, which the grid reports.
 int materialOf(const Element& condition) {
   return input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
 }
@@ -35,7 +35,7 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   if (var == nameOf(BoundaryKind::neumann)) {
     if ((number && *number != 0) || (vector && *vector != Vec3::Zero()))
       diagnostics.error(
-          *text, fmt::format("found '{}', expected 0: a Neumann condition only extends {} beyond the grid as it is",
+          *text, fmt::format("found '{}', expected 0: a Neumann condition continues {} unchanged beyond the grid",
                              text->text(), label));
     return;
   }
@@ -49,7 +49,7 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   limit(euler::boundary::temperature, "K");
 }
 
-/// The conditions of the gas, material `gas` of the scene, and of further ones behind it.
+/// Checks the conditions of the gas, which is material `gas` of the scene, and of further gases after it.
 void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const int material = materialOf(condition);
@@ -73,9 +73,9 @@ void checkBeside(const Element& condition, bool slips, bool relaxes, Diagnostics
   const bool isWall = var == "FreeSlipWall" || var == nameOf(BoundaryKind::symmetry);
   const bool acts = isGiven || isWall || var == "Sine";
   if (slips && !isWall && (acts || var == "LODI"))
-    diagnostics.error(condition, "a FreeSlipWall takes no other value: it is a plane of symmetry");
+    diagnostics.error(condition, "a FreeSlipWall is a plane of symmetry, so it takes no other condition");
   if (relaxes && !slips && acts && !(isGiven && label == euler::boundary::temperature.name))
-    diagnostics.error(condition, "beside LODI of the Pressure only a Temperature may be given");
+    diagnostics.error(condition, "with var LODI for the Pressure, only a Temperature may be given as well");
 }
 
 /// Reports conditions of faces that contradict one another, or that need another one.
@@ -89,15 +89,16 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
       });
     };
     const bool slips = has("FreeSlipWall", ""), relaxes = has("LODI", euler::boundary::pressure.name);
-    if (!relaxes && has("LODI", "")) diagnostics.error(face, "var LODI of another variable needs that of the Pressure");
+    if (!relaxes && has("LODI", ""))
+      diagnostics.error(face, "var LODI for another variable needs var LODI for the Pressure");
     if (has("Sine", euler::boundary::temperature.name) && !has("Sine", euler::boundary::pressure.name) &&
         !has("Sine", euler::boundary::velocity.name))
-      diagnostics.error(face, "var Sine of the Temperature needs that of the Pressure or of the Velocity");
+      diagnostics.error(face, "var Sine for the Temperature needs var Sine for the Pressure or the Velocity");
     for (const Element& condition : face.children("BCType")) checkBeside(condition, slips, relaxes, diagnostics);
   }
 }
 
-/// As in Uintah a given pressure is ignored; notes it where it differs from the one that follows.
+/// Notes a given pressure that differs from the one that follows; as in Uintah, it is ignored.
 void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
   if (!body.pressure) return;
   if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;
@@ -121,7 +122,7 @@ std::optional<Element> dirichletOf(const Element& face, const grid::BoundaryVari
   return {};
 }
 
-/// Two of density, pressure and temperature determine the third: a face that has all three must have one that fits.
+/// Checks that density, pressure and temperature agree at faces with all three, as two determine the third.
 void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagnostics) {
   const auto sides = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   if (!sides) return;
@@ -174,7 +175,7 @@ void readMaterial(const GasMaterial& material, const Element& element, euler::Se
   }
 }
 
-/// A gas alone fills its regions.
+/// Checks that a single gas fills its regions.
 void checkShares(const GasMaterial& material, Diagnostics& diagnostics) {
   for (const GasBody& body : material.bodies)
     if (body.share && !(body.share->isConstant() && (*body.share)(Vec3::Zero()) == 1))
@@ -199,8 +200,8 @@ void readOneGas(const GasMaterial& material, const Element& element, GasScene& s
   checkShares(material, diagnostics);
   if (scene.implicit && scene.gas.gas.isBarotropic())
     diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "not with JWLC or Murnaghan, whose pressure does not depend on the energy: take it out, or run "
-                      "with --set CFD/ICE/explicit=true");
+                      "is not available with JWLC or Murnaghan, whose pressure does not depend on the energy: remove "
+                      "it, or run with --set CFD/ICE/explicit=true");
 }
 
 void readGases(const std::vector<GasMaterial>& materials, const Element& root, GasScene& scene,
@@ -223,14 +224,14 @@ bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit;
 /// Sections of implicit steps that do nothing here.
 void noteIdle(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   if (const auto solver = root.child(solverTag))
-    diagnostics.note(*solver, isImplicit(ice) ? "does nothing: <ImplicitSolver> has what its solve needs"
+    diagnostics.note(*solver, isImplicit(ice) ? "does nothing: the settings of the solve are in <ImplicitSolver>"
                                               : "does nothing: steps are explicit, without a system of equations");
   if (ice.steps && !isImplicit(ice))
     diagnostics.note(*root.child("CFD")->child("ICE")->child("TimeStepControl"),
-                     "does nothing: steps follow from <cfl>, the sound and the diffusion in each cell");
+                     "does nothing: steps follow from <cfl>, and from the sound speed and the diffusion in each cell");
 }
 
-/// Uintah's scenes require residuals as small as 1e-22; rounding leaves more.
+/// The smallest tolerance: Uintah's scenes require residuals down to 1e-22, which rounding does not allow.
 constexpr double leastTolerance = 1e-12;
 
 ImplicitPressure implicitPressureOf(const IceSection& ice) {
@@ -269,7 +270,7 @@ Heating heatingOf(const HeatingSection& read, int solids, std::size_t gases, Dia
 /// Refuses what a gas can have only without bodies.
 void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   const Element tag = *root.child("CFD")->child("ICE");
-  const char* sentence = "is not available beside bodies: take it out, or keep only the gas";
+  const char* sentence = "is not available beside bodies: remove it, or keep only the gas";
   if (ice.push) diagnostics.error(*tag.child("fixedPressureGradient"), sentence);
 }
 
@@ -292,7 +293,7 @@ void takeModels(ModelsSection& models, const Element& root, int solids, GasScene
                       "<SimulationComponent type=\"mpmice\"/>");
 }
 
-/// The middle of the first Level's Box less its lower corner, m: where Uintah's <counterflow> has its middle.
+/// Half the size of the first Level's Box, m: the centre of Uintah's <counterflow>.
 Vec3 middleOf(const Element& root) {
   const auto grid = root.child("Grid");
   const auto level = grid ? grid->child("Level") : std::nullopt;

@@ -29,36 +29,36 @@ struct Exchange {
 struct MassExchange {
   Location where;  ///< in the scene
   std::string from, to;
-  double rate = 0;       ///< part of it per time, 1/s
+  double rate = 0;       ///< fraction of it per time, 1/s
   double startTime = 0;  ///< s
 };
 
-/// How the pressure is solved for if sound must not limit the steps.
+/// The settings of the implicit pressure solve.
 struct ImplicitPressure {
   Location where;             ///< in the scene
-  double soundSpeedKnob = 0;  ///< part of the speed of sound that limits the steps
+  double soundSpeedKnob = 0;  ///< fraction of the speed of sound that limits the steps
   solvers::LinearSettings solver;
 };
 
 /// A gas as described by the sections of a scene for Uintah's ICE.
 struct GasScene {
-  Location where;                         ///< of <CFD>, in the scene
+  Location where;                         ///< place of <CFD> in the scene
   euler::Settings gas;                    ///< the method, the gas and its state at the start
   double specificHeat = 0;                ///< c_v, J/(kg K)
   double referencePressure = 0;           ///< Pa
   Vec3 gravity = Vec3::Zero();            ///< m/s²
-  Vec3 push = Vec3::Zero();               ///< force per volume, in place of a gradient of pressure, N/m³
+  Vec3 push = Vec3::Zero();               ///< force per volume, which replaces a pressure gradient, N/m³
   euler::VaryingDiffusion varying = {};   ///< the viscosity, if it is not the same everywhere
   double viscosity = 0;                   ///< Pa s
   double conductivity = 0;                ///< W/(m K)
-  std::optional<bool> thinWalls = {};     ///< whether bodies thinner than a cell hold the gas back
-  std::optional<Exchange> exchange = {};  ///< with other materials
+  std::optional<bool> thinWalls = {};     ///< whether bodies thinner than a cell hold back the gas
+  std::optional<Exchange> exchange = {};  ///< exchange with other materials
   std::optional<ImplicitPressure> implicit = {};
   Heating heating = {};
   std::vector<ScalarSettings> scalars = {};  ///< that the gas carries along
   /// Where there are several gases: each of them, with its state at the start; the gas above is the first.
   std::vector<euler::Settings> mixture = {};
-  std::vector<euler::Diffusion> diffusions = {};  ///< of each of several gases
+  std::vector<euler::Diffusion> diffusions = {};  ///< diffusion of each of several gases
   std::vector<MassExchange> massExchanges = {};   ///< between them
   std::vector<BurnModel> burns = {};              ///< of bodies
 };
@@ -74,7 +74,7 @@ inline constexpr const char* adviceForGas = "a smaller CFD/cfl, or CFD/ICE/advec
 /// Throughout the scene the gas is numbered after the `solids` materials of MPM. Every problem goes to the diagnostics.
 GasScene readGas(const input::Element& root, int solids, input::Diagnostics& diagnostics);
 
-/// The sections that readGas reads or accepts, for a component without further ones.
+/// The sections that readGas reads or accepts, for a component without further sections.
 std::vector<simulation::SectionForm> gasForms();
 /// Their names.
 std::vector<std::string> gasSections();

@@ -19,7 +19,7 @@ const Schema<AdvectionSection>& advectionSchema() {
           .requiredChoiceAttribute(
               "type", &AdvectionSection::reconstruction,
               {{"FirstOrder", euler::Reconstruction::firstOrder}, {"SecondOrder", euler::Reconstruction::musclHancock}},
-              "constant cells, or cells with van Leer's slopes and a half step")
+              "constant values in cells, or van Leer's slopes in cells and a half step")
           .ignoredAttribute("useCompatibleFluxes", "all quantities of a cell are carried with its mass")
           .ignoredAttribute("compatibleFluxes", "all quantities of a cell are carried with its mass");
   return schema;
@@ -27,18 +27,19 @@ const Schema<AdvectionSection>& advectionSchema() {
 
 const Schema<StepSection>& stepSchema() {
   static const Schema<StepSection> schema =
-      Schema<StepSection>("TimeStepControl", "How long the steps of an <ImplicitSolver> are.")
+      Schema<StepSection>("TimeStepControl", "What limits the steps of an <ImplicitSolver>.")
           .value("knob_for_speedSound", &StepSection::soundSpeedKnob, StepSection().soundSpeedKnob, "1",
-                 "part of the speed of sound that limits the steps, beside the flow and what accelerates it",
+                 "fraction of the speed of sound that limits the steps, in addition to the velocity and the "
+                 "acceleration of the gas",
                  input::between(0, 1))
-          .ignored("knob_for_diffusion", "viscosity and conduction are explicit, and limit the steps in full")
+          .ignored("knob_for_diffusion", "viscosity and conduction are explicit, and always limit the steps")
           .ignored("Scheme_for_delT_calc", "there is one scheme: dt = cfl over the rate at which cells are crossed");
   return schema;
 }
 
 const Schema<HypreSection>& hypreSchema() {
   static const Schema<HypreSection> schema = [] {
-    Schema<HypreSection> tags("Parameters", "How the pressure is solved for, in hypre's terms.");
+    Schema<HypreSection> tags("Parameters", "The settings of the pressure solve, in hypre's terms.");
     const std::string cg = "cg", multigrid = "hypre";
     tags.foreignAttribute("variable", "implicitPressure")
         .choice("solver", &HypreSection::solver,
@@ -62,10 +63,10 @@ const Schema<HypreSection>& hypreSchema() {
                  {"sparsemsg", multigrid},
                  {"amg", multigrid}},
                 multigrid, "BoomerAMG of hypre for any of its multigrids, the diagonal, or none")
-        .value("tolerance", &HypreSection::tolerance, 1e-10, "1", "residual over right-hand side, at least 1e-12",
-               input::positive())
-        .value("maxiterations", &HypreSection::maxIterations, 1000, "1", "the solve fails if it needs more",
-               input::atLeast(1));
+        .value("tolerance", &HypreSection::tolerance, 1e-10, "1",
+               "largest residual, relative to the right-hand side; at least 1e-12", input::positive())
+        .value("maxiterations", &HypreSection::maxIterations, 1000, "1",
+               "largest number of iterations; the solve fails if it needs more", input::atLeast(1));
     for (const char* tag : {"npre", "npost", "skip", "jump", "logging", "norm", "criteria", "relax_type",
                             "initial_tolerance", "setupFrequency", "updateCoefFrequency", "solveFrequency"})
       tags.ignored(tag, "belongs to hypre's own solvers");
@@ -76,10 +77,13 @@ const Schema<HypreSection>& hypreSchema() {
 
 const Schema<ImplicitSection>& implicitSchema() {
   static const Schema<ImplicitSection> schema = [] {
-    Schema<ImplicitSection> tags("ImplicitSolver", "Steps that sound does not limit: the pressure is solved for.");
+    Schema<ImplicitSection> tags("ImplicitSolver",
+                                 "Steps that the speed of sound does not limit, as the pressure is implicit.");
     tags.location(&ImplicitSection::where)
-        .section("Parameters", &ImplicitSection::hypre, hypreSchema(), "how, as in Uintah's scenes")
-        .section("Solver", &ImplicitSection::solver, solvers::linearSchema(), "how, in PETSc's terms")
+        .section("Parameters", &ImplicitSection::hypre, hypreSchema(),
+                 "the settings of the solve, as in Uintah's scenes")
+        .section("Solver", &ImplicitSection::solver, solvers::linearSchema(),
+                 "the settings of the solve, in PETSc's terms")
         .ours();
     for (const char* tag : {"max_outer_iterations", "outer_iteration_tolerance", "iters_before_timestep_restart",
                             "iters_before_timestep_recompute"})
@@ -92,7 +96,7 @@ const Schema<ImplicitSection>& implicitSchema() {
 const Schema<PushSection>& pushSchema() {
   static const Schema<PushSection> schema =
       Schema<PushSection>("fixedPressureGradient",
-                          "A force per volume, the same everywhere: how much the pressure falls along each axis.")
+                          "A uniform force per volume: the fall of pressure per length along each axis.")
           .value("x_dir", &PushSection::x, 0, "N/m^3", "along x")
           .value("y_dir", &PushSection::y, 0, "N/m^3", "along y")
           .value("z_dir", &PushSection::z, 0, "N/m^3", "along z");
@@ -104,10 +108,10 @@ const Schema<EddiesSection>& eddiesSchema() {
       Schema<EddiesSection>("turbulence", "Viscosity of eddies smaller than cells.")
           .location(&EddiesSection::where)
           .requiredChoiceAttribute("model", &EddiesSection::model, {{"Smagorinsky", "Smagorinsky"}},
-                                   "mu grows by rho (C d)^2 sqrt(2 S:S), d the cubic root of a cell's volume, S the "
-                                   "symmetric part of the gradient of the velocity")
+                                   "adds rho (C d)^2 sqrt(2 S:S) to mu, where d is the cube root of a cell's volume "
+                                   "and S the symmetric part of the velocity gradient")
           .required("model_constant", &EddiesSection::constant, "1", "C, .1 to .2", input::nonNegative())
-          .ignored("filter_width", "it is the cubic root of a cell's volume, as in Uintah")
+          .ignored("filter_width", "it is the cube root of a cell's volume, as in Uintah")
           .ignored("turb_Pr", "eddies do not mix heat, as in Uintah");
   return schema;
 }
@@ -127,14 +131,16 @@ const Schema<IceSection>& iceSchema() {
   static const Schema<IceSection> schema = [] {
     Schema<IceSection> tags("ICE", "The method.");
     tags.requiredSection("advection", &IceSection::advection, advectionSchema())
-        .value("explicit", &IceSection::isExplicit, false, "1", "steps are explicit in spite of an <ImplicitSolver>")
+        .value("explicit", &IceSection::isExplicit, false, "1",
+               "steps are explicit, even if there is an <ImplicitSolver>")
         .ours()
         .optional("thin_walls", &IceSection::thinWalls, "1",
-                  "bodies thinner than a cell also hold back the gas, but oblique walls are rougher. Without it, "
+                  "true: bodies thinner than a cell hold back the gas, too, but oblique walls are rougher; false: "
                   "bodies thinner than 1.25 cells leak")
         .ours()
         .section("ImplicitSolver", &IceSection::implicit, implicitSchema(),
-                 "the pressure is solved for, so that sound does not limit the steps; <explicit> switches it off")
+                 "the pressure is implicit, so that the speed of sound does not limit the steps; <explicit> switches "
+                 "this off")
         .section("TimeStepControl", &IceSection::steps, stepSchema(), "the steps of an <ImplicitSolver>");
     input::noteTag(tags, "max_iteration_equilibration", "the pressure follows from density and energy");
     input::noteTag(tags, "ClampSpecificVolume", "the specific volume is that of the density");
@@ -158,7 +164,7 @@ const Schema<GasBody>& bodySchema() {
     Schema<GasBody> tags("geom_object",
                          "The gas of a region at the start; where regions overlap, the last one counts.");
     input::addShape(tags, &GasBody::where, &GasBody::shape,
-                    "the region: cells whose middle is inside; several are united")
+                    "the region: cells whose centre is inside; several shapes form their union")
         .required("density", &GasBody::density, "kg/m^3", "density at the start", input::positive(),
                   input::WithoutTime())
         .required("temperature", &GasBody::temperature, "K", "temperature at the start", input::positive(),
@@ -169,8 +175,8 @@ const Schema<GasBody>& bodySchema() {
                   "volume fraction of the gas, if several gases share the region; a single gas fills it",
                   input::between(0, 1), input::WithoutTime())
         .optional("pressure", &GasBody::pressure, "Pa", "has no effect: it follows from density and temperature")
-        .ignored("res", "a cell has the gas at its middle")
-        .ignoredAttribute("name", "for readers");
+        .ignored("res", "a cell has the gas at its centre")
+        .ignoredAttribute("name", "a note for readers");
     return tags;
   }();
   return schema;
@@ -180,31 +186,31 @@ const Schema<GasMaterial>& materialSchema() {
   static const Schema<GasMaterial> schema = [] {
     Schema<GasMaterial> tags("material", "A gas, and where it is at the start.");
     tags.attributeValue("name", &GasMaterial::name, "", "1", "its name")
-        .ignoredAttribute("index", "gases are numbered in their order")
+        .ignoredAttribute("index", "gases are numbered in the order of the scene")
         .custom("EOS", readState, {"EOS"},
-                "the equation of state, by its type: ideal_gas p = (gamma - 1) c_v rho T; stiffened_gas; of explosives "
-                "and liquids JWL, JWLC, Murnaghan and Thomsen_Hartka_water, for which <gamma> has no effect")
+                "the equation of state, by its type: ideal_gas p = (gamma - 1) c_v rho T; stiffened_gas; for "
+                "explosives and liquids JWL, JWLC, Murnaghan and Thomsen_Hartka_water, for which <gamma> has no effect")
         .forms({{.tags = {"EOS"}, .demands = {{"type", equationsOfState()}}, .atLeast = 1, .repeats = false}})
         .required("gamma", &GasMaterial::gamma, "1", "ratio of specific heats", input::greaterThan(1))
         .required("specific_heat", &GasMaterial::specificHeat, "J/(kg K)", "c_v", input::positive())
-        .value("dynamic_viscosity", &GasMaterial::viscosity, 0, "Pa s",
-               "viscosity against shear; none against "
-               "a change of volume",
+        .value("dynamic_viscosity", &GasMaterial::viscosity, 0, "Pa s", "shear viscosity; there is no bulk viscosity",
                input::nonNegative())
-        .value("thermal_conductivity", &GasMaterial::conductivity, 0, "W/(m K)", "conductivity", input::nonNegative())
+        .value("thermal_conductivity", &GasMaterial::conductivity, 0, "W/(m K)", "thermal conductivity",
+               input::nonNegative())
         .list("geom_object", &GasMaterial::bodies, bodySchema(),
               "the gas of a region at the start; where regions overlap, the last one counts; they must cover the grid",
               1)
         .ignored("isSurroundingMatl", "nothing depends on it")
         .ignored("tiny_rho", "nothing depends on it");
-    input::refuseSwitch(tags, "includeFlowWork", "the total energy is conserved, with all work in it");
+    input::refuseSwitch(tags, "includeFlowWork", "the total energy is conserved, including all work");
     input::refuseTag(tags, "SpecificHeatModel", "c_v is the <specific_heat> at all temperatures");
     tags.custom(
             "dynamicViscosityModels",
             [](GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
               readViscosityModels(material.varying, element, diagnostics);
             },
-            {"dynamicViscosityModels"}, "in place of <dynamic_viscosity>; if several apply, the last one counts",
+            {"dynamicViscosityModels"},
+            "viscosities instead of <dynamic_viscosity>; if several apply, the last one counts",
             describeViscosityModels)
         .forms({{.tags = {"dynamicViscosityModels"}, .repeats = false}});
     return tags;
@@ -214,10 +220,10 @@ const Schema<GasMaterial>& materialSchema() {
 
 const Schema<Exchange>& coefficientsSchema() {
   static const Schema<Exchange> schema =
-      Schema<Exchange>("exchange_coefficients", "For pairs of materials: 0 and 1, 0 and 2, …, 1 and 2, …")
+      Schema<Exchange>("exchange_coefficients", "One number per pair of materials: 0 and 1, 0 and 2, …, 1 and 2, …")
           .location(&Exchange::where)
-          .value("momentum", &Exchange::momentum, {}, "kg/(m^3 s)", "of momentum", input::nonNegative())
-          .value("heat", &Exchange::heat, {}, "W/(m^3 K)", "of heat", input::nonNegative())
+          .value("momentum", &Exchange::momentum, {}, "kg/(m^3 s)", "exchange of momentum", input::nonNegative())
+          .value("heat", &Exchange::heat, {}, "W/(m^3 K)", "exchange of heat", input::nonNegative())
           .ignoredAttribute("type", "coefficients are constant");
   return schema;
 }
@@ -254,7 +260,7 @@ const Schema<ExchangeSection>& exchangeSchema() {
 const Schema<CfdSection>& cfdSchema() {
   static const Schema<CfdSection> schema =
       Schema<CfdSection>("CFD", "The flow of the gas.")
-          .required("cfl", &CfdSection::cfl, "1", "dt times the greatest sum over axes of (|v| + c) / h",
+          .required("cfl", &CfdSection::cfl, "1", "dt times the largest sum over axes of (|v| + c) / h",
                     input::positive(), input::atMost(1))
           .requiredSection("ICE", &CfdSection::ice, iceSchema());
   return schema;

@@ -83,8 +83,8 @@ struct GasBody {
   input::Expression density;                  ///< kg/m³
   input::Expression temperature;              ///< K
   input::VectorExpression velocity;           ///< m/s
-  std::optional<input::Expression> pressure;  ///< Pa; follows from the others
-  std::optional<input::Expression> share;     ///< of the volume
+  std::optional<input::Expression> pressure;  ///< Pa; ignored, as it follows from the others
+  std::optional<input::Expression> share;     ///< volume fraction
 };
 
 /// `MaterialProperties/ICE/material`.

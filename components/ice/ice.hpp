@@ -8,8 +8,8 @@
 
 namespace tushar::ice {
 
-/// A compressible gas with the input of Uintah's ICE: the schedule of `euler`, and behind it viscosity, conduction of
-/// heat and gravity where a scene has them.
+/// A compressible gas with the input of Uintah's ICE: the schedule of `euler`, followed by viscosity, heat conduction
+/// and gravity if the scene has them.
 template <int D>
 class Ice : public euler::Euler<D> {
  public:
@@ -42,21 +42,21 @@ class Ice : public euler::Euler<D> {
   void scheduleScalars(TaskList& tasks) const;
   /// The limits of scalars on the time step.
   void scheduleStepsOfScalars(TaskList& tasks) const;
-  /// Viscosity and conduction, after the step of the gas, and a force that pushes it.
+  /// Viscosity, conduction and a driving force, after the step of the gas.
   void scheduleDiffusion(TaskList& tasks) const;
-  /// The limit of a viscosity that varies, beside this part of the speed of sound.
+  /// The limit of a varying viscosity, together with this fraction of the speed of sound.
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
 
  private:
   CarriedScalars scalars_;
-  IceSettings acting_;  ///< its diffusion is the uniform one, none where that varies
+  IceSettings acting_;  ///< contains uniform diffusion only; none if it varies
   euler::VaryingDiffusion varying_;
   Vec3 push_;  ///< N/m³
   Heating heating_;
 };
 
-/// One step that sound does not limit: the pressure at the end of a step is the solution of a linear system, and mass,
-/// momentum and energy flow by it.
+/// Implicit steps: the pressure at the end of a step solves a linear system, and determines the flow of mass, momentum
+/// and energy.
 template <int D>
 class ImplicitIce : public Ice<D> {
  public:

@@ -9,7 +9,7 @@ namespace c {
 inline constexpr CellLabel<double> temperature{"c.temperature", "K", "temperature"};
 inline constexpr CellLabel<double> specificVolume{"c.specificVolume", "m^3/kg", "volume per mass"};
 inline constexpr CellLabel<double> soundSpeed{"c.soundSpeed", "m/s", "speed of sound"};
-inline constexpr CellLabel<double> pressureAtEnd{"c.pressureAtEnd", "Pa", "pressure that an implicit step ends with"};
+inline constexpr CellLabel<double> pressureAtEnd{"c.pressureAtEnd", "Pa", "pressure at the end of an implicit step"};
 inline constexpr CellLabel<double> pressureChange{"c.pressureChange", "Pa", "change of pressure in an implicit step"};
 }  // namespace c
 

@@ -24,15 +24,15 @@ const Schema<ScalarRegion>& startSchema() {
   static const Schema<ScalarRegion> schema = [] {
     Schema<ScalarRegion> tags("geom_object", "A region at the start; where regions overlap, the last one counts.");
     input::addShape(tags, &ScalarRegion::where, &ScalarRegion::shape,
-                    "the region: cells whose middle is inside; several are united")
-        .required("scalar", &ScalarRegion::value, "1", "the scalar there", input::WithoutTime())
+                    "the region: cells whose centre is inside; several shapes form their union")
+        .required("scalar", &ScalarRegion::value, "1", "value of the scalar in the region", input::WithoutTime())
         .value("sinusoidalInitialize", &ScalarRegion::isSine, false, "1",
-               "instead the sum over axes of sin(2 pi freq d), d from 0 to 1 through the region")
-        .value("freq", &ScalarRegion::waves, Vec3::Zero(), "1", "waves along each axis")
-        .value("linearInitialize", &ScalarRegion::isLinear, false, "1", "adds slope . d, d as above")
-        .value("slope", &ScalarRegion::slope, Vec3::Zero(), "1", "rise through the region along each axis")
-        .ignored("coeff", "belongs to shapes that a formula can describe")
-        .ignoredAttribute("name", "for readers");
+               "instead of <scalar>, the sum over axes of sin(2 pi freq d), where d goes from 0 to 1 across the region")
+        .value("freq", &ScalarRegion::waves, Vec3::Zero(), "1", "number of waves along each axis")
+        .value("linearInitialize", &ScalarRegion::isLinear, false, "1", "adds slope . d, with the same d")
+        .value("slope", &ScalarRegion::slope, Vec3::Zero(), "1", "rise across the region along each axis")
+        .ignored("coeff", "belongs to profiles that a formula can describe")
+        .ignoredAttribute("name", "a note for readers");
     for (const char* tag : {"triangularInitialize", "quadraticInitialize", "cubicInitialize",
                             "exponentialInitialize_1D", "exponentialInitialize_2D"})
       input::refuseSwitch(tags, tag, "give <scalar> a formula");
@@ -44,10 +44,10 @@ const Schema<ScalarRegion>& startSchema() {
 const Schema<ScalarRegion>& interiorSchema() {
   static const Schema<ScalarRegion> schema = [] {
     Schema<ScalarRegion> tags("geom_object", "A region in which a scalar rises in each step.");
-    input::addShape(tags, &ScalarRegion::where, &ScalarRegion::shape, "the region: cells whose middle is inside")
+    input::addShape(tags, &ScalarRegion::where, &ScalarRegion::shape, "the region: cells whose centre is inside")
         .required("scalar", &ScalarRegion::value, "1", "increase in each step", input::WithoutTime())
         .value("maxScalar", &ScalarRegion::most, std::numeric_limits<double>::max(), "1",
-               "upper limit of the increase");
+               "largest value after the increase");
     return tags;
   }();
   return schema;
@@ -75,12 +75,10 @@ const Schema<ScalarSection>& scalarSchema() {
     Schema<ScalarConstants> tags("constants", "Constants of a scalar.");
     tags.value("diffusivity", &ScalarConstants::diffusivity, 0, "m^2/s", "diffusion coefficient", input::nonNegative())
         .ignored("AMR_Refinement_Criteria",
-                 "a <Variable> of <Refinement_Criteria_Thresholds> says where cells are finer")
-        .ignored("initialize_diffusion_knob", "nothing spreads before the first step");
-    input::refuseOtherValues(tags, "rateOfChange0", {"0", "0.0", "0.", "0.0e0"},
-                             "sources are those of <interiorSources>");
-    input::refuseOtherValues(tags, "rateOfChange1", {"0", "0.0", "0.", "0.0e0"},
-                             "sources are those of <interiorSources>");
+                 "a <Variable> in <Refinement_Criteria_Thresholds> determines where cells are finer")
+        .ignored("initialize_diffusion_knob", "there is no diffusion before the first step");
+    input::refuseOtherValues(tags, "rateOfChange0", {"0", "0.0", "0.", "0.0e0"}, "use <interiorSources>");
+    input::refuseOtherValues(tags, "rateOfChange1", {"0", "0.0", "0.", "0.0e0"}, "use <interiorSources>");
     return tags;
   }();
   static const Schema<RegionList> start =
@@ -99,7 +97,7 @@ const Schema<ScalarSection>& scalarSchema() {
         .section("interiorSources", &ScalarSection::interior, interior)
         .ignored("test_conservation", "totalSum_scalar-NAME is computed if it is saved");
     input::refuseSwitch(tags, "reinitializeDomain", "a run starts with <initialization>");
-    input::refuseTag(tags, "exponentialDecay", "a scalar that decays is its start times a function of time");
+    input::refuseTag(tags, "exponentialDecay", "a decaying scalar is the initial one times a function of time");
     return tags;
   }();
   return schema;
@@ -119,8 +117,8 @@ const Schema<MassExchange>& massExchangeSchema() {
           .location(&MassExchange::where)
           .required("fromMaterial", &MassExchange::from, "1", "the gas or the body that is converted")
           .required("toMaterial", &MassExchange::to, "1", "the gas that it becomes")
-          .required("rate", &MassExchange::rate, "1/s", "fraction of it per time", input::nonNegative())
-          .value("startTime", &MassExchange::startTime, 0, "s", "when that begins");
+          .required("rate", &MassExchange::rate, "1/s", "fraction that is converted per time", input::nonNegative())
+          .value("startTime", &MassExchange::startTime, 0, "s", "time at which the conversion begins");
   return schema;
 }
 

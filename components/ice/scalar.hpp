@@ -16,10 +16,10 @@ struct ScalarRegion {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
   input::Expression value;  ///< of the scalar, or its increase in each step
-  double most = 0;          ///< upper limit of the increase
+  double most = 0;          ///< largest value after the increase
   bool isSine = false, isLinear = false;
   Vec3 waves = Vec3::Zero();  ///< sin(2 pi waves_a d_a) along each axis, d from 0 to 1 through the region
-  Vec3 slope = Vec3::Zero();  ///< slope . d more than the value
+  Vec3 slope = Vec3::Zero();  ///< slope in slope . d, which is added to the value
 
   /// The scalar of the region at a point [m].
   double at(const Vec3& point) const;
@@ -34,7 +34,7 @@ struct ScalarSettings {
   std::vector<ScalarRegion> interior;  ///< sources: regions where it rises in each step
 };
 
-/// A scalar and the names of its variables, which must not move while tasks have them.
+/// A scalar and the names of its variables, whose addresses must not change while tasks refer to them.
 class CarriedScalar {
  public:
   explicit CarriedScalar(ScalarSettings settings)
@@ -58,7 +58,7 @@ class CarriedScalar {
   std::array<std::string, 4> words_;
   BoundaryLabel<double> atSides_{words_[0]};
   CellLabel<double> value_{words_[1], "1", "a number per mass that the gas carries along"};
-  CellLabel<double> held_{words_[2], "kg/m^3", "amount of the scalar per volume"};
+  CellLabel<double> held_{words_[2], "kg/m^3", "the scalar times density"};
   ReductionLabel<Sum> total_{words_[3], "kg", "amount of the scalar in all cells"};
 };
 

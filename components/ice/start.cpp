@@ -20,7 +20,7 @@ const Schema<VortexList>& vorticesSchema() {
                           "axis of rotation")
           .required("origin", &Vortex::origin, "m", "a point on the axis")
           .required("strength", &Vortex::strength, "kg/(m s)", "C in v = C r / (rho R^2) exp(-r^2 / (2 R^2))")
-          .required("radius", &Vortex::radius, "m", "R; there is no rotation beyond it", input::positive());
+          .required("radius", &Vortex::radius, "m", "R; beyond it there is no rotation", input::positive());
   static const Schema<VortexList> schema =
       Schema<VortexList>("vortices", "Vortices, added to the velocity at the start.")
           .list("vortex", &VortexList::list, vortex, "a vortex", 1);
@@ -29,9 +29,9 @@ const Schema<VortexList>& vorticesSchema() {
 
 const Schema<GaussianTemperature>& temperatureSchema() {
   static const Schema<GaussianTemperature> schema =
-      Schema<GaussianTemperature>("gaussianTemperature", "The temperature at the start: 300 K and a bell above it.")
+      Schema<GaussianTemperature>("gaussianTemperature", "The temperature at the start: 300 K plus a Gaussian bell.")
           .required("amplitude", &GaussianTemperature::amplitude, "K", "height of the bell", input::greaterThan(-300))
-          .required("origin", &GaussianTemperature::origin, "m", "its middle")
+          .required("origin", &GaussianTemperature::origin, "m", "its centre")
           .required("spread_x", &GaussianTemperature::spreadX, "m", "standard deviation along x", input::positive())
           .required("spread_y", &GaussianTemperature::spreadY, "m", "standard deviation along y", input::positive());
   return schema;
@@ -41,20 +41,21 @@ constexpr const char *windOfVortices = "mms_1", *taylorGreen = "mms_3";
 
 const Schema<Counterflow>& counterflowSchema() {
   static const Schema<Counterflow> schema =
-      Schema<Counterflow>("counterflow", "Gas comes in along x and leaves along y.")
-          .required("strainRate", &Counterflow::strainRate, "1/s", "a in v_x = -a (x - m), m half the grid's length")
+      Schema<Counterflow>("counterflow", "Gas flows in along x and out along y.")
+          .required("strainRate", &Counterflow::strainRate, "1/s",
+                    "a in v_x = -a (x - m), where m is half the grid's length")
           .ignored("referenceCell", "the pressure follows from density and temperature");
   return schema;
 }
 
 const Schema<Manufactured>& manufacturedSchema() {
   static const Schema<Manufactured> schema =
-      Schema<Manufactured>("manufacturedSolution", "Flows with known solutions without compression.")
+      Schema<Manufactured>("manufacturedSolution", "Incompressible flows with known solutions.")
           .requiredChoiceAttribute("type", &Manufactured::type,
                                    {{windOfVortices, windOfVortices}, {taylorGreen, taylorGreen}},
-                                   "vortices in a wind, or Taylor's and Green's vortex")
-          .value("A", &Manufactured::amplitude, 1, "m/s", "of mms_1: amplitude of the vortices")
-          .value("angle", &Manufactured::angle, 0, "1", "of mms_3: how the velocity is divided among the axes");
+                                   "vortices in a uniform flow, or the Taylor-Green vortex")
+          .value("A", &Manufactured::amplitude, 1, "m/s", "for mms_1: amplitude of the vortices")
+          .value("angle", &Manufactured::angle, 0, "1", "for mms_3: how the velocity is divided among the axes");
   return schema;
 }
 
@@ -72,7 +73,7 @@ void setWindOfVortices(double amplitude, const Vec3& x, Vec3& velocity) {
   velocity[0] = 1 - amplitude * std::cos(x[0]) * std::sin(x[1]);
   velocity[1] = 1 + amplitude * std::sin(x[0]) * std::cos(x[1]);
 }
-/// Pa, where the density is 1 kg/m³, as Uintah has it.
+/// Pressure as in Uintah for a density of 1 kg/m³, Pa.
 double pressureOfWind(double amplitude, const Vec3& x) {
   return 101325 - amplitude * amplitude / 4 * (std::cos(2 * x[0]) + std::cos(2 * x[1]));
 }
@@ -116,13 +117,13 @@ void CustomStart::apply(const Vec3& point, const StartPlace& place, Vec3& veloci
 const Schema<CustomStart>& customStartSchema() {
   static const Schema<CustomStart> schema = [] {
     Schema<CustomStart> tags("customInitialization",
-                             "The state at the start by formulas; the pressure follows from it.");
+                             "The state at the start, by formulas; the pressure follows from density and temperature.");
     tags.section("vortices", &CustomStart::vortices, vorticesSchema(), "vortices, added to the velocity")
         .section("gaussianTemperature", &CustomStart::temperature, temperatureSchema(),
-                 "the temperature, in place of that of the regions")
+                 "the temperature, instead of that of the regions")
         .section("counterflow", &CustomStart::counterflow, counterflowSchema(), "two streams that meet")
         .section("manufacturedSolution", &CustomStart::manufactured, manufacturedSchema(),
-                 "flows with known solutions without compression");
+                 "incompressible flows with known solutions");
     for (const char* tag : {"vortexPairs", "logLawProfile", "powerLawProfile", "powerLawProfile2", "DNS_Moser"})
       input::refuseTag(tags, tag, "give <velocity> or <temperature> a formula in x, y, z");
     return tags;

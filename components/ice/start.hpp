@@ -10,9 +10,9 @@
 
 namespace tushar::ice {
 
-/// A `<vortex>`: it turns the gas within its radius R around an axis through its origin. With the distances y and z
-/// from there along the other two axes, v_y falls by C z / (rho R^2) exp(-(y^2 + z^2) / (2 R^2)), and v_z rises by the
-/// same of y. (T. Poinsot, S. K. Lele, J. Comput. Phys. 101, 1992)
+/// A `<vortex>`: a rotation of the gas around an axis through its origin, within the radius R. With the distances y and
+/// z from there along the other two axes, v_y falls by C z / (rho R^2) exp(-(y^2 + z^2) / (2 R^2)), and v_z rises by
+/// the same of y. (T. Poinsot, S. K. Lele, J. Comput. Phys. 101, 1992)
 struct Vortex {
   int axis = 0;
   Vec3 origin = Vec3::Zero();       ///< m
@@ -45,7 +45,7 @@ struct Manufactured {
   double angle = 0;
 };
 
-/// The place of a start.
+/// The geometry for states at the start.
 struct StartPlace {
   double density = 0;          ///< kg/m³
   double gasConstant = 0;      ///< R, J/(kg K)
@@ -59,7 +59,7 @@ struct CustomStart {
   std::optional<Counterflow> counterflow;
   std::optional<Manufactured> manufactured;
 
-  /// Why it cannot be the start for this many gases; empty if it can.
+  /// Why this state is not available for a number of gases; empty if it is.
   std::string problem(std::size_t gases) const;
   /// Changes the velocity [m/s] and the temperature [K] at a point [m].
   void apply(const Vec3& point, const StartPlace& place, Vec3& velocity, double& temperatureThere) const;

@@ -12,7 +12,7 @@ namespace tushar::ice {
 inline constexpr const char* thinWallsPath = "CFD/ICE/thin_walls";
 inline constexpr const char* exchangePath = "MaterialProperties/exchange_properties/exchange_coefficients";
 
-/// Uintah's variables that have another name here.
+/// Variables of Uintah that have another name here.
 inline const simulation::OtherNames uintahsNames{
     {"rho_CC", "c.density"},           {"rho_micro_CC", "c.density"},     {"press_CC", "c.pressure"},
     {"press_equil_CC", "c.pressure"},  {"vel_CC", "c.velocity"},          {"temp_CC", "c.temperature"},

@@ -17,8 +17,8 @@ const Schema<euler::Sutherland>& sutherlandSchema() {
   static const Schema<Sutherland> schema =
       Schema<Sutherland>("Model", "name=\"Sutherland\": mu = a T^(3/2) / (T + b).")
           .foreignAttribute("name", "Sutherland")
-          .required("a", &Sutherland::a, "Pa s / K^(1/2)", "its factor", input::nonNegative())
-          .required("b", &Sutherland::b, "K", "its temperature", input::nonNegative());
+          .required("a", &Sutherland::a, "Pa s / K^(1/2)", "the factor a", input::nonNegative())
+          .required("b", &Sutherland::b, "K", "the temperature b", input::nonNegative());
   return schema;
 }
 
@@ -32,14 +32,15 @@ struct SpongeTag {
 };
 
 const Schema<SpongeTag>& spongeSchema() {
-  static const Schema<SpongeBox> box = Schema<SpongeBox>("box", "Where it is.")
-                                           .ignoredAttribute("label", "for readers")
+  static const Schema<SpongeBox> box = Schema<SpongeBox>("box", "The box of the layer.")
+                                           .ignoredAttribute("label", "a note for readers")
                                            .required("min", &SpongeBox::min, "m", "a corner")
-                                           .required("max", &SpongeBox::max, "m", "the opposite one");
+                                           .required("max", &SpongeBox::max, "m", "the opposite corner");
   static const Schema<SpongeTag> schema =
-      Schema<SpongeTag>("Model", "name=\"SpongeLayer\": a box with a viscosity of its own, which absorbs waves.")
+      Schema<SpongeTag>("Model", "name=\"SpongeLayer\": a box with its own viscosity, which absorbs waves.")
           .foreignAttribute("name", "SpongeLayer")
-          .required("maxDynamicViscosity", &SpongeTag::viscosity, "Pa s", "the viscosity in it", input::nonNegative())
+          .required("maxDynamicViscosity", &SpongeTag::viscosity, "Pa s", "the viscosity in the box",
+                    input::nonNegative())
           .requiredSection("box", &SpongeTag::box, box);
   return schema;
 }

@@ -78,10 +78,10 @@ const input::Schema<Settings>& schema() {
           .value("specific_heat", input::memberOf<Settings>(&Settings::specificHeat), 1, "J/(kg K)", "c",
                  input::positive())
           .choice("time_integrator", &Settings::theta, {{"backward_euler", 1}, {"crank_nicolson", 0.5}}, 1,
-                  "how time advances; the steps are those of <Time>")
+                  "the time integrator; <Time> sets the steps")
           .elsewhere("explicit", "for explicit steps, use <SimulationComponent type=\"heat\"/>")
           .section("Solver", &Settings::solver, solvers::linearSchema(), "the linear solve of each step")
-          .ignored("cfl", "implicit steps have no limit; it serves <SimulationComponent type=\"heat\"/>")
+          .ignored("cfl", "implicit steps have no limit; only <SimulationComponent type=\"heat\"/> uses it")
           .required("temperature", input::memberOf<Settings>(&Settings::temperature), "K", "T at the start",
                     input::WithoutTime());
   return schema;

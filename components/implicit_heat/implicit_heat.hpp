@@ -14,7 +14,7 @@ inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "it
 
 /// The `Heat` section, for implicit steps, which do not use `cfl` and `refinementTolerance`.
 struct Settings : heat::Settings {
-  double theta = 1;  ///< part of the new temperature in the flux
+  double theta = 1;  ///< weight of the new temperature in the flux
   solvers::LinearSettings solver;
 };
 

@@ -23,10 +23,10 @@ inline constexpr NodeLabel<double> mass{"g.mass", "kg", "mass gathered from part
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocity{"g.velocity", "m/s", "velocity before the step"};
 template <int D>
-inline constexpr NodeLabel<Vec<D>> internalForce{"g.internalforce", "N", "force of the stresses in the cells around"};
+inline constexpr NodeLabel<Vec<D>> internalForce{"g.internalforce", "N", "force of the stresses around the node"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> acceleration{"g.acceleration", "m/s^2",
-                                                "by the stresses alone: internal force over mass"};
+                                                "acceleration by the stresses alone: internal force over mass"};
 }  // namespace g
 
 /// Totals over all particles.

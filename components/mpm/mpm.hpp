@@ -10,7 +10,7 @@ enum class Method { gas, solid, implicitSolid };
 /// The method that the <MPM> section of a scene selects.
 Method methodOf(const input::Element& root);
 
-/// How a method is read, described and made: its part of the ComponentKind, whose fields have the same names.
+/// The description of a method: its part of the ComponentKind, whose fields have the same names.
 struct MethodKind {
   std::function<simulation::MakeComponent(const input::Element& root, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;
@@ -18,7 +18,7 @@ struct MethodKind {
   std::function<int(const input::Element& root)> nodesBeyond = {};
 };
 
-/// The module of a method calls this when it is loaded.
+/// To be called by the module of a method when it is loaded.
 void define(Method method, MethodKind kind);
 
 /// All methods as one component.

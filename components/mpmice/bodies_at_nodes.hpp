@@ -5,9 +5,9 @@
 
 namespace tushar::mpmice {
 
-/// Velocities and masses of all solids at nodes, as used at faces: a face shares what acts on it between the nodes of
-/// the cells on both sides, by their masses. One set of shares serves velocity, force and work, so that what the gas
-/// loses is what the nodes get.
+/// Velocities and masses of all solids at nodes, for use at faces: a face distributes forces over the nodes of the
+/// cells on both sides, in proportion to their masses. One set of shares serves velocity, force and work, so that what
+/// the gas loses is what the nodes get.
 template <int D>
 class BodiesAtNodes {
  public:
@@ -27,7 +27,7 @@ class BodiesAtNodes {
     nodes.upper[axis] = std::min(nodes.upper[axis], level_->cells().upper[axis] + 1);
     return nodes;
   }
-  /// Mass of all solids at those nodes, kg.
+  /// Mass of all solids at these nodes, kg.
   double massAt(const Index<D>& cell, int axis) const {
     double mass = 0;
     forEachAt(cell, axis, [&](const mpm::solid::NodeRecord& record) { mass += record[mpm::solid::lane::mass]; });

@@ -15,7 +15,7 @@ inline double openShare(double coverage, double below, double above, bool thinWa
   return std::max(0.0, std::min(1 - coverage, most));
 }
 
-/// The two faces of a cell across an axis: how much of each is open; open and walled share are the same of both.
+/// The two faces of a cell across an axis: their open area, and their common open and walled fractions.
 struct OpenFaces {
   std::array<double, 2> open{};
   double area = 0;  ///< 0 if the cell has no gas
@@ -23,7 +23,8 @@ struct OpenFaces {
   double wall(int side) const { return area - open[side]; }
 };
 
-/// To what degree the walls of a cell face the same way: 1 for one plane wall, 0 for two that face each other.
+/// The degree to which the walls of a cell face the same way: 1 for one plane wall, 0 for two walls that face each
+/// other.
 template <int D>
 double facingOneWay(const Level& level, const std::array<OpenFaces, D>& faces) {
   double open = 0, all = 0;
@@ -36,7 +37,7 @@ double facingOneWay(const Level& level, const std::array<OpenFaces, D>& faces) {
   return all > 0 ? std::min(1.0, std::sqrt(open / all)) : 0;
 }
 
-/// Where the gas can go: cells have free volumes, and faces are open as far as bodies do not cover them.
+/// The space for the gas: free volumes of cells, and open fractions of faces, which bodies do not cover.
 ///
 /// A face is open in part, or closed: then there is a wall. Areas close in each cell: along each axis it has the same
 /// area on both sides, open or wall, so that a gas at rest exerts no force.

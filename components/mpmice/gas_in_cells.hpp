@@ -26,8 +26,7 @@ struct Parcel {
   }
 };
 
-/// The law of the gas where it is one of several, that of a stiffened gas which acts as they do in their shares
-/// of a cell; otherwise its own.
+/// The law of the gas; for several gases, that of a stiffened gas that is equivalent to their mixture in a cell.
 template <int D, class T>
 euler::Gas lawAt(const Settings& settings, const euler::MixtureViews<D, T>& held, const Index<D>& cell) {
   if (settings.gases.empty()) return settings.gas.gas;
@@ -71,9 +70,9 @@ struct GasInCells {
             .coverage = take(reads(c::coverage<D>, ghost.room))};
   }
   bool isEmpty(const Index<D>& cell) const { return free[cell] < leastFreeVolume || !(held.density[cell] > 0); }
-  /// Whether a body is in a cell, or no gas.
+  /// Whether a cell contains a body, or no gas.
   bool hasBody(const Index<D>& cell) const { return free[cell] < wholeFreeVolume || isEmpty(cell); }
-  /// rho, rho v, E of the gas alone; the cell must hold some.
+  /// rho, rho v, E per volume of the gas; the cell must contain some.
   euler::State<D> conserved(const Index<D>& cell) const {
     const double inverse = 1 / free[cell];
     euler::State<D> u;

@@ -15,7 +15,7 @@ using input::Element;
 
 namespace {
 
-/// Which pairs of materials are a body and a gas; Uintah's matrices have the pairs row by row.
+/// Calls a function for each pair of a body and a gas; Uintah's matrices contain the pairs row by row.
 template <class Visit>
 void forEachPairWithGas(const std::vector<double>& pairs, int solids, int gases, Visit&& visit) {
   std::size_t at = 0;
@@ -24,7 +24,7 @@ void forEachPairWithGas(const std::vector<double>& pairs, int solids, int gases,
       if (column >= solids) visit(row, pairs[at]);
 }
 
-/// Whether a list has a number for each pair of materials.
+/// Whether a list has one number for each pair of materials; reports it otherwise.
 bool hasAllPairs(const std::vector<double>& given, const char* name, int materials, const Element& tag,
                  Diagnostics& diagnostics) {
   const std::size_t pairs = static_cast<std::size_t>(materials) * (materials - 1) / 2;
@@ -35,7 +35,8 @@ bool hasAllPairs(const std::vector<double>& given, const char* name, int materia
   return false;
 }
 
-/// The gas and bodies exchange momentum at walls, or bodies are rigid; bodies exchange it by their contacts.
+/// Checks the exchange of momentum: between gas and bodies, only walls are available; bodies interact by their
+/// contacts.
 void checkMomentum(const ice::Exchange& exchange, int solids, int gases, bool areRigid, const Element& tag,
                    Diagnostics& diagnostics) {
   constexpr double walls = 1e9;
@@ -94,18 +95,18 @@ int countSolids(const Element& root) {
   return solids ? static_cast<int>(solids->children("material").size()) : 0;
 }
 
-/// Refuses what the gas and the bodies cannot have together.
+/// Refuses settings that are not available for a gas with bodies.
 void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
   const auto mpm = root.child("MPM");
   if (const auto radial = mpm ? mpm->child("axisymmetric") : std::nullopt; radial && radial->text() == "true")
-    diagnostics.error(*radial, "not beside a gas, whose grid is Cartesian");
+    diagnostics.error(*radial, "is not available with a gas, whose grid is Cartesian");
   if (scene.gas.cfl > greatestCfl)
     diagnostics.error(*root.child("CFD")->child("cfl"),
-                      fmt::format("found {:g}, expected at most {:g} beside bodies: cells may be half full",
+                      fmt::format("found {:g}, expected at most {:g} with bodies, as cells may be half full",
                                   scene.gas.cfl, greatestCfl));
 }
 
-/// Notes that conditions on a part of a side hold for the gas alone, and that bodies have those of whole sides.
+/// Notes that conditions on a part of a side hold only for the gas, and that bodies have those of the whole side.
 void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagnostics) {
   const auto grid = root.child("Grid");
   const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
@@ -116,7 +117,7 @@ void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagno
       const bool isOfGas = label == euler::boundary::density.name || label == euler::boundary::pressure.name;
       const int material = input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
       if (isOfGas || material >= solids || condition.attribute("var") == nameOf(BoundaryKind::neumann)) continue;
-      diagnostics.note(condition, "holds for the gas alone: bodies have the conditions of whole sides");
+      diagnostics.note(condition, "holds for the gas only: bodies have the conditions of the whole side");
     }
   }
 }
@@ -135,15 +136,14 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
   if (!scene.scalars.empty())
     diagnostics.error(scene.scalars.front().where, "Models/Model",
-                      "is not available beside bodies; take it out, or keep only the gas");
+                      "is not available beside bodies; remove it, or keep only the gas");
   if (!scene.massExchanges.empty())
     diagnostics.error(scene.massExchanges.front().where, "Models/Model",
                       "is not available beside bodies; take it out, or keep only the gas");
   if (scene.implicit && scene.gas.gas.law)
-    diagnostics.error(
-        scene.implicit->where, "CFD/ICE/ImplicitSolver",
-        "is not available beside bodies in a gas that is neither ideal nor stiffened: take it out, or run "
-        "with --set CFD/ICE/explicit=true");
+    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
+                      "is not available beside bodies in a gas that is neither ideal nor stiffened: remove it, or run "
+                      "with --set CFD/ICE/explicit=true");
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};

@@ -4,7 +4,7 @@
 
 namespace tushar::mpmice {
 
-/// Bodies and a gas that act on each other; where `areRigid`, bodies that the gas cannot move.
+/// The component of a gas and bodies that interact; if `areRigid`, the gas does not move the bodies.
 simulation::ComponentKind kind(bool areRigid);
 
 }  // namespace tushar::mpmice

@@ -14,67 +14,81 @@ namespace c {
 using namespace euler::c;
 using namespace ice::c;
 inline constexpr CellLabel<double> freeVolume{"c.freeVolume", "1",
-                                              "share of the cell that bodies leave to the gas; 0 in narrow holes"};
+                                              "fraction of the cell that is open to the gas; 0 in narrow holes"};
 inline constexpr CellLabel<double> unfilledVolume{"c.unfilledVolume", "1",
-                                                  "share of the cell that bodies do not fill, holes included"};
+                                                  "fraction of the cell that bodies do not fill, holes included"};
 template <int D>
-inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "share of the lower faces that bodies cover"};
+inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "fraction of the lower faces that bodies cover"};
 template <int D>
-inline constexpr CellLabel<Vec<D>> swept{"c.swept", "1",
-                                         "volume of bodies that went up through the lower faces, over that of a cell"};
+inline constexpr CellLabel<Vec<D>> swept{
+    "c.swept", "1", "volume of bodies that moved upwards through the lower faces, over that of a cell"};
 /// A number on the walls at the lower faces of cells, and one on those at the upper faces.
 template <int D>
 using OnWalls = std::array<CellLabel<Vec<D>>, 2>;
 template <int D>
-inline constexpr OnWalls<D> wallPressure{{{"c.wallPressureBelow", "Pa", "on walls at the lower faces"},
-                                          {"c.wallPressureAbove", "Pa", "on walls at the upper faces"}}};
+inline constexpr OnWalls<D> wallPressure{{{"c.wallPressureBelow", "Pa", "pressure on walls at the lower faces"},
+                                          {"c.wallPressureAbove", "Pa", "pressure on walls at the upper faces"}}};
 template <int D>
-inline constexpr CellLabel<Vec<D>> wallFriction{"c.wallFriction", "N/m^3", "of walls on the gas of the cell"};
-/// Of an implicit step.
+inline constexpr CellLabel<Vec<D>> wallFriction{"c.wallFriction", "N/m^3",
+                                                "force per volume of walls on the gas of the cell"};
+/// Variables of an implicit step.
 template <int D>
-inline constexpr euler::StateLabels<D> alone{{"c.aloneDensity", "kg/m^3", "of the gas itself"},
-                                             {"c.aloneMomentum", "kg/(m^2 s)", "of the gas itself"},
-                                             {"c.aloneEnergy", "J/m^3", "of the gas itself"}};
+inline constexpr euler::StateLabels<D> alone{
+    {"c.aloneDensity", "kg/m^3", "density of the gas, per volume of the gas"},
+    {"c.aloneMomentum", "kg/(m^2 s)", "momentum of the gas, per volume of the gas"},
+    {"c.aloneEnergy", "J/m^3", "energy of the gas, per volume of the gas"}};
 template <int D>
-inline constexpr OnWalls<D> wallSpeed{{{"c.wallSpeedBelow", "m/s", "of walls at the lower faces"},
-                                       {"c.wallSpeedAbove", "m/s", "of walls at the upper faces"}}};
+inline constexpr OnWalls<D> wallSpeed{{{"c.wallSpeedBelow", "m/s", "speed of walls at the lower faces"},
+                                       {"c.wallSpeedAbove", "m/s", "speed of walls at the upper faces"}}};
 template <int D>
-inline constexpr OnWalls<D> wallYield{{{"c.wallYieldBelow", "m/(s^2 Pa)", "acceleration by pressure, below"},
-                                       {"c.wallYieldAbove", "m/(s^2 Pa)", "acceleration by pressure, above"}}};
+inline constexpr OnWalls<D> wallYield{
+    {{"c.wallYieldBelow", "m/(s^2 Pa)", "acceleration per pressure of walls at the lower faces"},
+     {"c.wallYieldAbove", "m/(s^2 Pa)", "acceleration per pressure of walls at the upper faces"}}};
 /// The state before small cells share theirs with others.
-inline constexpr CellLabel<double> unsharedDensity{"c.unsharedDensity", "kg/m^3", "before small cells share it"};
+inline constexpr CellLabel<double> unsharedDensity{"c.unsharedDensity", "kg/m^3",
+                                                   "before small cells share it with others"};
 template <int D>
-inline constexpr CellLabel<Vec<D>> unsharedMomentum{"c.unsharedMomentum", "kg/(m^2 s)", "before small cells share it"};
-inline constexpr CellLabel<double> unsharedEnergy{"c.unsharedEnergy", "J/m^3", "before small cells share it"};
-/// Of several gases each by its number: its mass per volume of the cell, its share of the gas's volume, and before
-/// small cells share theirs its mass and volume per volume of the cell.
+inline constexpr CellLabel<Vec<D>> unsharedMomentum{"c.unsharedMomentum", "kg/(m^2 s)",
+                                                    "before small cells share it with others"};
+inline constexpr CellLabel<double> unsharedEnergy{"c.unsharedEnergy", "J/m^3",
+                                                  "before small cells share it with others"};
+/// For each of several gases, by its number: its mass per volume of the cell, its share of the gas's volume and, before
+/// small cells share theirs, its mass and volume per volume of the cell.
 inline constexpr std::array<CellLabel<double>, 3> massOfGas{{{"c.massOfGas0", "kg/m^3", "mass of the first gas"},
                                                              {"c.massOfGas1", "kg/m^3", "mass of the second gas"},
                                                              {"c.massOfGas2", "kg/m^3", "mass of the third gas"}}};
-inline constexpr std::array<CellLabel<double>, 3> shareOfGas{{{"c.shareOfGas0", "1", "of the first gas in all gas"},
-                                                              {"c.shareOfGas1", "1", "of the second gas in all gas"},
-                                                              {"c.shareOfGas2", "1", "of the third gas in all gas"}}};
-inline constexpr std::array<CellLabel<double>, 3> unsharedMass{{{"c.unsharedMass0", "kg/m^3", "of the first gas"},
-                                                                {"c.unsharedMass1", "kg/m^3", "of the second gas"},
-                                                                {"c.unsharedMass2", "kg/m^3", "of the third gas"}}};
-inline constexpr std::array<CellLabel<double>, 3> unsharedVolume{{{"c.unsharedVolume0", "1", "of the first gas"},
-                                                                  {"c.unsharedVolume1", "1", "of the second gas"},
-                                                                  {"c.unsharedVolume2", "1", "of the third gas"}}};
-/// What the gas gave to bodies in a step, per volume of the cell, and since the start.
+inline constexpr std::array<CellLabel<double>, 3> shareOfGas{
+    {{"c.shareOfGas0", "1", "volume fraction of the first gas in the gas"},
+     {"c.shareOfGas1", "1", "volume fraction of the second gas in the gas"},
+     {"c.shareOfGas2", "1", "volume fraction of the third gas in the gas"}}};
+inline constexpr std::array<CellLabel<double>, 3> unsharedMass{
+    {{"c.unsharedMass0", "kg/m^3", "mass of the first gas, before small cells share it"},
+     {"c.unsharedMass1", "kg/m^3", "mass of the second gas, before small cells share it"},
+     {"c.unsharedMass2", "kg/m^3", "mass of the third gas, before small cells share it"}}};
+inline constexpr std::array<CellLabel<double>, 3> unsharedVolume{
+    {{"c.unsharedVolume0", "1", "volume of the first gas, before small cells share it"},
+     {"c.unsharedVolume1", "1", "volume of the second gas, before small cells share it"},
+     {"c.unsharedVolume2", "1", "volume of the third gas, before small cells share it"}}};
+/// The exchange of the gas with bodies in a step, per volume of the cell, and since the start.
 template <int D>
-inline constexpr CellLabel<Vec<D>> impulse{"c.impulseOnBodies", "N s/m^3", "of the gas on walls in the step"};
-inline constexpr CellLabel<double> work{"c.workOnBodies", "J/m^3", "of the gas on walls in the step"};
-inline constexpr CellLabel<double> heat{"c.heatToBodies", "J/m^3", "from the gas in the step, by coefficients"};
-inline constexpr CellLabel<double> wallHeat{"c.heatToWalls", "J/m^3", "from the gas in the step, by conduction"};
+inline constexpr CellLabel<Vec<D>> impulse{"c.impulseOnBodies", "N s/m^3", "impulse of the gas on walls in the step"};
+inline constexpr CellLabel<double> work{"c.workOnBodies", "J/m^3", "work of the gas on walls in the step"};
+inline constexpr CellLabel<double> heat{"c.heatToBodies", "J/m^3",
+                                        "heat from the gas in the step, by exchange coefficients"};
+inline constexpr CellLabel<double> wallHeat{"c.heatToWalls", "J/m^3", "heat from the gas in the step, by conduction"};
 inline constexpr CellLabel<double> bodyCapacity{"c.bodyCapacity", "J/(m^3 K)", "heat capacity of bodies"};
-inline constexpr CellLabel<double> bodyTemperature{"c.bodyTemperature", "K", "of bodies, by capacity"};
+inline constexpr CellLabel<double> bodyTemperature{"c.bodyTemperature", "K",
+                                                   "mean temperature of bodies, weighted by heat capacity"};
 template <int D>
-inline constexpr CellLabel<Vec<D>> impulseSinceStart{"c.impulseSinceStart", "N s/m^3", "of the gas on walls"};
-inline constexpr CellLabel<double> workSinceStart{"c.workSinceStart", "J/m^3", "of the gas on walls"};
-inline constexpr CellLabel<double> heatSinceStart{"c.heatSinceStart", "J/m^3", "from the gas to bodies"};
+inline constexpr CellLabel<Vec<D>> impulseSinceStart{"c.impulseSinceStart", "N s/m^3",
+                                                     "impulse of the gas on walls since the start"};
+inline constexpr CellLabel<double> workSinceStart{"c.workSinceStart", "J/m^3",
+                                                  "work of the gas on walls since the start"};
+inline constexpr CellLabel<double> heatSinceStart{"c.heatSinceStart", "J/m^3",
+                                                  "heat from the gas to bodies since the start"};
 template <int D>
-inline constexpr CellLabel<Vec<D>> massFlow{"c.massFlow", "kg/m^3",
-                                            "gas that passed bodies upward through the open lower faces, over a cell"};
+inline constexpr CellLabel<Vec<D>> massFlow{
+    "c.massFlow", "kg/m^3", "gas that passed bodies upwards through the open lower faces, per volume of a cell"};
 inline constexpr CellLabel<double> leakSinceStart{"c.leakSinceStart", "kg/m^3",
                                                   "gas that went through bodies in the cell"};
 /// Of a body that burns.
@@ -118,7 +132,7 @@ inline constexpr ReductionLabel<Sum> gasEnergy{"GasEnergy", "J", "internal and k
 inline constexpr ReductionLabel<Sum> gasKineticEnergy{"GasKineticEnergy", "J", "kinetic energy of the gas"};
 inline constexpr ReductionLabel<VectorSum> forceOnBodies{"GasForceOnBodies", "N",
                                                          "force of the gas on all bodies, above reference_pressure"};
-inline constexpr ReductionLabel<Sum> powerOnBodies{"GasPowerOnBodies", "W", "work of the gas on all bodies, over time"};
+inline constexpr ReductionLabel<Sum> powerOnBodies{"GasPowerOnBodies", "W", "power of the gas on all bodies"};
 inline constexpr ReductionLabel<VectorSum> impulse{"GasImpulseOnBodies", "N s",
                                                    "momentum that the gas has given to walls since the start"};
 inline constexpr ReductionLabel<Sum> work{"GasWorkOnBodies", "J", "work of the gas on walls since the start"};
@@ -127,13 +141,14 @@ inline constexpr ReductionLabel<Sum> burntMass{"BurntMass", "kg", "mass of bodie
 inline constexpr ReductionLabel<Sum> reactionHeat{"ReactionHeat", "J", "heat of its reaction"};
 inline constexpr ReductionLabel<Sum> leak{"GasLeak", "kg", "gas that went through bodies since the start"};
 inline constexpr ReductionLabel<Sum> mergedCells{"MergedCells", "1",
-                                                 "cells that gave their gas to a neighbour in the last step"};
+                                                 "number of cells that gave their gas to a neighbour in the last step"};
 inline constexpr ReductionLabel<Minimum> leastFreeVolume{"LeastFreeVolume", "1",
-                                                         "least share of a cell that holds gas"};
+                                                         "smallest open fraction of a cell that contains gas"};
 inline constexpr ReductionLabel<Minimum> leastMass{"LeastGasMass", "kg/m^3",
-                                                   "least mass of gas in a cell, over the volume of the cell"};
+                                                   "smallest mass of gas in a cell, over the volume of the cell"};
 inline constexpr ReductionLabel<Minimum> leastHeat{
-    "LeastGasHeat", "J/m^3", "least internal energy of gas in a cell, less that of p_inf, over the volume of the cell"};
+    "LeastGasHeat", "J/m^3",
+    "smallest internal energy of gas in a cell, less that of p_inf, over the volume of the cell"};
 }  // namespace total
 
 }  // namespace tushar::mpmice

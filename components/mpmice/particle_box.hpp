@@ -22,8 +22,8 @@ struct ParticleBox {
   double lengthAbove(int axis, int k) const {
     return std::clamp(middle[axis] + 0.5 * edges[axis] - k, 0.0, edges[axis]);
   }
-  /// Weight of the lower face of the cell `k` across an axis: 1 in the middle, falling to 0 if the middle is as far
-  /// away as the box is long, so that boxes side by side cover a face wholly.
+  /// Weight of the lower face of the cell `k` across an axis: 1 at the centre of the box, falling to 0 at a distance of
+  /// its length, so that adjacent boxes fully cover a face.
   double hatAt(int axis, int k) const { return std::max(0.0, 1 - std::abs(k - middle[axis]) / edges[axis]); }
 
   /// The cells that the box may reach into, or whose lower faces have a weight.

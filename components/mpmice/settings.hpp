@@ -50,21 +50,22 @@ struct Settings {
   std::optional<Burning> burning = {};            ///< a body that burns
 };
 
-/// How far limits of free volumes are from shares of a cell that bodies fill where they are aligned with it: round-off
-/// must not decide on which side these are.
+/// The offset of limits of free volumes from round fractions, which occur when bodies are aligned with cells, so that
+/// round-off does not decide on which side of a limit they are.
 inline constexpr double offRoundShares = 1e-9;
 /// Smaller free volumes count as 0.
 inline constexpr double leastFreeVolume = offRoundShares;
-/// From here on a cell is free of bodies.
+/// With at least this free volume a cell is free of bodies.
 inline constexpr double wholeFreeVolume = 1 - offRoundShares;
 /// A cell with a smaller fraction of free volume gives its gas to a neighbour.
 inline constexpr double smallFreeVolume = 0.5 - offRoundShares;
-/// The greatest cfl: with it an open face lets out at most all that a half-full cell holds.
+/// The largest cfl, with which an open face lets out at most the contents of a half-full cell.
 inline constexpr double greatestCfl = 0.5;
 /// A smaller closed hole keeps its contents.
 inline constexpr double narrowFreeVolume = 0.2 - offRoundShares;
 
-/// The share of a cell that its gas fills, from the free volume: it falls to 0 steadily where the cell counts as full.
+/// The fraction of a cell that its gas fills, as a function of the free volume, which falls continuously to 0 where the
+/// cell counts as full.
 inline double roomOf(double free) {
   return free < 2 * leastFreeVolume ? std::max(0.0, 2 * (free - leastFreeVolume)) : free;
 }

@@ -59,8 +59,8 @@ class WallExchange {
     return isUpperSide ? space_.aperture(cell - Index<D>::unit(axis), axis, 1) : space_.aperture(cell, axis, 0);
   }
 
-  /// Adds to the content of a cell what walls at its faces push, and what gas flows in behind walls that move. Returns
-  /// what the gas gives to the walls.
+  /// Adds to the content of a cell the effect of the walls at its faces, and the gas that flows in behind moving walls.
+  /// Returns what the gas gives to the walls.
   Given<D> addTo(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
     Given<D> given;
     fillRoom(cell, held);

@@ -58,10 +58,9 @@ void refuseImbalance(const Level& level, const solvers::Outcome& outcome, double
   if (!(std::abs(outcome.unbalanced) > tolerance * outcome.loads)) return;
   const double excess = -outcome.unbalanced / (static_cast<double>(level.cells().size()) * level.cellVolume());
   throw NumericalError(
-      fmt::format(
-          "Poisson's equation has no solution: no face prescribes Phi, and the integral of the source exceeds that of "
-          "k dphi/dn over the faces by {:.6g}, {:.2g} of the sum of all contributions",
-          -outcome.unbalanced, std::abs(outcome.unbalanced) / outcome.loads),
+      fmt::format("Poisson's equation has no solution: no face prescribes Phi, and the integral of the source exceeds "
+                  "that of k dphi/dn over the faces by {:.6g}, which is {:.2g} of the sum of all contributions",
+                  -outcome.unbalanced, std::abs(outcome.unbalanced) / outcome.loads),
       fmt::format("a <source> that is smaller by {:.15g} everywhere, or a face with a Dirichlet value", excess),
       "c.phi");
 }
@@ -103,7 +102,7 @@ const input::Schema<Settings>& schema() {
           .allOurs()
           .value("coefficient", &Settings::coefficient, input::Expression(1.0), "1", "k", input::WithoutTime(),
                  input::positive())
-          .value("source", &Settings::source, input::Expression(0.0), "1/m^2", "f, at the end of each step")
+          .value("source", &Settings::source, input::Expression(0.0), "1/m^2", "f, evaluated at the end of each step")
           .section("Solver", &Settings::solver, solvers::linearSchema());
   return schema;
 }

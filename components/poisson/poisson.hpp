@@ -14,8 +14,7 @@ namespace boundary {
 inline constexpr BoundaryLabel<double> phi{"Phi"};
 }
 inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "iterations of the linear solve"};
-inline constexpr ReductionLabel<Maximum> finalResidual{"KrylovResidual", "1",
-                                                       "residual at the end over that at the start"};
+inline constexpr ReductionLabel<Maximum> finalResidual{"KrylovResidual", "1", "final residual over the initial one"};
 
 /// The `Poisson` section.
 struct Settings {

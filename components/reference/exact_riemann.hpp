@@ -12,8 +12,8 @@ namespace tushar::reference {
 struct RiemannProblem {
   RiemannState left;               ///< below the diaphragm
   RiemannState right;              ///< above it
-  GasLaw gas;                      ///< of both, or of the left one
-  std::optional<GasLaw> rightGas;  ///< where that is another
+  GasLaw gas;                      ///< the law of both gases, or of the left one
+  std::optional<GasLaw> rightGas;  ///< the law of the right gas, if it differs
   double diaphragm = 0.5;          ///< its position along `axis`, m
   int axis = 0;                    ///< 0, 1 or 2: the normal of the plane
   /// Velocities along the other axes, m/s: carried along with each gas, so that they jump at the contact alone.

@@ -22,10 +22,11 @@ const input::Schema<State>& stateSchema() {
       input::Schema<State>("left", "A uniform gas.")
           .required("density", &State::density, "kg/m^3", "rho", input::nonNegative())
           .required("pressure", &State::pressure, "Pa", "p", input::nonNegative())
-          .value("velocity", &State::velocity, 0, "m/s", "u along the normal")
-          .optional("gamma", &State::gamma, "1", "where the two gases differ", input::greaterThan(1))
+          .value("velocity", &State::velocity, 0, "m/s", "u, along the normal")
+          .optional("gamma", &State::gamma, "1", "its own value, if the two gases differ", input::greaterThan(1))
           .ours()
-          .optional("p_infinity", &State::pInfinity, "Pa", "where the two gases differ", input::nonNegative())
+          .optional("p_infinity", &State::pInfinity, "Pa", "its own value, if the two gases differ",
+                    input::nonNegative())
           .ours();
   return schema;
 }
@@ -44,14 +45,17 @@ const input::Schema<RiemannSection>& riemannSchema() {
           .ours()
           .requiredSection("left", &RiemannSection::left, stateSchema(), "the gas below the diaphragm")
           .ours()
-          .requiredSection("right", &RiemannSection::right, stateSchema(), "the gas above it")
+          .requiredSection("right", &RiemannSection::right, stateSchema(), "the gas above the diaphragm")
           .ours()
-          .value("normal", &RiemannSection::normal, Vec3::UnitX(), "1", "direction of the tube, of any length")
+          .value("normal", &RiemannSection::normal, Vec3::UnitX(), "1",
+                 "direction of the tube; its length does not matter")
           .ours()
-          .value("diaphragm", &RiemannSection::diaphragm, 0.5, "m", "the two meet where normal . x is this at t = 0")
+          .value("diaphragm", &RiemannSection::diaphragm, 0.5, "m",
+                 "the gases meet where normal . x has this value at t = 0")
           .ours()
-          .optional("mirror", &RiemannSection::mirror, "m",
-                    "the tube is mirrored where normal . x is this, and again half a period of the grid further on")
+          .optional(
+              "mirror", &RiemannSection::mirror, "m",
+              "the tube is mirrored where normal . x has this value, and again half a period of the grid further on")
           .ours()
           .check([](const RiemannSection& read, const input::Element& element, input::Diagnostics& diagnostics) {
             if (read.normal.isZero(0)) diagnostics.error(element, "normal is [0,0,0], which is no direction");
@@ -77,7 +81,8 @@ double periodAlong(const Vec3& normal, const grid::Level& level) {
   for (const double length : lengths)
     if (std::abs(std::remainder(length, period)) > 1e-9 * period)
       throw std::invalid_argument(fmt::format(
-          "normal: along it the grid repeats every {:g} m for one axis, but every {:g} m for another", period, length));
+          "normal: in this direction the grid repeats every {:g} m for one axis, but every {:g} m for another", period,
+          length));
   return period;
 }
 

@@ -100,7 +100,7 @@ simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Lev
   return [build = std::move(build), problem, gases, name = tags.name, within = tags.within](
              const Component& component, const Level& level) -> std::unique_ptr<simulation::Analysis> {
     const auto* solution = dynamic_cast<const GasSolution*>(&component);
-    if (!solution) throw problem("measures a gas, but this component does not solve for one; take the module out");
+    if (!solution) throw problem("measures a gas, but this component does not solve for one; remove the module");
     try {
       ReferencePointer exact = build(level);
       for (const GasLaw& gas : gases)

@@ -22,7 +22,7 @@ struct GasErrorLabels {
 /// Particles against the exact values at their positions.
 inline constexpr GasErrorLabels particleError{
     {"ParticleError.density", "kg/m^3", "error of density at the particles"},
-    {"ParticleError.velocity", "m/s", "error of velocity at the particles, as a length"},
+    {"ParticleError.velocity", "m/s", "magnitude of the velocity error at the particles"},
     {"ParticleError.pressure", "Pa", "error of pressure (without artificial viscosity) at the particles"},
     {"ParticleError.energy", "J/kg", "error of internal energy at the particles"}};
 

@@ -6,8 +6,10 @@
 /// Totals of a gas. All gas methods use these labels, so that studies can compare the methods.
 namespace tushar::reference::total {
 
-inline constexpr ReductionLabel<Minimum> leastDensity{"LeastDensity", "kg/m^3", "least density in the gas"};
-inline constexpr ReductionLabel<Minimum> leastEnergy{"LeastInternalEnergy", "J/kg", "least internal energy in the gas"};
-inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg", "entropy of the gas over c_v, up to a constant"};
+inline constexpr ReductionLabel<Minimum> leastDensity{"LeastDensity", "kg/m^3", "smallest density in the gas"};
+inline constexpr ReductionLabel<Minimum> leastEnergy{"LeastInternalEnergy", "J/kg",
+                                                     "smallest internal energy in the gas"};
+inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg",
+                                             "entropy of the gas divided by c_v, up to a constant"};
 
 }  // namespace tushar::reference::total

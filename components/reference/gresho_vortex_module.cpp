@@ -11,15 +11,17 @@ struct GreshoSection : VortexTags {
 };
 const input::Schema<GreshoSection>& greshoSchema() {
   static const input::Schema<GreshoSection> schema =
-      vortexSchema<GreshoSection>("gresho", "Errors against the vortex of Gresho: two rings, at rest or carried along.")
+      vortexSchema<GreshoSection>("gresho",
+                                  "Errors against the Gresho vortex, at rest or carried along by a uniform flow.")
           .value("density", &GreshoSection::density, 1, "kg/m^3", "density everywhere", input::positive())
           .ours()
-          .value("pressure", &GreshoSection::pressure, 5, "Pa", "pressure in the middle", input::positive())
+          .value("pressure", &GreshoSection::pressure, 5, "Pa", "pressure at the centre", input::positive())
           .ours()
-          .value("speed", &GreshoSection::speed, 1, "m/s", "the greatest speed around the centre")
+          .value("speed", &GreshoSection::speed, 1, "m/s", "largest speed around the centre")
           .ours()
           .value("radius", &GreshoSection::radius, 0.2, "m",
-                 "where that speed is reached; beyond twice that radius the gas does not rotate", input::positive())
+                 "radius at which that speed is reached; beyond twice that radius the gas does not rotate",
+                 input::positive())
           .ours();
   return schema;
 }
@@ -27,7 +29,7 @@ const input::Schema<GreshoSection>& greshoSchema() {
 }  // namespace
 
 simulation::AnalysisKind greshoKind() {
-  return gasModule("gresho", "errors against the vortex of Gresho", greshoSchema,
+  return gasModule("gresho", "errors against the Gresho vortex", greshoSchema,
                    [](const GreshoSection& read, const grid::Level& level) {
                      auto problem = vortexProblem<GreshoProblem>(read, level);
                      problem.speed = read.speed;

@@ -13,7 +13,7 @@ IsentropicVortex::IsentropicVortex(const IsentropicVortexProblem& problem)
   const double limit = 2 * M_PI * std::sqrt(2 * problem.gamma * temperature_ / ((problem.gamma - 1) * M_E));
   if (!(std::abs(problem.strength) < limit))
     throw std::invalid_argument(
-        fmt::format("A vortex of strength {:g} m/s leaves no gas in its middle; the strength must be below {:g} m/s.",
+        fmt::format("A vortex of strength {:g} m/s leaves no gas at its centre; the strength must be below {:g} m/s.",
                     problem.strength, limit));
 }
 

@@ -17,10 +17,9 @@ const input::Schema<VortexSection>& isentropicSchema() {
           .ours()
           .value("pressure", &VortexSection::pressure, 1, "Pa", "pressure far away", input::positive())
           .ours()
-          .value("strength", &VortexSection::strength, 5, "m/s",
-                 "beta: 2 pi times the greatest speed around the centre")
+          .value("strength", &VortexSection::strength, 5, "m/s", "beta: 2 pi times the largest speed around the centre")
           .ours()
-          .value("radius", &VortexSection::radius, 1, "m", "where that speed is reached", input::positive())
+          .value("radius", &VortexSection::radius, 1, "m", "radius at which that speed is reached", input::positive())
           .ours();
   return schema;
 }

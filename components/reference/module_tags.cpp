@@ -9,10 +9,10 @@ namespace tushar::reference {
 const input::Schema<Region>& regionSchema() {
   static const input::Schema<Region> schema =
       input::Schema<Region>("within",
-                            "Errors are measured only in this box: of cells by their centre, of particles and nodes by "
-                            "their position. The whole grid if not given.")
-          .required("min", &Region::lower, "m", "its lower corner")
-          .required("max", &Region::upper, "m", "its upper corner")
+                            "Errors are measured only in this box, which by default is the whole grid: in cells whose "
+                            "centre is inside, and at particles and nodes inside.")
+          .required("min", &Region::lower, "m", "lower corner")
+          .required("max", &Region::upper, "m", "upper corner")
           .check([](const Region& region, const input::Element& element, input::Diagnostics& diagnostics) {
             for (int axis = 0; axis < 3; ++axis)
               if (region.upper[axis] < region.lower[axis])

@@ -46,9 +46,10 @@ struct VortexTags : GasTags {
 template <class S>
 input::Schema<S> vortexSchema(const std::string& name, std::string_view sentence) {
   return gasSchema<S>(name, sentence)
-      .required("centre", memberOf<S>(&VortexTags::centre), "m", "where the vortex is at t = 0")
+      .required("centre", memberOf<S>(&VortexTags::centre), "m", "centre of the vortex at t = 0")
       .ours()
-      .value("velocity", memberOf<S>(&VortexTags::velocity), Vec3::Zero(), "m/s", "of the flow that carries it along")
+      .value("velocity", memberOf<S>(&VortexTags::velocity), Vec3::Zero(), "m/s",
+             "velocity of the flow that carries the vortex along")
       .ours()
       .template choice<int>("axis", memberOf<S>(&VortexTags::axis), {{"x", 0}, {"y", 1}, {"z", 2}}, 2,
                             "the axis of rotation")

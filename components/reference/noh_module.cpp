@@ -12,10 +12,10 @@ struct NohSection : RadialTags {
 const input::Schema<NohSection>& nohSchema() {
   static const input::Schema<NohSection> schema =
       radialSchema<NohSection>("noh",
-                               "Errors against Noh's problem: cold gas falls into a plane, a line or a point, "
-                               "as the grid has 1, 2 or 3 dimensions.",
-                               "where the gas converges", 5.0 / 3)
-          .value("speed", &NohSection::speed, 1, "m/s", "of the gas towards the centre", input::positive())
+                               "Errors against Noh's problem: cold gas converges on a plane, a line or a point, if the "
+                               "grid has 1, 2 or 3 dimensions.",
+                               "point towards which the gas moves", 5.0 / 3)
+          .value("speed", &NohSection::speed, 1, "m/s", "speed of the gas towards the centre", input::positive())
           .ours();
   return schema;
 }
@@ -23,7 +23,7 @@ const input::Schema<NohSection>& nohSchema() {
 }  // namespace
 
 simulation::AnalysisKind nohKind() {
-  return gasModule("noh", "errors against Noh's problem: cold gas that falls into a point", nohSchema,
+  return gasModule("noh", "errors against Noh's problem: cold gas that converges on a point", nohSchema,
                    [](const NohSection& read, const grid::Level& level) {
                      return std::make_shared<Noh>(
                          NohProblem{read.density, read.speed, read.pressure, read.gamma, read.centre, axesOf(level)});

@@ -12,11 +12,11 @@ RadialReference::RadialReference(const Vec3& centre, const Vec3& round) : centre
   const bool known = ((round.array() == 0) || (round.array() == 1)).all();
   if (!known || round.sum() == 0)
     throw std::invalid_argument(
-        fmt::format("The axes of a round flow are 0 or 1, not [{}, {}, {}].", round[0], round[1], round[2]));
+        fmt::format("The axes of a radial flow are 0 or 1, not [{}, {}, {}].", round[0], round[1], round[2]));
 }
 
 GasState RadialReference::at(const Vec3& x, double t) const {
-  if (!(t >= 0)) throw std::invalid_argument(fmt::format("A flow that begins at t = 0 has no t = {}.", t));
+  if (!(t >= 0)) throw std::invalid_argument(fmt::format("A flow that begins at t = 0 has no solution at t = {}.", t));
   const Vec3 away = (x - centre_).cwiseProduct(round_);
   const double r = away.norm();
   const RadialState state = atRadius(r, t);

@@ -251,7 +251,8 @@ RiemannSolution solveRiemann(const RiemannState& left, const RiemannState& right
   const bool vacuum = left.density == 0 || right.density == 0 || leftSide.front() <= -rightSide.front();
   if (vacuum && (leftGas.gamma != rightGas.gamma || leftGas.stiffness > 0 || rightGas.stiffness > 0))
     throw std::invalid_argument(
-        "The two gases separate and leave vacuum between them: there is no solution for that here.");
+        "The two gases separate and leave a vacuum between them: a solution exists here only if both have the same "
+        "gamma and no stiffness.");
   vacuum ? fillVacuum(solution, leftSide, rightSide) : fillStar(solution, leftSide, rightSide);
   return solution;
 }

@@ -10,7 +10,7 @@ namespace tushar::reference {
 
 namespace {
 
-/// The table ends where gamma w - 1 has fallen by about exp(-kDepth): the density there is next to nothing.
+/// The table ends where gamma w - 1 has fallen by a factor of about exp(-kDepth), where the density is negligible.
 constexpr double kDepth = 60;
 constexpr int kSteps = 16000;
 
@@ -19,8 +19,9 @@ constexpr int kSteps = 16000;
 Sedov::Sedov(const SedovProblem& problem) : RadialReference(problem.centre, problem.round), problem_(problem) {
   requireRadialFlow("A blast", problem.density, "energy", problem.energy, problem.pressure, problem.gamma);
   if (dimension() == 3 && problem.gamma >= 7)
-    throw std::invalid_argument(fmt::format(
-        "A blast in three dimensions leaves a void in its middle for gamma of 7 and more, such as {}.", problem.gamma));
+    throw std::invalid_argument(
+        fmt::format("A blast in three dimensions leaves a void at its centre if gamma is 7 or more, but gamma is {}.",
+                    problem.gamma));
   tabulate();
   alpha_ = findAlpha();
 }
@@ -52,7 +53,7 @@ void Sedov::tabulate() {
   }
 }
 
-/// Cubic between nodes; inwards of the last one as there.
+/// Cubic interpolation between nodes; constant inside the last one.
 Sedov::Shape Sedov::shapeAt(double logLambda) const {
   const double place = std::min(logLambda / step_, static_cast<double>(kSteps));
   const auto k = std::min(static_cast<std::size_t>(place), nodes_.size() - 2);

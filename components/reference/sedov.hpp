@@ -6,14 +6,14 @@
 
 namespace tushar::reference {
 
-/// Energy set free at once in a plane, along a line or at a point of a uniform gas at rest.
+/// Energy released instantaneously in a plane, along a line or at a point of a uniform gas at rest.
 struct SedovProblem {
-  double density = 1;   ///< of the gas at rest, kg/m^3
-  double pressure = 0;  ///< of it, Pa; without effect on the blast, so it must be next to nothing
-  double energy = 1;    ///< in the whole of space: J/m² of a plane (both sides of it), J/m of a line, J of a point
+  double density = 1;   ///< density of the gas at rest, kg/m^3
+  double pressure = 0;  ///< pressure of the gas, Pa; it has no effect on the blast, so it must be negligible
+  double energy = 1;    ///< energy in all space: J/m² of a plane (both sides of it), J/m of a line, J of a point
   double gamma = 1.4;   ///< ratio of specific heats
   Vec3 centre = Vec3::Zero();  ///< m
-  Vec3 round = Vec3(1, 1, 1);  ///< 1 along the axes that the distance from the centre is taken in: 1, 2 or 3 of them
+  Vec3 round = Vec3(1, 1, 1);  ///< 1 along the 1, 2 or 3 axes of the distance from the centre
 };
 
 /// The self-similar blast wave of Sedov, Taylor and von Neumann in d = 1, 2 or 3 dimensions.

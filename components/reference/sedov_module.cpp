@@ -12,14 +12,13 @@ struct SedovSection : RadialTags {
 const input::Schema<SedovSection>& sedovSchema() {
   static const input::Schema<SedovSection> schema =
       radialSchema<SedovSection>("sedov",
-                                 "Errors against the self-similar blast wave of Sedov from a plane, a line or a point, "
-                                 "as the grid has 1, 2 or 3 dimensions. Internal energy is a mean by mass.",
-                                 "where the energy is set free")
-          .required(
-              "energy", &SedovSection::energy, "J, J/m or J/m^2",
-              "set free in the whole of space, whatever part of it the grid holds; per metre of a line, per square "
-              "metre of a plane",
-              input::positive())
+                                 "Errors against Sedov's self-similar blast wave from a plane, a line or a point, if "
+                                 "the grid has 1, 2 or 3 dimensions. Internal energy is a mass-weighted mean.",
+                                 "point at which the energy is released")
+          .required("energy", &SedovSection::energy, "J, J/m or J/m^2",
+                    "energy released in all space, even if the grid covers only a part; per metre of a line, per "
+                    "square metre of a plane",
+                    input::positive())
           .ours();
   return schema;
 }
@@ -27,7 +26,7 @@ const input::Schema<SedovSection>& sedovSchema() {
 }  // namespace
 
 simulation::AnalysisKind sedovKind() {
-  return gasModule("sedov", "errors against the self-similar blast wave of Sedov", sedovSchema,
+  return gasModule("sedov", "errors against Sedov's self-similar blast wave", sedovSchema,
                    [](const SedovSection& read, const grid::Level& level) {
                      return std::make_shared<Sedov>(SedovProblem{read.density, read.pressure, read.energy, read.gamma,
                                                                  read.centre, axesOf(level)});

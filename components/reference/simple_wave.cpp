@@ -138,7 +138,7 @@ GasState SimpleWave::at(const Vec3& x, double t) const {
   return stateOf(problem_.velocity(foot(x[problem_.axis], t)));
 }
 
-/// Where the velocity is `u`.
+/// The state where the velocity is `u`.
 GasState SimpleWave::stateOf(double u) const {
   const double gamma = problem_.gamma;
   const double c0 = problem_.soundSpeed;

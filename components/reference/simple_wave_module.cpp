@@ -13,16 +13,16 @@ struct WaveSection : GasTags {
 };
 const input::Schema<WaveSection>& waveSchema() {
   static const input::Schema<WaveSection> schema =
-      gasSchema<WaveSection>("simpleWave", "Errors against a simple wave that runs to the right into gas at rest.")
+      gasSchema<WaveSection>("simpleWave", "Errors against a simple wave that moves towards +x into gas at rest.")
           .required("velocity", &WaveSection::velocity, "m/s", "velocity at t = 0, a formula in x")
           .ours()
           .value("density", &WaveSection::density, 1, "kg/m^3", "density at rest", input::positive())
           .ours()
           .value("sound_speed", &WaveSection::soundSpeed, 1, "m/s", "speed of sound at rest", input::positive())
           .ours()
-          .value("lower", &WaveSection::lower, 0, "m", "where the profile begins")
+          .value("lower", &WaveSection::lower, 0, "m", "position at which the profile begins")
           .ours()
-          .value("upper", &WaveSection::upper, 1, "m", "where the profile ends")
+          .value("upper", &WaveSection::upper, 1, "m", "position at which the profile ends")
           .ours();
   return schema;
 }
@@ -30,7 +30,7 @@ const input::Schema<WaveSection>& waveSchema() {
 }  // namespace
 
 simulation::AnalysisKind simpleWaveKind() {
-  return gasModule("simpleWave", "errors against a right-running simple wave", waveSchema,
+  return gasModule("simpleWave", "errors against a simple wave that moves towards +x", waveSchema,
                    [](const WaveSection& read, const grid::Level& level) {
                      if (axesOf(level)[0] == 0)
                        throw std::invalid_argument("the wave runs along x, but this grid has no x");

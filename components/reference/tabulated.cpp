@@ -41,7 +41,7 @@ GasTable readGasTable(const std::filesystem::path& path, double gamma) {
   const output::Hdf5Input file(path);
   if (file.has("grid/boxes"))
     throw FileError(
-        fmt::format("'{}' holds boxes of several levels: tools/coarsen makes a table of it", path.string()));
+        fmt::format("'{}' contains boxes of several levels: tools/coarsen turns it into a table", path.string()));
   GasTable table;
   table.time = file.real("/", "time");
   table.cells = file.index("grid", "cells");
@@ -98,7 +98,7 @@ std::vector<Tabulated::Share> Tabulated::overlaps(int axis, double lower, double
   for (int cell = static_cast<int>(from); cell < to; ++cell)
     if (const double part = std::min(to, cell + 1.0) - std::max(from, static_cast<double>(cell)); part > 0)
       shares.push_back({cell, part / (to - from)});
-  if (shares.empty()) throw std::invalid_argument("No mean over a box beyond the table.");
+  if (shares.empty()) throw std::invalid_argument("There is no mean over a box outside the table.");
   return shares;
 }
 

@@ -27,8 +27,8 @@ class Tabulated : public GasReference {
   /// Throws std::invalid_argument where the table has no cells, no extent or another number of means than cells.
   explicit Tabulated(GasTable table);
 
-  /// Linear between the middles of cells, which smears shocks over two of them. Throws std::domain_error at another
-  /// time.
+  /// Linear interpolation between the centres of cells, which smears shocks over two of them. Throws std::domain_error
+  /// at another time.
   GasState at(const Vec3& x, double t) const override;
   bool holdsAt(double t) const override;
   bool covers(const Vec3& x, double t) const override;

@@ -15,12 +15,11 @@ struct TableSection : GasTags {
 const input::Schema<TableSection>& tableSchema() {
   static const input::Schema<TableSection> schema =
       gasSchema<TableSection>("tabulated",
-                              "Errors against the cells of another run, of higher resolution, at the time and in "
-                              "the box of its output. Internal energy is a mean by mass.")
-          .required(
-              "file", &TableSection::file, "1",
-              "an output (.h5) with c.density, c.velocity and c.pressure, or what tools/coarsen made of it; relative "
-              "to the scene")
+                              "Errors against the cells of another run, with higher resolution, at the time and in the "
+                              "box of its output. Internal energy is a mass-weighted mean.")
+          .required("file", &TableSection::file, "1",
+                    "an output (.h5) with c.density, c.velocity and c.pressure, or a table that tools/coarsen made "
+                    "from one; path relative to the scene")
           .ours();
   return schema;
 }

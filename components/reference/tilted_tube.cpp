@@ -21,7 +21,8 @@ void TiltedTube::checkMirrors() const {
   if (!placement_.mirror) {
     if (placement_.period > 0)
       throw std::invalid_argument(
-          "The grid repeats along the tube, whose ends differ; a <mirror> makes one end meet its image.");
+          "The grid is periodic along the tube, but the ends of the tube differ; with a <mirror>, each end meets its "
+          "own image.");
     return;
   }
   const double distance = std::abs(problem_.diaphragm - *placement_.mirror), half = 0.5 * placement_.period;

@@ -7,7 +7,7 @@
 
 namespace tushar::reference {
 
-/// How a tube lies in space.
+/// The placement of a tube in space.
 struct TubePlacement {
   Vec3 normal = Vec3::UnitX();   ///< along the tube; a unit vector
   std::optional<double> mirror;  ///< distance from the origin along the tube of a plane that it is mirrored at, m

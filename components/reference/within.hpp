@@ -11,7 +11,7 @@ struct Region {
   Vec3 lower, upper;
 };
 
-/// A reference that covers no more than a region: the same fields, but errors are measured there alone.
+/// A reference restricted to a region: the same fields, but errors are measured only there.
 class Within : public GasReference {
  public:
   Within(std::shared_ptr<const GasReference> gas, const Region& region) : gas_(std::move(gas)), region_(region) {}

@@ -16,14 +16,14 @@ enum class ExitCode : int {
   badCommandLine = 2,  ///< an unknown option
   badInput = 3,        ///< the scene cannot be run as it is written
   numerical = 4,       ///< a value became non-finite or unphysical during the run
-  interrupted = 5,     ///< ended early by Ctrl-C or SIGTERM, after writing its output
+  interrupted = 5,     ///< ended early by Ctrl-C or SIGTERM, with its output written
 };
 
 /// A place in a scene file, or the option on the command line that overrides it.
 struct Location {
   std::string file;  ///< as the user named it; `--set PATH=VALUE` for an override
   int line = 0;      ///< from 1; 0 if there is no line
-  int column = 0;    ///< from 1, in bytes
+  int column = 0;    ///< counted in bytes, from 1
 
   /// Whether it is an option on the command line.
   bool isOption() const { return line == 0 && !file.empty(); }
@@ -31,8 +31,8 @@ struct Location {
   std::string text() const;
 };
 
-/// Where to report a mistake in the combination of several `parts` of a tag: the option that overrides one of them,
-/// else `tag`.
+/// The place at which to report an invalid combination of several `parts` of a tag: the option that overrides one of
+/// them, otherwise `tag`.
 const Location& placeOf(std::initializer_list<const Location*> parts, const Location& tag);
 const Location& placeOf(std::initializer_list<const Location*> parts, const Location&& tag) = delete;  // would dangle
 
@@ -83,7 +83,7 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// ` (did you mean 'x'?)` for the candidate nearest to `word` if one is near enough, else nothing.
+/// ` (did you mean 'x'?)` for the candidate nearest to `word` if one is near enough, otherwise nothing.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
 
 /// `'a', 'b' or 'c'`.

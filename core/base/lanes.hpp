@@ -14,8 +14,8 @@
 
 namespace tushar {
 
-/// As many numbers as the processor's vector registers hold. An operation acts on each of them as it does on a number
-/// alone, to the same bits, so that results do not depend on which numbers share a register.
+/// As many numbers as one vector register of the processor holds. An operation acts on each of them as it does on a
+/// number alone, to the same bits, so that results do not depend on which numbers share a register.
 class Lanes {
  public:
 #if defined(__AVX512F__)
@@ -82,7 +82,7 @@ class Lanes {
     return sum;
   }
   friend Mask isNaN(Lanes a) { return a.values_ != a.values_; }
-  /// Swaps, between two rows of a matrix that lie `step` apart, what its transposition swaps at that distance.
+  /// One step of a transposition: swaps the elements of two rows that lie `step` columns apart.
   template <int step>
   [[gnu::always_inline]] friend void swapBlocks(Lanes& upper, Lanes& lower) {
     upper.template swapWith<step>(lower, std::make_integer_sequence<int, count>());
@@ -99,7 +99,7 @@ class Lanes {
     return __builtin_shufflevector(low, high, (Start + Lane)...);
   }
 
-  /// Puts into `sum`, which holds what was in the registers before, what component Which has in register Next or later.
+  /// Puts component Which of register Next and of later ones into `sum`, which holds that of the registers before.
   template <int numbers, int Which, int Next, int... Lane>
   [[gnu::always_inline]] static void takeRegisters(Register& sum, const double* from,
                                                    std::integer_sequence<int, Lane...> lanes) {
@@ -112,7 +112,7 @@ class Lanes {
       takeRegisters<numbers, Which, Next + 1>(sum, from, lanes);
     }
   }
-  /// Puts into `sum` what register Which has of component Next or later.
+  /// Puts component Next and later ones of register Which into `sum`.
   template <int Which, int Next, std::size_t numbers, int... Lane>
   [[gnu::always_inline]] static void takeComponents(Register& sum, const std::array<Lanes, numbers>& of,
                                                     std::integer_sequence<int, Lane...> lanes) {
@@ -262,7 +262,7 @@ inline bool all(Lanes::Mask mask) {
   return all(mask, Lanes::count);
 #endif
 }
-/// The greatest of all lanes.
+/// The largest number in any lane.
 inline double greatest(Lanes x) {
   constexpr int half = Lanes::count / 2;
   std::array<double, half> most;

@@ -9,10 +9,10 @@ int launchedRanks();
 /// The number of this process among them, from 0; 0 without a launcher.
 int launchedRank();
 
-/// How many of them are on this machine.
+/// How many of these processes are on this machine.
 int ranksOnThisMachine();
 
-/// Cores that the launcher gave to each process; the greatest int if that is unknown.
+/// Number of cores that the launcher gave to each process; the largest int if it is unknown.
 int launchedCoresPerRank();
 
 }  // namespace tushar

@@ -6,10 +6,11 @@
 
 namespace tushar {
 
-/// Merges two values as they lie in memory, aligned or not: `into.merge(from)`.
+/// Merges two values given by their bytes, aligned or not: `into.merge(from)`.
 template <class T>
 void mergeInMemory(const std::byte* from, std::byte* into) {
-  static_assert(std::is_trivially_copyable_v<T>, "such as messages and checkpoints keep");
+  static_assert(std::is_trivially_copyable_v<T>,
+                "only values that can be copied bytewise can be merged in messages and checkpoints");
   T one, other;
   std::memcpy(&one, into, sizeof(T));
   std::memcpy(&other, from, sizeof(T));

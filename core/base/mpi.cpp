@@ -16,7 +16,7 @@ namespace {
 // MPI counts in int: messages go in words, so that one may hold 16 GB.
 constexpr std::size_t wordBytes = sizeof(std::uint64_t);
 
-/// A message of whole words: the number of bytes, then these.
+/// A message of whole words: the number of bytes, followed by the bytes.
 Bytes sealed(Bytes bytes) {
   const std::uint64_t length = bytes.size();
   bytes.resize((bytes.size() + wordBytes - 1) / wordBytes * wordBytes + wordBytes);
@@ -33,7 +33,7 @@ Bytes opened(Bytes words) {
 
 int wordsOf(const Bytes& words) { return static_cast<int>(words.size() / wordBytes); }
 
-/// The merge function for the operation below, to which MPI passes no data of ours.
+/// The merge function for the operation below; global, because MPI cannot pass it on.
 const std::function<void(const std::byte*, std::byte*)>* merging = nullptr;
 
 /// MPI requires inout = in ∘ inout, in the order of the ranks.

@@ -26,10 +26,10 @@ inline void append(Bytes& bytes, const void* from, std::size_t length) {
   bytes.insert(bytes.end(), first, first + length);
 }
 
-/// Name and version of the MPI library in use; MPI need not be initialised.
+/// Name and version of the MPI library; MPI need not be initialised.
 std::string libraryVersion();
 
-/// Thrown where another rank has failed; that rank reports why.
+/// Thrown on a rank because another one has failed, which reports the cause.
 class FailedElsewhere : public std::runtime_error {
  public:
   FailedElsewhere() : std::runtime_error("another rank has failed") {}
@@ -56,10 +56,10 @@ class Communicator {
 
   bool any(bool mine) const;
   double max(double mine) const;
-  /// The maximum of each over all ranks.
+  /// Replaces each number by its maximum over all ranks.
   void max(std::span<double> mine) const;
   long sum(long mine) const;
-  /// The sum of each over all ranks; bitwise the same on all ranks if they are whole numbers.
+  /// Replaces each number by its sum over all ranks; whole numbers have bitwise the same sum on all ranks.
   void sum(std::span<double> mine) const;
   /// Merges the values of all ranks by `merge(from, into)`, in a tree that depends only on the number of ranks. Every
   /// rank gets the same bits.
@@ -75,7 +75,8 @@ class Communicator {
   /// The value of rank `from`, on every rank; it holds no pointers.
   template <class T>
   T broadcast(T value, int from = 0) const {
-    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>, "another rank has no use for addresses");
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>,
+                  "a value that contains pointers has no meaning on another rank");
     Bytes bytes(sizeof(T));
     std::memcpy(bytes.data(), &value, sizeof(T));
     bytes = broadcast(std::move(bytes), from);
@@ -85,7 +86,7 @@ class Communicator {
   std::string broadcast(const std::string& text, int from = 0) const;
   /// The texts of all ranks, by rank, on every rank. Slow: for errors.
   std::vector<std::string> gather(const std::string& mine) const;
-  /// Runs a function on rank 0 alone: throws what it throws there, and FailedElsewhere on the others.
+  /// Runs a function on rank 0 only. If it throws, its exception passes on there, and the others throw FailedElsewhere.
   void onFirst(const std::function<void()>& action) const;
 
   /// Waits for the next message of rank `from` with this tag.
@@ -112,7 +113,7 @@ class Outbox {
 
   /// Returns at once.
   void send(int to, Tag tag, Bytes bytes);
-  /// Waits until all are sent; later messages reuse their memory.
+  /// Waits until all messages are sent; later messages reuse their memory.
   void wait();
   /// An empty buffer, in the memory of an earlier message if there is one.
   Bytes buffer();
@@ -138,7 +139,7 @@ class Session {
 
   const Communicator& ranks() const { return ranks_; }
 
-  /// Called by a rank that cannot continue, for whatever reason; `isKnown` if it has an error message of its own. If
+  /// To be called by a rank that cannot continue, for whatever reason; `isKnown` if it has its own error message. If
   /// all ranks call this within some seconds, all can end in order: returns true on the first rank with a message,
   /// which must print it, and all get its exit code. Otherwise this rank must report its own error and stop the others
   /// by `abort`; the ranks do so in order, so that if several fail at the same time, one reports.

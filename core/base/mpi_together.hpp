@@ -12,21 +12,21 @@ namespace tushar::mpi {
 
 // Collective operations: all ranks call these, in the same order; a single rank needs no MPI for them.
 
-/// Each rank runs its own action. Rethrows its exception; throws FailedElsewhere if it succeeds here but fails on
-/// another rank.
+/// Runs an action on each rank. If it fails on any rank, all ranks throw: its exception where it failed,
+/// FailedElsewhere on the others.
 void together(const Communicator& ranks, const std::function<void()>& action);
 
 /// Whether all ranks call this within `patience`. If not, the run is about to end, and `ranks` must not be used any
 /// more.
 bool meet(const Communicator& ranks, std::chrono::milliseconds patience);
 
-/// The sum of the values that all ranks have for this one: `of[r]` is for rank r.
+/// The sum of the values that all ranks have for this rank: `of[r]` is for rank r.
 int sumForMe(const Communicator& ranks, std::span<const int> of);
 
 /// The sum over the ranks before this one.
 std::uint64_t sumBefore(const Communicator& ranks, std::uint64_t mine);
 
-/// The numbers of all ranks, one rank after the other, on every rank.
+/// The numbers of all ranks, in the order of the ranks, on every rank.
 std::vector<std::uint64_t> allOf(const Communicator& ranks, std::span<const std::uint64_t> mine);
 
 /// The first rank of each node, ascending, on every rank.
@@ -38,8 +38,8 @@ struct Letter {
   Bytes bytes;
 };
 
-/// Delivers messages, at most one from a rank to another, none to itself. `take(from, bytes)` gets those for this rank,
-/// in any order. `outbox` keeps the messages until they are sent.
+/// Delivers messages: at most one from each rank to each other rank. `take(from, bytes)` gets those for this rank, in
+/// any order. `outbox` keeps the messages until they are sent.
 void exchange(const Communicator& ranks, Outbox& outbox, std::vector<Letter> letters,
               const std::function<void(int from, const Bytes& bytes)>& take);
 

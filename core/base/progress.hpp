@@ -7,7 +7,7 @@
 namespace tushar {
 
 /// Shows the progress of a run: a line for each output and, on a terminal, a live line that is drawn over; elsewhere,
-/// as in the log of a batch job, a line a minute of wall time.
+/// as in the log of a batch job, one line per minute of wall time.
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;

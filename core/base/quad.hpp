@@ -8,7 +8,7 @@
 
 namespace tushar {
 
-/// Four numbers in one vector register, or in two if registers hold two numbers.
+/// Four numbers in one vector register, or in two that hold two numbers each.
 using Quad = double __attribute__((vector_size(32)));
 using QuadOfIntegers = int __attribute__((vector_size(16)));
 

@@ -15,7 +15,7 @@ int allowedThreads();
 /// The version of TBB in use.
 std::string tbbVersion();
 
-/// A fixed number of threads, the caller's among them, that work through loops.
+/// A fixed number of threads, including the caller's, that work through loops.
 class Threads {
  public:
   explicit Threads(int count = 1);
@@ -46,12 +46,12 @@ class Threads {
 
   /// Time that the loops have taken so far, s.
   struct Use {
-    double task = 0, message = 0;  ///< of all threads together, by the kind of the loops
-    double loops = 0;              ///< from the start of each loop to its end
+    double task = 0, message = 0;  ///< time of all threads together, by the kind of loop
+    double loops = 0;              ///< time from the start of each loop to its end
   };
   const Use& use() const { return use_; }
 
-  /// Makes loops on a single thread read no clock: their caller, who reads it anyway, counts their time.
+  /// If true, loops on a single thread do not read the clock: their caller counts the time.
   void countOutside(bool outside) { counted_outside_ = outside && !pool_; }
   bool isCountedOutside() const { return counted_outside_; }
   /// Counts the time [s] of loops that did not read the clock.
@@ -71,7 +71,7 @@ class Threads {
   int count_ = 1;
   bool counted_outside_ = false;
   Use use_;
-  std::unique_ptr<Pool> pool_;  ///< none for one thread
+  std::unique_ptr<Pool> pool_;  ///< null for one thread
 };
 
 }  // namespace tushar

@@ -20,7 +20,7 @@ struct Event {
 };
 using Events = std::vector<Event>;
 
-/// The first spans of a thread are kept, up to this number, which viewers can still show.
+/// The largest number of spans that are kept per thread, the first ones: as many as viewers can show.
 constexpr std::size_t mostEvents = 2000000;
 
 std::atomic<bool> on = false;
@@ -37,13 +37,13 @@ Events& eventsOfThisThread() {
   return *mine;
 }
 
-/// Outer spans before those within them.
+/// Sorts by start, with outer spans before those that they contain.
 void sortByNesting(Events& events) {
   std::sort(events.begin(), events.end(),
             [](const Event& a, const Event& b) { return a.from != b.from ? a.from < b.from : a.to > b.to; });
 }
 
-/// The time between the outermost spans.
+/// The gaps between the outermost spans.
 Events gapsOf(const Events& sorted) {
   Events gaps;
   for (Clock::time_point end{}; const Event& event : sorted) {

@@ -41,9 +41,9 @@ class Span {
   Clock::time_point from_;
 };
 
-/// What all threads of this rank recorded, as the events of Chrome's trace format (ph X: name, category, start and
-/// length in microseconds; pid is the rank, tid the thread), one after another with commas in between. Time between two
-/// spans in which a thread but the first had nothing to do is a wait. Not while threads record.
+/// The recorded spans of all threads of this rank, as events in Chrome's trace format (ph X: name, category, start and
+/// length in microseconds; pid is the rank, tid the thread), separated by commas. Time between two spans in which a
+/// thread but the first had nothing to do is a wait. Not while threads record.
 std::string events(int rank);
 
 /// A file in that format from the events of all ranks.

@@ -16,7 +16,7 @@ using Vec = Eigen::Matrix<double, D, 1, Eigen::DontAlign>;
 /// A vector as scenes write it, [x,y,z]; axes that a scene leaves out are dropped with Level::reduce.
 using Vec3 = Vec<3>;
 
-/// Euclidean length; in one dimension without the root.
+/// Euclidean length; in one dimension computed without a square root.
 template <int D>
 double length(const Vec<D>& v) {
   if constexpr (D == 1)
@@ -32,7 +32,7 @@ struct Index {
 
   constexpr int& operator[](int axis) { return at[axis]; }
   constexpr int operator[](int axis) const { return at[axis]; }
-  /// Component by component, as the comparison of arrays calls memcmp.
+  /// Compares component by component, as the comparison of arrays would call memcmp.
   friend constexpr bool operator==(const Index& a, const Index& b) {
     bool same = true;
     for (int d = 0; d < D; ++d) same &= a[d] == b[d];
@@ -57,7 +57,7 @@ struct Index {
     index.at.fill(value);
     return index;
   }
-  /// One along `axis`, zero along the others.
+  /// The index that is 1 along `axis` and 0 along the others.
   static constexpr Index unit(int axis) {
     Index index;
     index[axis] = 1;
@@ -67,7 +67,7 @@ struct Index {
 
 using Index3 = Index<3>;
 
-/// Names a particle for its whole life; new particles derive theirs from their parents'.
+/// Identifies a particle for its whole life; the ids of new particles derive from those of their parents.
 using ParticleId = std::uint64_t;
 
 }  // namespace tushar

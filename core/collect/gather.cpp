@@ -34,7 +34,7 @@ GridOrder orderOf(const Label& label, const grid::Grid& grid) {
   return collect::orderOf(grid, label.centring == Centring::node);
 }
 
-/// The cells of several levels in a window.
+/// The order of the cells of several levels in a window.
 GridOrder orderIn(const grid::Grid& grid, const Window& window) {
   std::vector<Box> boxes{window.cells};
   boxes.insert(boxes.end(), window.finer.begin(), window.finer.end());

@@ -31,12 +31,12 @@ class Gather {
  public:
   explicit Gather(data::Warehouse& warehouse) : warehouse_(&warehouse) {}
 
-  /// The values of a variable of a generation, in memory; none if it is not held. For one rank on its own.
+  /// The values of a variable of a generation, copied; none if the variable has none. For one rank on its own.
   output::Array array(data::Generation generation, int variable);
-  /// The values of a variable without a copy; each rank has its own: they stay where they are, and are valid until the
-  /// state changes. None if no rank holds it.
+  /// The values of a variable without a copy: those of each rank stay in place, and are valid until the state changes.
+  /// None if no rank has any.
   output::Array stream(data::Generation generation, int variable);
-  /// The values in the given order, without a copy.
+  /// The same in a given order.
   output::Array stream(data::Generation generation, int variable, const GridOrder& order);
   /// The values of a variable of cells or nodes in a layer, without a copy; no other part is read.
   output::Array stream(data::Generation generation, int variable, const Layer& layer);
@@ -55,7 +55,7 @@ class Gather {
   std::map<int, Places> places_;  ///< by material
 };
 
-/// The geometry of the grid as the archive keeps it.
+/// The geometry of the grid, in the form for the archive.
 output::GridInfo gridInfo(const grid::Grid& grid);
 output::GridInfo gridInfo(const grid::Level& level);
 /// The geometry of a layer: the axis across it has one cell and is not in use.

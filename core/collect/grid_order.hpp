@@ -12,14 +12,14 @@ namespace tushar::collect {
 /// levels, box after box, the coarsest level first, those of a level along the curve.
 class GridOrder {
  public:
-  /// The cells or nodes of a box of the only level.
+  /// The order of the cells or nodes of a box, for a single level.
   explicit GridOrder(const grid::Box& all) : all_(all) {}
-  /// All cells of several levels, in boxes of up to `most` cells along an axis; 0: block by block along the curve.
-  /// `windows`: for each level, the box of cells that are in the order; if empty, all cells are.
+  /// The order of all cells of several levels, in boxes of up to `most` cells along an axis; 0: block by block along
+  /// the curve. `windows`: for each level, the box of cells that are in the order; if empty, all cells are.
   GridOrder(const grid::Grid& grid, int most, std::vector<grid::Box> windows = {});
 
   std::size_t size() const { return boxes_ ? size_ : all_.size(); }
-  /// Those of the patch's cells or nodes that it contributes.
+  /// The cells or nodes that a patch contributes.
   grid::Box givenBy(const grid::Box& own) const { return boxes_ ? own : own.intersect(all_); }
   /// Calls `visit(place in the order, first cell or node, count)` for each row of a box of a level, as far as it is in
   /// the order; box by box along the curve, so from left to right for a single row.
@@ -60,7 +60,7 @@ GridOrder orderOf(const grid::Grid& grid, bool isNode);
 /// grid.
 GridOrder orderOfState(const grid::Grid& grid, bool isNode);
 
-/// The most cells of a box in a file along an axis.
+/// Largest number of cells along an axis of a box in a file.
 inline constexpr int mostCellsOfBox = 64;
 
 }  // namespace tushar::collect

@@ -54,7 +54,7 @@ void ParticleOrder::findRows() {
   }
 }
 
-/// Where the particles of each row start: behind those of all rows before it, whichever ranks have them.
+/// Finds where the particles of each row start: after those of all previous rows, whichever ranks have them.
 void ParticleOrder::sum() {
   std::vector<std::uint32_t> order(rows_.size());
   std::iota(order.begin(), order.end(), 0u);

@@ -12,15 +12,15 @@
 
 namespace tushar::collect {
 
-/// The order (cell, id) of the old particles of a material over the whole grid, which no layout changes, and where the
-/// patches of this rank have theirs. Cells come with the first axis fastest; if there are several levels, block by
-/// block. A rank stores the counts of its own cells alone.
+/// The order (cell, id) of the old particles of a material over the whole grid, which is the same for every layout, and
+/// the places of this rank's patches in it. Cells come with the first axis fastest; if there are several levels, block
+/// by block. A rank stores the counts of its own cells alone.
 class ParticleOrder {
  public:
   /// Orders the particles that the warehouses of all ranks hold. Collective.
   ParticleOrder(data::Warehouse& warehouse, int material);
 
-  /// A request for numbers of particles: of `count` consecutive cells from a place in the order of all cells.
+  /// A request for the numbers of particles in `count` consecutive cells, from a place in the order of all cells.
   struct Wanted {
     std::size_t first, count;
     std::int32_t* to;
@@ -32,18 +32,18 @@ class ParticleOrder {
   std::size_t count() const { return count_; }
   /// The number of particles in each cell of the grid, in the order of the cells; valid as long as this object.
   std::shared_ptr<const output::Source> perCell() const;
-  /// Gives each patch its particles, without values.
+  /// Gives each patch its particles, without their values.
   void install();
-  /// The rows of cells that have particles, of the patches of this rank.
+  /// The rows of cells with particles in the patches of this rank.
   Runs runs() const;
 
  private:
   /// Cells of a row that are consecutive in the order.
   struct Row {
-    std::size_t place;    ///< of the first cell in the order of the cells
+    std::size_t place;    ///< place of the first cell in the order of the cells
     std::uint64_t start;  ///< place of its first particle in the order of the particles
     std::uint32_t particles, cells;
-    std::uint32_t patch;  ///< among those of this rank
+    std::uint32_t patch;  ///< index of the patch on this rank
     std::uint32_t from;   ///< place of the first cell among the counts of the patch
     Index3 first;         ///< cell
   };
@@ -55,7 +55,7 @@ class ParticleOrder {
   int material_;
   GridOrder order_;
   std::vector<Row> rows_;                          ///< patch by patch, row by row, from left to right
-  std::vector<std::vector<std::int32_t>> counts_;  ///< of each patch: of its cells, in the order of the rows
+  std::vector<std::vector<std::int32_t>> counts_;  ///< by patch: particles in each cell, in the order of the rows
   std::size_t count_ = 0;
 };
 

@@ -52,7 +52,7 @@ class InRuns : public output::Source {
   }
 
  private:
-  /// Calls `visit(values, place of the first, count)` for the part of some entries that each run holds.
+  /// Calls `visit(values, place of the first, count)` for the part of each run that lies within some range of entries.
   template <class Visit>
   void forEachPart(std::size_t first, std::size_t count, Visit&& visit) const {
     const auto isBefore = [](std::size_t place, const Run& run) { return place < run.place + run.count; };
@@ -98,7 +98,7 @@ class AtPlaces : public output::Source {
   void gather(std::size_t first, std::size_t count, std::byte* to) const {
     form_.gather(parts_.of, std::span(places_->places).subspan(first, count), to);
   }
-  /// Those of this rank's places that are among these entries: from, end.
+  /// The range of this rank's places that lie within these entries: first and end.
   std::pair<std::size_t, std::size_t> own(std::size_t first, std::size_t count) const {
     const auto begin = places_->ranked.begin(), end = places_->ranked.end();
     const auto from = std::lower_bound(begin, end, first);
@@ -110,8 +110,8 @@ class AtPlaces : public output::Source {
   EntryForm form_;
 };
 
-/// Runs in the order of their places, without entries that an earlier one has: nodes on a face belong to patches on
-/// both sides.
+/// Runs in the order of their places, without entries of earlier runs: nodes on a face belong to the patches on both
+/// sides.
 Runs withoutOverlaps(Runs runs) {
   std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.place < b.place; });
   std::size_t end = 0;
@@ -137,8 +137,7 @@ void forEachId(const Parts& ids, Visit&& visit) {
     }
 }
 
-/// The bits in which ids differ, pushed together: the order of the ids stays, and where they are dense the keys are
-/// small.
+/// Packs the bits in which ids differ into small keys, which keep the order of the ids.
 class Packing {
  public:
   explicit Packing(std::uint64_t differing) {
@@ -166,7 +165,7 @@ class Packing {
   int bits_ = 0;
 };
 
-/// Sorts by a table of all possible keys.
+/// Sorts by counting in a table of all possible keys.
 std::vector<Place> sortedByTable(const Parts& ids, const Packing& keyOf) {
   constexpr std::uint32_t nobody = ~std::uint32_t{0};
   std::vector<Place> places(std::size_t{1} << keyOf.bits(), Place{nobody, 0});

@@ -60,7 +60,7 @@ GridOrder orderOfState(const grid::Grid& grid, const Label& label) {
   return collect::orderOfState(grid, label.centring == Centring::node);
 }
 
-/// How a variable is laid out in the file: z, y, x; of several levels block by block.
+/// The shape of a variable in the file: z, y, x; on several levels, block by block.
 std::vector<std::uint64_t> shapeOf(const grid::Grid& grid, const Label& label) {
   const bool isNode = label.centring == Centring::node;
   const Box all = grid.levels() > 1 ? Box{{}, grid.blockCells()} : isNode ? grid.level().nodes() : grid.level().cells();
@@ -192,7 +192,7 @@ class StateReader : StateWalk {
 
  private:
   [[noreturn]] void refuse(const std::string& what) const {
-    throw InputError({{{file_.path().string(), 0, 0}, "", what + "; undo what was changed in the scene since"}});
+    throw InputError({{{file_.path().string(), 0, 0}, "", what + "; undo the changes made to the scene since then"}});
   }
 
   bool isStored(const Label& label, const std::string& path) const {
@@ -205,7 +205,7 @@ class StateReader : StateWalk {
   /// Refuses a dataset whose size or type differs from what the scene needs.
   void check(const std::string& path, const Array::Values& found, std::size_t size, const Array::Values& type,
              std::size_t count) const {
-    if (found.index() != type.index()) refuse(fmt::format("the checkpoint has another type of number for {}", path));
+    if (found.index() != type.index()) refuse(fmt::format("the checkpoint stores {} as another type of number", path));
     if (size != count)
       refuse(fmt::format("the checkpoint has {} numbers for {}, but the scene needs {}", size, path, count));
   }
@@ -217,7 +217,7 @@ class StateReader : StateWalk {
     return values;
   }
 
-  /// The values of a variable, to be read part by part.
+  /// Access to the values of a variable, part by part.
   output::Hdf5Parts partsOf(const std::string& path, const Label& label, std::size_t entries) const {
     output::Hdf5Parts parts(file_, path, &checks_);
     check(path, parts.type(), parts.count(), emptyValues(label.number),
@@ -225,7 +225,7 @@ class StateReader : StateWalk {
     return parts;
   }
 
-  /// Ghosts are left to the first exchange.
+  /// Reads a field without its ghosts, which the first exchange fills.
   void readField(int number, const std::string& path) {
     const Label& field = label(number);
     const GridOrder order = orderOfState(grid_, field);
@@ -245,7 +245,7 @@ class StateReader : StateWalk {
     file.read(std::move(rows));
   }
 
-  /// How many nodes at the end of a row belong to the next patch as well, which adds them to the sum of what is read.
+  /// Number of nodes at the end of a row that also belong to the next patch, which adds them to the checksum.
   static std::size_t othersOfRow(const Patch& patch, const Index3& first, int count) {
     const Box &cells = patch.cells(), &all = patch.level().cells();
     const auto isNext = [&](int d, int node) { return node == cells.upper[d] && node < all.upper[d]; };

@@ -18,7 +18,7 @@ using grid::Patch;
 
 namespace {
 
-/// One component, on one plane or everywhere.
+/// The extremes and the sum of one component, on one plane or over the whole grid.
 struct Extremes {
   double least = std::numeric_limits<double>::infinity(), greatest = -std::numeric_limits<double>::infinity();
   data::Sum sum;
@@ -35,7 +35,7 @@ struct Extremes {
   }
 };
 
-/// The cells or nodes of a patch that no other patch counts: nodes on a face between two belong to the one above.
+/// The cells or nodes that a patch counts: nodes on a face between two patches count for the upper one.
 Box countedBy(const Patch& patch, const Label& label) {
   if (label.centring != Centring::node) return patch.cells();
   Box nodes = patch.cells().nodes(patch.level().dimension());

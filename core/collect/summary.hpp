@@ -11,8 +11,8 @@ struct SummaryOver {
   int axis = -1;  ///< -1: the whole grid
 };
 
-/// The least value of each component, the greatest, and the sum: of all cells or nodes, or of each plane. Sums over
-/// several levels count a cell by its volume over that of the coarsest.
+/// Minimum, maximum and sum of each component: over all cells or nodes, or for each plane. Sums over several levels
+/// count a cell by its volume over that of the coarsest.
 struct Summary {
   output::Array least, greatest, sum;
 };

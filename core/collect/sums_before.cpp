@@ -28,7 +28,7 @@ std::vector<std::uint64_t> cutsOf(const mpi::Communicator& ranks, std::span<cons
   return cuts;
 }
 
-/// The part of a section on one rank: keys, then weights where they are given; once it is merged, the sums.
+/// The part of a section on one rank: keys, then weights if there are any; after the merge, the sums.
 struct Part {
   int from = 0;
   std::vector<std::uint64_t> words{};
@@ -49,7 +49,7 @@ std::vector<std::uint64_t> wordsOf(const mpi::Bytes& bytes) {
   return words;
 }
 
-/// Puts in place of each key of a section the sum of the weights before it; gives that of all.
+/// Replaces each key of a section by the sum of the weights before it; returns the sum of all.
 std::uint64_t merge(std::vector<Part>& parts, bool isWeighted) {
   struct Next {
     std::uint64_t key;
@@ -139,7 +139,7 @@ class Sections {
   const mpi::Communicator& ranks_;
   std::span<const std::uint64_t> keys_, weights_;
   mpi::Outbox outbox_;
-  std::vector<std::size_t> starts_;  ///< of the section of each rank among the keys, then their end
+  std::vector<std::size_t> starts_;  ///< start of each rank's section among the keys, then their end
 };
 
 }  // namespace

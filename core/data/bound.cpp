@@ -10,11 +10,11 @@ namespace {
 
 /// A summary of many numbers, for checking them at once.
 struct Look {
-  double least;  ///< of those that are numbers, or 1; computed only where it is needed
-  double sum;    ///< not finite where one is not finite, or where they overflow together
+  double least;  ///< smallest of those that are not NaN, or 1; computed only if it is needed
+  double sum;    ///< not finite if one number is not, or if the sum overflows
 };
 
-/// Independent lanes, for vector instructions; halves are joined until one is left.
+/// Summarises numbers in independent lanes, for vector instructions, which are then merged pairwise.
 template <bool SeeksLeast>
 Look lookAt(const double* values, std::size_t count) {
   constexpr std::size_t width = 32;
@@ -39,7 +39,7 @@ Look lookAt(const double* values, std::size_t count) {
   return {least[0], sum[0]};
 }
 
-/// Whether the numbers certainly keep a bound: their sum is finite, and so are they.
+/// Whether the numbers certainly satisfy a bound: if their sum is finite, they are finite.
 bool surelyHolds(Bound bound, const double* values, std::size_t count) {
   if (bound == Bound::finite) return std::isfinite(lookAt<false>(values, count).sum);
   const Look look = lookAt<true>(values, count);

@@ -24,8 +24,7 @@ class Buffer {
   const std::byte* data() const { return start_; }
   std::size_t capacity() const { return capacity_; }
 
-  /// Makes room for `bytes`; the first `keep` bytes stay as they were, the rest is undefined.
-  /// Throws std::bad_alloc.
+  /// Makes room for `bytes` bytes; the first `keep` bytes are kept, the rest is undefined. Throws std::bad_alloc.
   void reserve(std::size_t bytes, std::size_t keep = 0);
   void release();
 
@@ -40,7 +39,7 @@ class Buffer {
   void allocate(std::size_t bytes, std::size_t keep);
 
   void* memory_ = nullptr;
-  std::size_t mapped_ = 0;  ///< bytes of pages; 0 if the memory is the heap's
+  std::size_t mapped_ = 0;  ///< size of the mapped pages; 0 if the memory is from the heap
   std::byte* start_ = nullptr;
   std::size_t capacity_ = 0;
 };

@@ -11,8 +11,7 @@ namespace tushar::data {
 /// that it has lent hold at most `bound()` bytes together. Not for several threads at once.
 class BufferPool {
  public:
-  /// Makes room for `bytes` in a buffer, from the pool if it has one that fits; the first `keep` bytes stay as they
-  /// were.
+  /// Makes room for `bytes` in a buffer, from the pool if it has one that fits; the first `keep` bytes are kept.
   void reserve(Buffer& buffer, std::size_t bytes, std::size_t keep = 0);
   /// Lends a buffer of at least `bytes` for a short time; it may hold much more.
   Buffer lend(std::size_t bytes);
@@ -23,13 +22,13 @@ class BufferPool {
   /// Starts a step: memory that was free during the whole previous step returns to the system.
   void beginStep();
 
-  /// How often the pool had no buffer that fits.
+  /// How often the pool had no buffer that fitted.
   std::size_t allocations() const { return allocations_; }
   /// Free bytes, and bytes in buffers that came from the pool.
   std::size_t free() const { return free_bytes_; }
   std::size_t lent() const { return lent_; }
-  /// Limit on the sum of both: slightly more than 5/4 of the most that was lent at the same time in this step or the
-  /// last.
+  /// Limit on the sum of both: slightly more than 5/4 of the largest amount that was lent at the same time in this step
+  /// or the last.
   std::size_t bound() const;
 
  private:
@@ -49,7 +48,7 @@ class BufferPool {
 
   std::vector<Free> free_;  ///< in the order in which they came back
   std::size_t free_bytes_ = 0, lent_ = 0, allocations_ = 0;
-  std::size_t most_lent_ = 0, most_lent_before_ = 0;  ///< at once, in this step and the last
+  std::size_t most_lent_ = 0, most_lent_before_ = 0;  ///< largest amount at the same time, in this step and the last
 };
 
 }  // namespace tushar::data

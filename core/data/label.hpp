@@ -10,22 +10,23 @@
 
 namespace tushar::data {
 
-/// Where a variable lives. Fluxes live on rims: the faces of a patch beyond which another level begins.
+/// The entities on which a variable has values. Fluxes live on rims: the faces of a patch beyond which another level
+/// begins.
 enum class Centring { particle, node, cell, rim, reduction };
 
-/// How one number of a variable is stored.
+/// The type in which a number of a variable is stored.
 enum class Number { real, id, integer };
 
-/// Where the values of a node variable count: on all nodes, or only on those that particles of its material touch. Then
-/// patches exchange only those (tasks/near_rows); the others are undefined, or as each patch wrote them.
+/// Where the values of a node variable are defined: on all nodes, or only on those that particles of its material
+/// touch. Then patches exchange only those (tasks/near_rows); the others are undefined, or as each patch wrote them.
 enum class Counts { everywhere, nearParticles };
 
-/// A variable's name and nature, whatever its type: what the graph, the archive and messages to users work with.
-/// Two labels with the same name are the same variable.
+/// The properties of a variable, whatever its type, as the graph, the archive and messages to users need them. Two
+/// labels with the same name are the same variable.
 struct Label {
   std::string_view name;         ///< as seen in .ups and .uda: `p.mass`, `g.velocity`
-  std::string_view unit;         ///< SI; `1` without dimension
-  std::string_view description;  ///< a phrase, in the words of the field
+  std::string_view unit;         ///< SI unit; `1` for a dimensionless number
+  std::string_view description;  ///< a phrase, in the terms of the field
   Centring centring;
   Number number;
   int components;     ///< numbers per particle, node or cell
@@ -79,7 +80,7 @@ struct FieldLabel : Label {
   }
   constexpr FieldLabel(std::string_view called, std::string_view inUnit, std::string_view meaning, Counts where)
       : FieldLabel(called, inUnit, meaning) {
-    if (C != Centring::node) throw std::invalid_argument("only nodes are near particles");
+    if (C != Centring::node) throw std::invalid_argument("Counts::nearParticles is for node labels only");
     counts = where;
   }
   /// Keeps `count` values of T for each particle, node or cell.
@@ -113,7 +114,8 @@ struct ReductionLabel : Label {
 /// The name of the label of particle positions, which are shifted for ghosts beyond a periodic face.
 inline constexpr std::string_view positionName = "p.x";
 
-/// Names every particle; kept by the framework in every particle set.
-inline constexpr ParticleLabel<ParticleId> particleId{"p.particleID", "1", "name of the particle, which never changes"};
+/// Identifies every particle; the framework keeps it in every particle set.
+inline constexpr ParticleLabel<ParticleId> particleId{"p.particleID", "1",
+                                                      "identifier of the particle, which never changes"};
 
 }  // namespace tushar::data

@@ -32,10 +32,10 @@ struct ParticleRange {
   Iterator end() const { return {last}; }
 };
 
-/// Consecutive ghosts of a patch that are copies: of particles of another rank, or of a periodic image.
+/// Consecutive ghosts of a patch that are copies of particles: of another rank, or of a periodic image.
 struct GhostRun {
-  int patch, first, count;  ///< where they stand themselves
-  Index3 shift;             ///< in cells, of the image they belong to; zero on the grid itself
+  int patch, first, count;  ///< where the copied particles are
+  Index3 shift;             ///< shift in cells of their periodic image; zero on the grid itself
   int to;                   ///< place of the first copy, counted from the first particle of the patch
 };
 
@@ -52,7 +52,7 @@ class ParticleSet {
   void reset(const grid::Patch& patch, int reach);
 
   int owned() const { return owned_; }
-  /// Whether this place holds a particle that the patch owns or reads.
+  /// Whether there is a particle at this place that the patch owns or reads.
   bool covers(int place) const {
     return (place >= 0 && place < owned_) || (place >= ghosts_.first && place < ghosts_.last);
   }
@@ -89,7 +89,7 @@ class ParticleSet {
 
     bool empty() const { return first >= last; }
   };
-  /// The part of the row from `cell` to `end` outside which no cell holds particles.
+  /// The part of the row from `cell` to `end` outside which no cell contains particles.
   template <int D>
   Span occupied(const Index<D>& cell, int end) const {
     const Span span = spans_[rowOf(cell)];
@@ -112,9 +112,9 @@ class ParticleSet {
   /// Like setOwned, after closeRow has been called for every row that has particles.
   void setOwnedOfClosedRows(int count) { owned_ = count; }
 
-  /// The ghosts of `box` are the particles that another set has there; it begins `offset` places after this one.
+  /// Declares the particles of another set in `box` as ghosts; that set begins `offset` places after this one.
   void addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset);
-  /// A ghost cell has copies, from place `to` on: of the particles `there` of cell - shift on `patch`.
+  /// Declares copies, from place `to` on, as the ghosts of a cell: of the particles `there` in cell - shift on `patch`.
   void addCopies(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift, int to);
   const std::vector<GhostRun>& ghostRuns() const { return ghost_runs_; }
   bool hasGhosts() const { return has_ghosts_; }
@@ -146,13 +146,13 @@ class ParticleSet {
   grid::Box owned_cells_, cells_;
   Index3 stride_{};
   std::vector<ParticleRange> ranges_;
-  std::vector<Span> spans_;      ///< of each row along the first axis: outside of it no cell holds particles
-  std::vector<Span> own_spans_;  ///< the same of the patch's own
+  std::vector<Span> spans_;  ///< for each row along the first axis, the part outside which no cell contains particles
+  std::vector<Span> own_spans_;  ///< the same for the patch's own particles
   std::vector<GhostRun> ghost_runs_;
-  ParticleRange ghosts_;  ///< from the least place of a ghost to behind the greatest
+  ParticleRange ghosts_;  ///< from the first place of a ghost to the end of the last
   int owned_ = 0;
   bool has_ghosts_ = false;
-  mutable std::map<int, TouchedRows> touched_;  ///< by distance beyond the cells, up to the largest requested
+  mutable std::map<int, TouchedRows> touched_;  ///< by distance beyond the cells, up to the largest that was requested
 };
 
 }  // namespace tushar::data

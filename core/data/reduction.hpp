@@ -13,14 +13,14 @@
 
 namespace tushar::data {
 
-/// A short origin of a value, such as `CFL`: plain bytes, so that a message can carry them.
+/// The origin of a value in a few characters, such as `CFL`, stored so that its bytes can be sent.
 class Reason {
  public:
   constexpr Reason() = default;
   /// Takes a literal of at most 31 characters.
   template <std::size_t N>
   constexpr Reason(const char (&words)[N]) {
-    static_assert(N <= std::tuple_size_v<decltype(letters_)>, "a reason has at most 31 letters");
+    static_assert(N <= std::tuple_size_v<decltype(letters_)>, "a reason has at most 31 characters");
     for (std::size_t k = 0; k < N; ++k) letters_[k] = words[k];
   }
   /// Takes any text, cut off after 31 characters.
@@ -37,8 +37,8 @@ class Reason {
   std::array<char, 32> letters_{};
 };
 
-/// The least of all values and, where given, its reason; +infinity if none. If values are equal, the reason that comes
-/// first in the alphabet is kept, so that the order of the additions does not matter.
+/// The minimum of all values, with its reason if one is given; +infinity if there are none. If values are equal, the
+/// reason that comes first in the alphabet is kept, so that the order of the additions does not matter.
 struct Minimum {
   double value = std::numeric_limits<double>::infinity();
   Reason reason{};
@@ -53,7 +53,7 @@ struct Minimum {
   std::vector<double> values() const { return {value}; }
 };
 
-/// The greatest of all values; -infinity if there are none.
+/// The maximum of all values; -infinity if there are none.
 struct Maximum {
   double value = -std::numeric_limits<double>::infinity();
 
@@ -138,7 +138,7 @@ struct Norm {
   Sum absolute, squared, count, exact;
   double max = 0;
 
-  /// `weight`: of the place among all, such as Level::weight(); a power of two, so that it rounds nothing.
+  /// `weight`: weight of the place, such as Level::weight(); a power of two, so that it causes no rounding.
   void add(double e, double magnitude = 0, double weight = 1) {
     exact.add(weight * std::abs(magnitude));
     absolute.add(weight * std::abs(e));
@@ -165,7 +165,7 @@ inline constexpr ReductionLabel<Minimum> delT{"delT", "s", "time step"};
 /// The factor by which the time step may be multiplied without breaking a bound. If a task of scheduleTimeAdvance
 /// computes less than 1, the step is undone and repeated with a smaller one; the reason names the bound. The step ends
 /// with that task, so that no later one sees the invalid values. The old state stays as it is.
-inline constexpr ReductionLabel<Minimum> recomputeTimeStep{"recomputeTimeStep", "1",
-                                                           "factor on the time step that keeps every bound"};
+inline constexpr ReductionLabel<Minimum> recomputeTimeStep{
+    "recomputeTimeStep", "1", "factor by which to multiply the time step so that every bound holds"};
 
 }  // namespace tushar::data

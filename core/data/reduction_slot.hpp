@@ -16,11 +16,11 @@ class ReductionSlot {
   virtual ~ReductionSlot() = default;
   virtual void reset() = 0;
   virtual std::vector<double> values() const = 0;
-  /// The reducer as it lies in memory.
+  /// The bytes of the reducer.
   virtual std::span<std::byte> bytes() = 0;
-  /// Adds a reducer to another, both as they lie in memory.
+  /// Merges a reducer into another, both given by their bytes.
   virtual void merge(const std::byte* from, std::byte* into) const = 0;
-  /// Makes as many empty partial results.
+  /// Makes that many empty partial results.
   virtual void divide(std::size_t parts) = 0;
   /// Adds the partial results to the reducer in a fixed order and empties them.
   virtual void gather() = 0;
@@ -28,7 +28,7 @@ class ReductionSlot {
 
 template <class R>
 class TypedReduction : public ReductionSlot {
-  static_assert(std::is_trivially_copyable_v<R>, "a checkpoint and a message keep a reducer as bytes");
+  static_assert(std::is_trivially_copyable_v<R>, "checkpoints and messages copy the bytes of a reducer");
 
  public:
   R reducer;
@@ -47,7 +47,7 @@ class TypedReduction : public ReductionSlot {
   }
 
  private:
-  /// Has its own cache line, as threads write to neighbours at the same time.
+  /// A partial result in a cache line of its own, as threads write to neighbouring ones at the same time.
   struct alignas(64) Part {
     R reducer;
   };

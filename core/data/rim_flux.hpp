@@ -28,8 +28,8 @@ class RimFlux {
       grid::forEach<D>(piece.cells, [&](const Index<D>& cell) { visit(cell, piece.axis, piece.side, *through++); });
     }
   }
-  /// Calls `visit(face, flux)` for the faces across an axis that are in a box of faces, each named by the cell above
-  /// it.
+  /// Calls `visit(face, flux)` for the faces across an axis that are in a box of faces; the index of a face is that of
+  /// the cell above it.
   template <int D, class Visit>
   void forEachFaceIn(const grid::Box& faces, int axis, Visit&& visit) const {
     for (const grid::RimPiece& piece : pieces_) {

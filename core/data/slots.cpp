@@ -10,7 +10,7 @@ namespace tushar::data {
 
 namespace {
 
-/// Slots start at whole cache lines, whatever the size of a value.
+/// Slots start at multiples of this number of values: at a cache line, whatever the size of a value.
 constexpr std::size_t step = 16;
 
 std::size_t roundedUp(std::size_t count) { return (count + step - 1) / step * step; }

@@ -16,10 +16,10 @@ struct Label;
 /// Layouts do not change: variables with the same layout share one, and where particles need other slots there is a new
 /// one.
 struct Slots {
-  std::vector<std::size_t> first;  ///< by place of the patch on its rank
-  std::vector<std::size_t> room;   ///< of particles: how many each slot can hold
-  std::vector<grid::Box> stored;   ///< of nodes and cells: the box in each slot, ghosts included
-  std::size_t end = 0;             ///< behind the last slot
+  std::vector<std::size_t> first;  ///< by index of the patch on its rank
+  std::vector<std::size_t> room;   ///< for particles: how many each slot can hold
+  std::vector<grid::Box> stored;   ///< for nodes and cells: the box in each slot, ghosts included
+  std::size_t end = 0;             ///< end of the last slot
 
   /// Whether particles can move here from the slots `other` within the same memory: each slot is one of `other`,
   /// with no more room, or lies behind all of them. So no patch overwrites values that another has
@@ -29,9 +29,9 @@ struct Slots {
 
 using SharedSlots = std::shared_ptr<const Slots>;
 
-/// For a node or cell variable that is read `ghost` beyond each patch.
+/// Slots for a node or cell variable that is read `ghost` layers beyond each patch.
 SharedSlots slotsOfGrid(const grid::Grid& grid, const Label& label, int ghost);
-/// For the faces of patches beyond which other levels begin.
+/// Slots for the faces of patches beyond which other levels begin.
 SharedSlots slotsOfRims(const grid::Grid& grid);
 
 /// Slots for given numbers of particles on each patch. Slots of `base` (which may be null) stay where the particles

@@ -9,19 +9,19 @@ namespace tushar::data {
 
 class ParticleSet;
 
-/// The rows of nodes along the first axis that particles touch: others are neither cleared nor read nor copied.
+/// The rows of nodes along the first axis that particles touch; other nodes are neither cleared nor read nor copied.
 class TouchedRows {
  public:
   /// None.
   TouchedRows() = default;
-  /// All rows of `nodes`, whole.
+  /// All rows of `nodes`, in full.
   static TouchedRows all(const grid::Box& nodes);
   /// Rows within `nodes` that particles in cells `around` touch: the nodes of their cells and `ghost` beyond, along the
   /// first `dimension` axes.
   TouchedRows(const ParticleSet& particles, const grid::Box& around, int ghost, const grid::Box& nodes, int dimension);
 
   bool empty() const { return touched_.empty(); }
-  /// Calls `visit(first, end)`: the first node of a row, and the coordinate behind its last along the first axis.
+  /// Calls `visit(first, end)` for each row: its first node, and the end of the row along the first axis.
   template <class Visit>
   void forEachRow(Visit&& visit) const {
     if (touched_.empty()) return;
@@ -51,7 +51,7 @@ class TouchedRows {
   void touch(const Index3& cellRow, int low, int high, int ghost, int dimension);
 
   grid::Box nodes_, rows_;
-  std::vector<std::pair<int, int>> touched_;  ///< of each row; none if no particle touches any
+  std::vector<std::pair<int, int>> touched_;  ///< for each row; empty if no particle touches any node
 };
 
 }  // namespace tushar::data

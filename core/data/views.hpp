@@ -17,7 +17,7 @@ inline constexpr bool checked = true;
 inline constexpr bool checked = false;
 #endif
 
-/// An index outside what a task declared: a defect of the task's body. Checked in the dev preset only.
+/// An index outside the declared range: a defect in the task's body. Checked in the dev preset only.
 class AccessError : public std::logic_error {
   using std::logic_error::logic_error;
 };
@@ -57,7 +57,7 @@ class ParticleView {
   /// Number of particles that the patch owns: places 0 to owned() - 1.
   int owned() const { return set_->owned(); }
   const ParticleSet& set() const { return *set_; }
-  /// The value at place 0; values of ghosts may precede it.
+  /// The address of the value at place 0; values of ghosts may precede it.
   T* values() const { return values_; }
 
  private:
@@ -97,9 +97,9 @@ class GridView {
   }
   const grid::Box& box() const { return box_; }
   const grid::Box& stored() const { return stored_; }
-  /// Where the box `stored` is in memory, the first axis fastest.
+  /// The values of the box `stored`, the first axis fastest.
   T* values() const { return values_; }
-  /// Sets everything that is stored to one value.
+  /// Sets all stored values to one value.
   void fill(const std::remove_const_t<T>& value) const { std::fill_n(values_, stored_.size(), value); }
 
  private:

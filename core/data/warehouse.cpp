@@ -143,13 +143,13 @@ void Warehouse::allocateParticles(Generation generation, int number, Generation 
   allocate(storage(generation, number), *label, where.slots, valuesWithCopies(where, number));
 }
 
-/// Variables that are read beyond their patches get room for as many copies as before.
+/// Number of values with room for ghost copies: as many as before, for variables that are read beyond their patches.
 std::size_t Warehouse::valuesWithCopies(const Layout& layout, int number) const {
   return layout.slots->end + (table_->ghost(number) > 0 ? layout.mostCopies : 0);
 }
 
-/// A small buffer stays with its variable for the next step: to release it and to find it again takes longer than to
-/// use it.
+/// Releases the memory of a variable, except for a small buffer: releasing it and finding it again would take longer
+/// than using it.
 void Warehouse::free(Generation generation, int number) {
   constexpr std::size_t little = std::size_t{1} << 13;
   Storage& freed = storage(generation, number);

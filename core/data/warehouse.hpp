@@ -39,9 +39,9 @@ class VariableTable {
 
   /// Notes that a task reads the variable `ghost` cells or nodes beyond its patch.
   void widen(int number, int ghost);
-  /// How far beyond its patch a variable is ever read.
+  /// The largest distance beyond its patch at which any task reads a variable.
   int ghost(int number) const { return ghosts_[number]; }
-  /// How far beyond its patch any particle variable of a material is ever read.
+  /// The largest distance beyond its patch at which any task reads a particle variable of a material.
   int reach(int material) const { return material < static_cast<int>(reaches_.size()) ? reaches_[material] : 0; }
 
  private:
@@ -54,11 +54,11 @@ class VariableTable {
 /// The values of a variable on one patch.
 struct Variable {
   std::byte* values = nullptr;
-  grid::Box stored;   ///< of node and cell variables: the box in memory, ghosts included
-  bool held = false;  ///< whether there are values
+  grid::Box stored;   ///< for node and cell variables: the box in memory, ghosts included
+  bool held = false;  ///< whether the variable has values
 };
 
-/// The cells or nodes that a patch has for itself.
+/// The cells or nodes of a patch, without ghosts.
 inline grid::Box ownBox(const grid::Patch& patch, const Label& label) {
   return label.centring == Centring::node ? patch.nodes() : patch.cells();
 }
@@ -86,7 +86,7 @@ class Warehouse {
   /// The ranks that share the grid.
   const mpi::Communicator& ranks() const { return *ranks_; }
 
-  /// `patch` is the number of one of this rank's. Good until the memory of the variable changes.
+  /// `patch` is the number of a patch of this rank. Good until the memory of the variable changes.
   Variable variable(Generation generation, int number, int patch);
   ParticleSet& particles(Generation generation, int material, int patch) {
     return state(generation).sets[place(material, patch)];
@@ -96,36 +96,38 @@ class Warehouse {
   R& reduction(int number) {
     return static_cast<TypedReduction<R>&>(slot(number)).reducer;
   }
-  /// The part that a patch adds to a reduction.
+  /// The contribution of a patch to a reduction.
   template <class R>
   R& partOfReduction(int number, int patch) {
     return static_cast<TypedReduction<R>&>(slot(number)).part(patch - grid_->firstPatch());
   }
   void resetReduction(int number);
-  /// A reduction whatever its type; made on first use, which must not be by several threads at once.
+  /// A reduction of any type, made on first use, which must not happen on several threads at once.
   ReductionSlot& slot(int number);
   /// The values of a reduction; none if no task has computed it.
   std::vector<double> reductionValues(int number) const;
-  /// The reducer as it lies in memory; nothing if no task has computed it.
+  /// The bytes of the reducer; empty if no task has computed it.
   std::span<const std::byte> reductionBytes(int number) const;
   /// Restores the bytes that a reduction had in another run.
   void restoreReduction(int number, std::vector<std::byte> bytes);
 
   /// Makes room for all variables named so far, and for the particle sets of `materials` materials.
   void grow(int materials);
-  /// Discards all values on patches and adopts the patches that the grid now assigns to this rank; reductions stay.
+  /// Discards all values on patches, and takes the patches that the grid now assigns to this rank; reductions are kept.
   void startAnew(int materials);
-  /// Room for a node or cell variable on all patches, with all ghosts that tasks read; NaN-filled in the dev preset.
+  /// Allocates a node or cell variable on all patches, with all ghosts that tasks read; filled with NaN in the dev
+  /// preset.
   void allocateGrid(Generation generation, int number);
-  /// Room for fluxes through the rims of all patches; all 0.
+  /// Allocates fluxes through the rims of all patches, all 0.
   void allocateRims(Generation generation, int number);
-  /// Room for a particle variable on all patches, in the slots of the sets of generation `set`; NaN-filled
-  /// in the dev preset.
+  /// Allocates a particle variable on all patches, in the slots of the sets of generation `set`; filled with NaN in the
+  /// dev preset.
   void allocateParticles(Generation generation, int number, Generation set);
   /// Returns the memory of a variable to the pool.
   void free(Generation generation, int number);
 
-  /// The sets of a material have their particles on all patches: gives them slots, where possible those of `base`.
+  /// Gives slots to the sets of a material, which have their particles on all patches; if possible, the slots of
+  /// `base`.
   void layOut(Generation generation, int material, Generation base);
   /// Moves a particle variable from the previous places of the sets to those of generation `set`. Values in slots that
   /// stay are kept; patches with other slots have undefined values. If the variable has other memory now, returns the
@@ -139,7 +141,7 @@ class Warehouse {
   int distance(Generation set, int material, int from, int to);
   /// Place of the next `count` ghost copies of a patch, counted from its first particle.
   int placeCopies(Generation set, int material, int patch, int count);
-  /// Makes room for all ghost copies that have a place; existing values stay.
+  /// Makes room for all ghost copies that have a place; existing values are kept.
   void reserveCopies(Generation generation, int number, Generation set);
 
   /// Lends memory for a short time; give it back with takeBack.
@@ -156,7 +158,7 @@ class Warehouse {
   /// Makes the new generation old and frees the previous one, on every patch.
   void makeOld(int number);
   void swapSets(int material);
-  /// Removes the ghosts of all particle sets: the next exchange plans them again.
+  /// Removes the ghosts of all particle sets; the next exchange plans them again.
   void forgetGhosts();
 
   /// Number of allocations so far; variables that nothing reads add none.
@@ -172,7 +174,7 @@ class Warehouse {
   /// The slots of the particles of a material.
   struct Layout {
     SharedSlots slots;
-    std::size_t copies = 0, mostCopies = 0;  ///< of ghosts, behind the slots: now, and ever
+    std::size_t copies = 0, mostCopies = 0;  ///< number of ghost copies after the slots: now, and the largest so far
   };
   struct State {
     std::vector<Storage> storages;  ///< by number

@@ -6,7 +6,7 @@ namespace tushar::grid {
 
 namespace {
 
-/// Which leaves have a patch, and the blocks of the patch that grows.
+/// Makes patches: which leaves have one, and the blocks of the one that grows.
 class PatchMaker {
  public:
   PatchMaker(const BlockTree& tree, const Index3& blockCells, const Index3& most)
@@ -14,7 +14,7 @@ class PatchMaker {
 
   bool hasPatch(std::size_t place) const { return hasPatch_[place]; }
 
-  /// The blocks of the patch whose first leaf is given.
+  /// Grows a patch from its first leaf; returns its blocks.
   Box growFrom(const BlockId& leaf) {
     Box blocks{leaf.at, leaf.at + Index3::filled(1)};
     for (int axis = 0; axis < tree_.dimension(); ++axis)
@@ -44,7 +44,7 @@ class PatchMaker {
 
   const BlockTree& tree_;
   Index3 blockCells_, most_;
-  std::vector<bool> hasPatch_;  ///< by place on the curve
+  std::vector<bool> hasPatch_;  ///< by place of the leaf on the curve
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ struct PatchBox {
 /// dimension hold the single index 0.
 Box cellsOf(const BlockId& block, const Index3& blockCells, int dimension);
 
-/// Patches from blocks: along the curve, the first leaf that has no patch yet begins one. It grows by layers of blocks
+/// Groups blocks into patches: along the curve, the first leaf without a patch begins one. It grows by layers of blocks
 /// along x, as often as it can, then y, then z, while all blocks in the layer beside it are leaves of its level without
 /// a patch, up to `most` cells along an axis. It grows upwards only: what lies below the first leaf along an axis comes
 /// before it on the curve, so it has a patch already. No patch reaches over a periodic side.

@@ -6,7 +6,7 @@
 
 namespace tushar::grid {
 
-/// The blocks of a level that hold cells of a box, which lies on the grid.
+/// The blocks of a level that contain cells of a box, which lies on the grid.
 Box blocksOver(const Box& cells, const Index3& blockCells);
 
 /// The patches of a grid of several levels: boxes of leaves of a block tree. All of them are kept on each rank.

@@ -12,7 +12,7 @@ namespace tushar::grid {
 
 namespace {
 
-constexpr int mostPlaceBits = 20;  ///< of a block of the finest level along an axis
+constexpr int mostPlaceBits = 20;  ///< bits of the coordinate of a block of the finest level along an axis
 constexpr int keyLevelBits = 4;
 constexpr int mostTreeLevels = 1 << keyLevelBits;
 constexpr std::uint64_t keyLevelMask = mostTreeLevels - 1;

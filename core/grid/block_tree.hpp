@@ -15,8 +15,8 @@ struct BlockId {
   Index3 at{};
 
   friend bool operator==(const BlockId&, const BlockId&) = default;
-  /// Along Morton's curve through all levels, depth first: a block comes before those it is refined into. Levels from 0
-  /// to 31; any place, also outside the grid.
+  /// The order along Morton's curve through all levels, depth first: a block precedes its children. Levels from 0 to
+  /// 31; any place, also outside the grid.
   friend std::strong_ordering operator<=>(const BlockId& a, const BlockId& b);
 };
 
@@ -25,7 +25,7 @@ struct BlockId {
 /// their images do. A tree never changes: regridding makes another.
 class BlockTree {
  public:
-  /// A tree in which nothing is refined. `roots`: blocks of level 0 along the kernel axes (1 beyond `dimension`);
+  /// A tree without refined blocks. `roots`: blocks of level 0 along the kernel axes (1 beyond `dimension`);
   /// `periodic[d]` != 0 if the grid repeats; `levels`: the most levels, from 1 to 16. Throws std::invalid_argument
   /// where this does not hold, or the finest level has more than 2^20 blocks along an axis.
   BlockTree(int dimension, const Index3& roots, const Index3& periodic, int levels);
@@ -33,16 +33,16 @@ class BlockTree {
   int dimension() const { return dimension_; }
   int levels() const { return levels_; }
   const Index3& roots() const { return roots_; }
-  /// Blocks of a level along the kernel axes: roots times 2^level in the first `dimension` axes.
+  /// Number of blocks of a level along the kernel axes: that of roots times 2^level.
   Index3 blocksOf(int level) const;
 
   /// Depth first along Morton's curve through all levels (G. M. Morton, A Computer Oriented Geodetic Data Base and a
   /// New Technique in File Sequencing, IBM 1966).
   const std::vector<BlockId>& leaves() const { return leaves_; }
-  /// The level of the leaf that holds a block's place: its own, a coarser one, or block.level + 1 if the block is
+  /// The level of the leaf at a block's place: that of the block, a coarser one, or block.level + 1 if the block is
   /// refined. Along periodic axes, images count; outside the grid along other axes: -1.
   int levelAt(const BlockId& block) const;
-  /// Place of a leaf on the curve, from 0; the block must be a leaf, not the image of one.
+  /// Place of a leaf on the curve, from 0; the block must be a leaf, not a periodic image.
   int placeOf(const BlockId& leaf) const;
   /// The same of a block of the grid, -1 if it is no leaf.
   int placeIfLeaf(const BlockId& block) const;
@@ -63,7 +63,7 @@ class BlockTree {
   static BlockTree fromKeys(int dimension, const Index3& roots, const Index3& periodic, int levels,
                             const std::vector<std::uint64_t>& keys);
 
-  /// Equal grid, levels and leaves.
+  /// Whether grid, levels and leaves are equal.
   friend bool operator==(const BlockTree&, const BlockTree&) = default;
 
  private:
@@ -73,7 +73,7 @@ class BlockTree {
   BlockId blockOf(std::uint64_t key) const;
   /// The block itself, or the one of which it is a periodic image; none outside the grid.
   std::optional<BlockId> inside(const BlockId& block) const;
-  /// The tree in which these blocks of each level and all blocks that follow from them are refined.
+  /// The smallest tree in which these blocks of each level are refined.
   BlockTree withRefined(std::vector<Keys> refined) const;
   /// Blocks one level coarser that must be refined, so that all blocks around a refined one exist.
   void addRefinedAround(const BlockId& block, Keys& coarser) const;
@@ -83,7 +83,7 @@ class BlockTree {
   Index3 roots_;
   Index3 periodic_{};  ///< 0 or 1
   int levels_;
-  Keys keys_;  ///< of the leaves, sorted
+  Keys keys_;  ///< keys of the leaves, sorted
   std::vector<BlockId> leaves_;
 };
 

@@ -13,8 +13,8 @@
 
 namespace tushar::grid {
 
-/// How a condition treats its variable at a side of the grid: reflected in the side as in a plane of symmetry, with a
-/// given value, or with a given outward derivative.
+/// The kind of a condition at a side of the grid: reflection, as in a plane of symmetry; a given value; or a given
+/// outward derivative.
 enum class BoundaryKind { symmetry, dirichlet, neumann };
 
 /// The `var` attributes of a `BCType`, in the order of BoundaryKind.
@@ -25,7 +25,7 @@ constexpr std::string_view nameOf(BoundaryKind kind) { return boundaryKindNames[
 struct BoundaryVariable {
   std::string_view name;  ///< the `label` attribute of a `BCType`
   bool isVector = false;  ///< whether its value is a vector
-  bool isEven = false;    ///< may be given on a plane of symmetry; a vector where it lies in the plane
+  bool isEven = false;    ///< may be given on a plane of symmetry; for a vector, if it lies in the plane
 
   /// The same variable, which may also be given on a plane of symmetry.
   constexpr BoundaryVariable evenOnPlanes() const { return {name, isVector, true}; }
@@ -35,7 +35,7 @@ struct BoundaryVariable {
 /// A variable with conditions whose values are of type T: a number or a Vec3 along x, y and z.
 template <class T>
 struct BoundaryLabel : BoundaryVariable {
-  static_assert(std::is_same_v<T, double> || std::is_same_v<T, Vec3>, "a condition gives a number or a Vec3");
+  static_assert(std::is_same_v<T, double> || std::is_same_v<T, Vec3>, "the value of a condition is a number or a Vec3");
   constexpr explicit BoundaryLabel(std::string_view called) : BoundaryVariable{called, std::is_same_v<T, Vec3>} {}
 };
 
@@ -47,25 +47,25 @@ struct BoundaryCondition {
   BoundaryVariable variable;
   BoundaryKind kind;
   Vec3 value = Vec3::Zero();  ///< a number is in the first component; the unit is the variable's
-  int material = -1;          ///< the number of the one that it holds for; -1: all
-  /// In place of the value, for components that take formulas; a scalar is in the first component.
+  int material = -1;          ///< number of the material for which it holds; -1: all
+  /// Formulas instead of the value, for components that take them; a scalar is in the first component.
   std::shared_ptr<const input::VectorExpression> formula = {};
 
   /// Whether it holds for a material.
   bool isOf(int number) const { return material < 0 || material == number; }
 };
 
-/// A condition as a kernel reads it.
+/// A condition, in the form for kernels.
 template <class T>
 struct BoundaryValue {
   BoundaryKind kind;
   T value;                                           ///< the unit is the variable's, per metre for Neumann
-  const input::VectorExpression* formula = nullptr;  ///< in place of the value, or null
+  const input::VectorExpression* formula = nullptr;  ///< the formula instead of the value, or null
 
   bool isDirichlet() const { return kind == BoundaryKind::dirichlet; }
   /// The value at a place [m] and a time [s].
   T at(const Vec3& x, double time) const { return formula ? of((*formula)(x, time)) : value; }
-  /// From a condition as the scene gives it.
+  /// Converts a condition of a scene.
   static BoundaryValue of(const BoundaryCondition& condition) {
     return {condition.kind, of(condition.value), condition.formula.get()};
   }
@@ -85,7 +85,7 @@ struct ConditionsOfPart {
   std::vector<BoundaryCondition> conditions;
 };
 
-/// In place of the number of a part: the rest of a side, outside of all its parts.
+/// Used like the number of a part: the rest of a side, outside all its parts.
 inline constexpr int restOfSide = -1;
 
 /// The conditions of the six faces x-, x+, y-, y+, z-, z+ in this order. A face with none is free.

@@ -41,7 +41,7 @@ struct Box {
     return x + static_cast<std::size_t>(extent(0)) * (y + static_cast<std::size_t>(extent(1)) * z);
   }
 
-  /// Rows along the first axis: the first index of each, how many, and the place of that of an index among them.
+  /// The first index of each row along the first axis, as a box.
   constexpr Box rowStarts() const {
     Box starts = *this;
     starts.upper[0] = std::min(upper[0], lower[0] + 1);
@@ -64,7 +64,7 @@ struct Box {
     return both;
   }
 
-  /// Larger by `width` on both sides of the first `dimension` axes.
+  /// This box, larger by `width` on both sides along the first `dimension` axes.
   constexpr Box grown(int width, int dimension) const {
     Box box = *this;
     for (int d = 0; d < dimension; ++d) {

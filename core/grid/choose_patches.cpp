@@ -8,11 +8,11 @@ namespace tushar::grid {
 
 namespace {
 
-constexpr int patchesPerWorker = 4;  ///< so that a thread with less work can take some from another
+constexpr int patchesPerWorker = 4;  ///< several, so that a thread that finishes early can take more
 
 double countOf(const Index3& cells) { return static_cast<double>(cells[0]) * cells[1] * cells[2]; }
 
-/// Cells of the largest patch and the ghosts of one layer at its cuts, times the number of patches.
+/// Cells of the largest patch, including one layer of ghosts at its cuts, times the number of patches.
 double costOf(const Index3& cells, const Index3& patches) {
   double cost = 1;
   for (int d = 0; d < 3; ++d) {

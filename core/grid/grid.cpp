@@ -23,7 +23,8 @@ MortonCurve::Cuts cutsOf(const Level& level) {
   return cuts;
 }
 
-/// The cells of a level that reach into a region; a side within a thousandth of a cell of a node is on it.
+/// The cells of a level that overlap a region; a side of the region within a thousandth of a cell of a node counts as
+/// on it.
 Box cellsWith(const Level& level, const FineRegion& region) {
   Box cells = level.cells();
   for (int d = 0; d < level.dimension(); ++d) {
@@ -70,7 +71,8 @@ void Grid::cutIntoBlocks() {
   tiling_ = std::move(tiling);
 }
 
-/// Large enough that ghosts cost little, small enough to fit into cache and to share among threads.
+/// Largest number of cells of a patch along each axis: large enough that ghosts cost little, small enough to fit into
+/// the cache and to share among threads.
 Index3 Grid::mostCellsOfPatch(const Index3& blockCells) const {
   const auto& wanted = level().domain().refinement.blocksPerPatch;
   Index3 most = Index3::filled(1);
@@ -136,8 +138,8 @@ void Grid::makePatches() {
     if (levels() > 1) rims_.push_back(rimsOf(*this, patch));
 }
 
-/// Not so for a patch that is no thicker than the layers of nodes beyond the grid at its other side: these mirror the
-/// nodes of the face.
+/// Whether the patch behind the upper face owns its nodes. Not so for a patch that is no thicker than the layers of
+/// nodes beyond the grid at its other side: these mirror the nodes of the face.
 bool Grid::sharesUpperFace(const Patch& patch, int kernelAxis) const {
   const Level& level = patch.level();
   const int face = patch.cells().upper[kernelAxis];

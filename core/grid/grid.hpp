@@ -14,7 +14,7 @@
 
 namespace tushar::grid {
 
-/// The grid of a run: its levels and its patches, as one of the ranks that share it sees them.
+/// The grid of a run, with its levels and patches, from the view of one rank.
 ///
 /// Patches are numbered along Morton's curve; a rank has consecutive ones. Where there is one level, only these are
 /// kept: any other is made when it is needed, so that a grid of a million patches takes no more memory on a rank than
@@ -33,8 +33,8 @@ class Grid {
   int levels() const { return static_cast<int>(levels_.size()); }
   const Level& finest() const { return levels_.back(); }
   bool isFinest(const Patch& patch) const { return &patch.level() == &finest(); }
-  /// Whether no cell of a box of the finest level is part of a coarser one; cells beyond the grid and its images do not
-  /// count.
+  /// Whether all cells of a box on the finest level exist, that is, none is part of a coarser cell; cells beyond the
+  /// grid and its images are ignored.
   bool isFinest(const Box& cells) const;
   int dimension() const { return level().dimension(); }
 
@@ -52,7 +52,7 @@ class Grid {
   std::unique_ptr<Tiling> refine(std::unique_ptr<BlockTiling> tiling, RankOffsets shares = {});
   /// Cells of one of this rank's patches that were part of coarser ones before the last call of refine().
   const std::vector<Box>& newCells(int patch) const { return new_cells_[patch - first_patch_]; }
-  /// The patches of this rank, by number.
+  /// The patches of this rank, in the order of their numbers.
   const std::vector<Patch>& patches() const { return patches_; }
   /// Number of cells of all patches.
   std::uint64_t cellCount() const { return tiling_->cells(); }
@@ -62,15 +62,15 @@ class Grid {
   Patch patch(int id) const { return patchOf(tiling_->tile(id)); }
   /// The number of the first patch of this rank.
   int firstPatch() const { return first_patch_; }
-  /// Whether this rank has a patch.
+  /// Whether a patch belongs to this rank.
   bool isMine(int patch) const {
     return patch >= first_patch_ && patch < first_patch_ + static_cast<int>(patches_.size());
   }
   /// The rank that has a patch.
   int ownerOf(int patch) const { return isMine(patch) ? share_.rank : partition_->ownerOf(patch); }
   const Share& share() const { return share_; }
-  /// Nodes that one of this rank's patches owns: all except those on an upper face that only patches of this rank
-  /// adjoin, which own these nodes instead. So each node of the rank's patches has one owner among them.
+  /// The nodes that a patch of this rank owns: all except those on an upper face with only patches of this rank behind
+  /// it, which own them. So each node of the rank's patches has one owner among them.
   const Box& ownNodes(int patch) const { return own_nodes_[patch - first_patch_]; }
   /// The distribution of patches to ranks.
   RankOffsets rankOffsets() const;
@@ -89,7 +89,7 @@ class Grid {
       for (const Patch& patch : patchesOverlapping(cells.shifted(Index3{} - shift), level.number()))
         visit(patch, shift);
   }
-  /// Where one of this rank's patches meets other levels.
+  /// The faces at which a patch of this rank meets other levels.
   const std::vector<RimPiece>& rims(int patch) const { return rims_[patch - first_patch_]; }
 
  private:
@@ -108,9 +108,9 @@ class Grid {
   std::optional<Partition> partition_;
   int first_patch_ = 0;
   std::vector<Patch> patches_;
-  std::vector<Box> own_nodes_;               ///< by place of the patch on this rank
+  std::vector<Box> own_nodes_;               ///< by index of the patch on this rank
   std::vector<std::vector<RimPiece>> rims_;  ///< likewise; empty if there is one level
-  std::vector<std::vector<Box>> new_cells_;  ///< by place of the patch on this rank
+  std::vector<std::vector<Box>> new_cells_;  ///< by index of the patch on this rank
 };
 
 }  // namespace tushar::grid

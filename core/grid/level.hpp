@@ -25,9 +25,9 @@ struct Domain {
   Vec3 upper = Vec3::Ones();
   Index3 resolution{{1, 1, 1}};  ///< cells along x, y, z
   Index3 patches{{1, 1, 1}};     ///< along x, y, z
-  Index3 periodic{};             ///< 1 along axes where the grid repeats without end
+  Index3 periodic{};             ///< 1 along periodic axes
   int nodesBeyond = 0;           ///< layers of nodes outside every side that is not periodic, for wide shape functions
-  Refinement refinement;         ///< by default nothing is refined
+  Refinement refinement;         ///< no refinement by default
   BoundaryConditions boundaries;
 };
 
@@ -72,7 +72,7 @@ class Level {
 
   /// Cell width along a kernel axis, m.
   double spacing(int kernelAxis) const { return spacing_[kernelAxis]; }
-  /// One over the cell width, 1/m: saves a division wherever kernels convert metres to cells.
+  /// 1 over the cell width, 1/m, so that kernels convert metres to cells without a division.
   double inverseSpacing(int kernelAxis) const { return inverse_spacing_[kernelAxis]; }
   /// Cell width along an axis of the scene, m; 0 if the grid has no extent.
   double cellWidth(int axis) const { return (domain_.upper[axis] - domain_.lower[axis]) / domain_.resolution[axis]; }
@@ -93,8 +93,8 @@ class Level {
     return centre;
   }
 
-  /// The cell of a coordinate along a kernel axis: the c with nodePosition(c) <= x < nodePosition(c+1).
-  /// The upper end of the grid belongs to the last cell; outside the grid -1 or the number of cells.
+  /// The cell that contains a coordinate along a kernel axis: the c with nodePosition(c) <= x < nodePosition(c+1). The
+  /// upper end of the grid belongs to the last cell; outside the grid -1 or the number of cells.
   int cellAlong(int kernelAxis, double x) const;
   template <int D>
   Index<D> cellOf(const Vec<D>& x) const {
@@ -103,7 +103,7 @@ class Level {
     return cell;
   }
 
-  /// The cells of the grid near a box in space [m]: at least all that it touches.
+  /// The cells of the grid near a box in space [m]: at least those that it touches.
   Box cellsNear(const Vec3& lower, const Vec3& upper) const;
   /// The axes that the grid does not use: `y, z`, or nothing.
   std::string axesLeftOut() const;
@@ -152,8 +152,8 @@ class Level {
     return full;
   }
 
-  /// The condition for a variable of a material on a side of the grid (`side` 0: lower, 1: upper), if the scene gives
-  /// one; on one of its parts, or the rest of it.
+  /// The condition for a variable of a material on a part of a side of the grid (`side` 0: lower, 1: upper), or on the
+  /// rest of it, if the scene gives one.
   template <class T>
   std::optional<BoundaryValue<T>> boundary(int kernelAxis, int side, const BoundaryLabel<T>& variable, int material = 0,
                                            int part = restOfSide) const {
@@ -167,14 +167,14 @@ class Level {
   const std::vector<ConditionsOfPart>& parts(int kernelAxis, int side) const {
     return domain_.boundaries.parts[2 * axis(kernelAxis) + side];
   }
-  /// The number of the part of a side that holds the middle of a cell's face; restOfSide if none does. The distance
+  /// The number of the part of a side that contains the centre of a cell's face; restOfSide if none does. The distance
   /// of the cell from the side does not matter. A cell beyond the grid counts as the nearest one, or as its image.
   template <int D>
   int partAt(int kernelAxis, int side, const Index<D>& cell) const {
     return parts(kernelAxis, side).empty() ? restOfSide
                                            : partOf(kernelAxis, side, middleOfSide<D>(kernelAxis, side, cell));
   }
-  /// The middle of a cell's face, projected onto a side of the grid, m.
+  /// The centre of a cell's face, projected onto a side of the grid, m.
   template <int D>
   Vec3 middleOfSide(int kernelAxis, int side, const Index<D>& cell) const {
     Index<D> nearest = wrapped<D>(cell);
@@ -201,7 +201,7 @@ class Level {
   Box clip(const Box& box, const Box& grid) const;
   void measure();
 
-  int number_ = 0, halvings_ = 0;  ///< and the number of further halvings down to cells of the finest level
+  int number_ = 0, halvings_ = 0;  ///< number of this level, and of the halvings from it to the finest level
   const Grid* grid_ = nullptr;
   Domain domain_;
   std::vector<int> axes_;

@@ -42,8 +42,8 @@ class MortonCurve {
   Index3 descend(IsUpper&& isUpper) const;
 
   Cuts cuts_;
-  Box all_;       ///< of blocks
-  int bits_ = 0;  ///< of the greatest number of a block along an axis
+  Box all_;       ///< all blocks
+  int bits_ = 0;  ///< bits of the largest index of a block along an axis
 };
 
 }  // namespace tushar::grid

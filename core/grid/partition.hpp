@@ -15,9 +15,10 @@ struct Share {
 /// The distribution of patches to ranks: each rank has consecutive ones.
 class Partition {
  public:
-  /// Shares with numbers of cells as equal as whole patches allow. Needs no memory per rank. Rank 0 always has a patch.
+  /// Distributes patches so that numbers of cells are as equal as whole patches allow. Needs no memory per rank. Rank 0
+  /// always has a patch.
   Partition(const Tiling& tiling, int ranks) : tiling_(&tiling), ranks_(ranks) {}
-  /// The given shares.
+  /// Distributes patches as given.
   Partition(const Tiling& tiling, RankOffsets offsets)
       : tiling_(&tiling), ranks_(static_cast<int>(offsets.size()) - 1), offsets_(std::move(offsets)) {}
 
@@ -30,7 +31,7 @@ class Partition {
 
   const Tiling* tiling_;
   int ranks_;
-  RankOffsets offsets_;  ///< empty: by cells
+  RankOffsets offsets_;  ///< empty: distribution by cells
 };
 
 }  // namespace tushar::grid

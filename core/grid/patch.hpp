@@ -21,9 +21,9 @@ class Patch {
   Box nodes() const;
   /// Cells within `width` of the patch that are on the grid or, along periodic axes, on its images.
   Box cellsWithin(int width) const;
-  /// Nodes within `width` of the patch's nodes that are on the grid or images of such.
+  /// Nodes within `width` of the patch's nodes that are on the grid or, along periodic axes, on its images.
   Box nodesWithin(int width) const;
-  /// Whether a side (0: lower, 1: upper) along a kernel axis is a side of the grid; never so along a periodic axis.
+  /// Whether a side (0: lower, 1: upper) along a kernel axis is a side of the grid; always false along a periodic axis.
   bool isAtBoundary(int kernelAxis, int side) const;
   /// The patch's nodes on one of its sides.
   Box faceNodes(int kernelAxis, int side) const;

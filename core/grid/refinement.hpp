@@ -13,12 +13,12 @@ struct FineRegion {
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< m
 };
 
-/// How a grid may be refined: in blocks of a fixed number of cells, which are a property of the scene. Patches are
-/// boxes of blocks of one level, chosen for speed alone.
+/// The possible refinement of a grid: its levels, and its blocks of a fixed number of cells, which the scene
+/// determines. Patches are boxes of blocks of one level, chosen for speed alone.
 struct Refinement {
-  int levels = 1;                        ///< the most levels, including the coarsest
+  int levels = 1;                        ///< largest number of levels, including the coarsest
   Index3 blockCells{{8, 8, 8}};          ///< cells of a block along x, y, z
-  std::optional<Index3> blocksPerPatch;  ///< the most along x, y, z; none: as suits the threads and ranks
+  std::optional<Index3> blocksPerPatch;  ///< largest number along x, y, z; if not given, as suits the threads and ranks
   std::vector<FineRegion> regions;
 };
 

@@ -7,7 +7,7 @@ namespace tushar::grid {
 
 namespace {
 
-/// Gives each rank as much as keeps it below `most`; the last rank gets the rest.
+/// Fills each rank up to at most `most`; the last rank gets the rest.
 RankOffsets filledUpTo(double most, const std::vector<double>& costs, int ranks) {
   RankOffsets offsets{0};
   double share = 0;

@@ -18,18 +18,18 @@ class SidePart {
  public:
   /// Points within `radius` of `origin`, m, on a side across `axis`.
   static SidePart circle(int axis, const Vec3& origin, double radius);
-  /// A circle, without a smaller circle in it.
+  /// The ring between two circles.
   static SidePart annulus(int axis, const Vec3& origin, double inner, double outer);
   /// An ellipse with the semi-axes `longer` and `shorter`, m. The longer axis is turned by `degrees` from y towards z
   /// on x+, from z towards x on y+, from x towards y on z+, and the other way round on the opposite sides.
   static SidePart ellipse(int axis, int side, const Vec3& origin, double shorter, double longer, double degrees);
-  /// Between two corners, m.
+  /// The rectangle between two corners, m.
   static SidePart rectangle(int axis, const Vec3& lower, const Vec3& upper);
-  /// A rectangle, without a smaller rectangle in it.
+  /// The frame between two rectangles.
   static SidePart rectangulus(int axis, const std::array<Vec3, 2>& inner, const std::array<Vec3, 2>& outer);
 
   bool holds(const Vec3& x) const;
-  /// The corners of a box that holds it; along the axis across the side they are ignored.
+  /// The corners of a bounding box; their coordinates along the axis across the side are ignored.
   const Vec3& lower() const { return outer_.lower; }
   const Vec3& upper() const { return outer_.upper; }
 
@@ -50,7 +50,7 @@ class SidePart {
   bool isIn(const Oval& oval, const Vec3& x) const;
 
   int axis_ = 0;
-  Corners outer_;                ///< of a rectangle, or around the rest
+  Corners outer_;                ///< of a rectangle, or of the bounding box
   std::optional<Corners> hole_;  ///< of a rectangulus
   std::optional<Oval> oval_, ovalHole_;
 };

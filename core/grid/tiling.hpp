@@ -14,7 +14,7 @@ struct Tile {
   Box cells;
 };
 
-/// How the cells of a grid are cut into patches, which are numbered along a curve. Every rank has all of it.
+/// The division of the cells of a grid into patches, which are numbered along a curve. Every rank has all of it.
 class Tiling {
  public:
   virtual ~Tiling() = default;

@@ -65,7 +65,7 @@ std::string violation(const std::string& found, const Constraint& constraint, co
 }
 
 std::string violation(const std::string& found, const WithoutTime&, const std::string&) {
-  return fmt::format("found '{}', expected a formula without t: it holds at the start only", found);
+  return fmt::format("found '{}', expected a formula without t: it is evaluated only at the start", found);
 }
 
 }  // namespace tushar::input

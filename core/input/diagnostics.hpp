@@ -13,7 +13,7 @@ class Diagnostics {
  public:
   /// `tagPath` may be empty.
   void error(const Location& where, std::string tagPath, std::string sentence);
-  /// A problem of a tag or of its value.
+  /// Reports a problem with a tag or its value.
   void error(const Element& element, std::string sentence);
 
   /// Reports something that is accepted but has no effect.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* rootName = "Uintah_specification";
 
-/// Turns parsed files into one tree, following the includes.
+/// Builds one tree from parsed files and those that they include.
 class TreeBuilder {
  public:
   explicit TreeBuilder(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -47,7 +47,7 @@ class TreeBuilder {
 /// The path of a file that a tag names.
 struct FoundFile {
   std::string path;
-  bool hasMoved = false;  ///< it was found elsewhere
+  bool hasMoved = false;  ///< whether it was found elsewhere
 };
 
 bool isFile(const std::filesystem::path& path) {
@@ -55,7 +55,7 @@ bool isFile(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, unreadable);
 }
 
-/// Whether there is a pair of files of that name, as a surface of triangles is named: NAME.pts and NAME.tri.
+/// Whether there is a pair of files of that name, as for a surface of triangles: NAME.pts and NAME.tri.
 bool isPair(const std::filesystem::path& path) {
   return isFile(path.string() + ".pts") && isFile(path.string() + ".tri");
 }
@@ -80,7 +80,7 @@ FoundFile findFile(const std::string& path, const std::string& scene) {
   return {at(beside).string()};
 }
 
-/// Whether the text of a tag is the path of a file: it must lead there from the archive's copy of the scene, too.
+/// Whether the text of a tag is the path of a file, which must also be valid in the archive's copy of the scene.
 bool isPath(const pugi::xml_node& xml) {
   const std::string_view name = xml.name(), parent = xml.parent().name();
   return name == "file" || name == "PrescribedDeformationFile" || (parent == "contact" && name == "filename") ||
@@ -160,8 +160,7 @@ bool TreeBuilder::isCycle(const std::string& path, const Location& where) {
   return true;
 }
 
-/// A file that is named relative to the folder of the one that includes it or, as Uintah's scenes have it, to one
-/// above.
+/// The path of an included file, relative to the folder of the including file or, as in Uintah's scenes, to one above.
 std::string findIncluded(const std::filesystem::path& beside, const std::string& href) {
   std::error_code ignored;
   const std::filesystem::path here =

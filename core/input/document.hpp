@@ -20,7 +20,7 @@ class Document {
  public:
   /// Reads a file. All problems go to `diagnostics`; the document then has a bare root.
   static Document load(const std::string& path, Diagnostics& diagnostics);
-  /// Reads a scene from memory; messages and included files treat it as the file `name`.
+  /// Reads a scene from memory, as if it were the file `name`.
   static Document parse(std::string_view text, const std::string& name, Diagnostics& diagnostics);
 
   /// Overrides one value, such as `Grid/Level/Box/resolution=[200,1,1]`. `Tag[2]` picks the second of several siblings,

@@ -18,13 +18,13 @@ class Element {
   const std::string& name() const { return node_->name; }
   /// The tag's own text, without blanks at its ends.
   const std::string& text() const { return node_->text; }
-  /// Where the name of the tag starts, or the option that overrides it.
+  /// The place of the tag's name, or the option that overrides it.
   const Location& where() const { return node_->where; }
-  /// The tags from the root (left out) down to this one: `Grid/Level/Box/resolution`.
+  /// The path of tags from the root (excluded) down to this one: `Grid/Level/Box/resolution`.
   std::string path() const;
 
   std::optional<std::string> attribute(std::string_view name) const;
-  /// Where an attribute was given; where the tag is if it was not.
+  /// The place of an attribute; that of the tag if the attribute is not given.
   const Location& whereOf(std::string_view attribute) const;
   const std::vector<Attribute>& attributes() const { return node_->attributes; }
 
@@ -33,9 +33,9 @@ class Element {
   /// All children, in the order of the file.
   std::vector<Element> children() const;
   std::vector<Element> children(std::string_view name) const;
-  /// None for the root.
+  /// The tag that contains this one; none for the root.
   std::optional<Element> parent() const;
-  /// Whether it counts as if it were above its siblings (Document::readFirst).
+  /// Whether it counts as standing above its siblings (Document::readFirst).
   bool isReadFirst() const { return node_->isReadFirst; }
 
   /// Whether both are the same tag of the same document.

@@ -18,7 +18,7 @@ namespace tushar::input {
 
 namespace {
 
-/// A compiled formula and the variables that it reads; of one thread.
+/// A compiled formula and the variables that it reads, for one thread.
 struct Compiled {
   explicit Compiled(const std::string& text) {
     parser.DefineVar("x", &at[0]);
@@ -111,7 +111,7 @@ Parsed<Expression> Expression::parse(std::string_view given) {
     mu::Parser& parser = out.program_->compiled().parser;
     int results = 0;
     out.value_ = parser.Eval(results)[0];
-    if (results != 1) return Parsed<Expression>::wrong(notAFormula(out.text_, "it has several values"));
+    if (results != 1) return Parsed<Expression>::wrong(notAFormula(out.text_, "it has several results"));
     const auto& used = parser.GetUsedVar();
     out.constant_ = used.empty();
     out.dependsOnTime_ = used.count("t") > 0;

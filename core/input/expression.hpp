@@ -12,7 +12,7 @@
 
 namespace tushar::input {
 
-/// A formula in the position x, y, z (m) and the time t (s), such as `1e5*(1 + 0.1*sin(2*pi*x))`.
+/// A formula in the coordinates x, y, z (m) and the time t (s), such as `1e5*(1 + 0.1*sin(2*pi*x))`.
 ///
 /// Knows the operators + - * / ^, comparisons, && ||, `condition ? a : b`, the constants pi and e, and the usual
 /// functions (sin, cos, exp, ln, sqrt, abs, min, max, …). A formula with none of x, y, z, t is evaluated once, when it
@@ -48,7 +48,7 @@ class Expression {
   bool constant_ = true;
   bool dependsOnTime_ = false;
   Location where_;
-  std::unique_ptr<Program> program_;  ///< none of a constant
+  std::unique_ptr<Program> program_;  ///< null for a constant
 };
 
 /// Three formulas, `[fx,fy,fz]`.

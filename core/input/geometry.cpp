@@ -24,7 +24,7 @@ struct Kind {
   std::string name;
   std::function<PiecePtr(const Element&, Diagnostics&)> read;
   std::function<void(std::ostream&, int)> describe;
-  const SchemaBase* schema;  ///< lives as long as the kind
+  const SchemaBase* schema;  ///< must outlive the kind
 };
 
 template <class T>
@@ -38,7 +38,7 @@ Kind simple() {
   return {T::schema().name(), read, describe, &T::schema()};
 }
 
-/// A reference to a faulty shape is null, without a message of its own.
+/// Whether all shapes could be read; a reference to an invalid shape is null, without a message of its own.
 bool allRead(const std::vector<PiecePtr>& pieces) {
   return std::find(pieces.begin(), pieces.end(), nullptr) == pieces.end();
 }
@@ -70,8 +70,8 @@ Schema<Operands> operandsSchema(const std::string& name, const std::string& sent
     diagnostics.error(element, fmt::format("expected {} in <{}>, found {}", expected, element.name(), count));
   };
   Schema<Operands> schema(name, sentence);
-  schema.foreignAttribute("label", "an empty tag with this label, further down, refers to this shape")
-      .foreignAttribute("name", "another word for label")
+  schema.foreignAttribute("label", "a name by which an empty tag further down refers to this shape")
+      .foreignAttribute("name", "a synonym of label")
       .custom("shapes", readOperands, geometryNames(), exactlyTwo ? "two shapes" : "any number of shapes")
       .forms(geometryForms(), exactlyTwo ? 2 : 1)
       .check(checkCount);
@@ -93,8 +93,8 @@ Kind combined(Schema<Operands> declared, const std::function<PiecePtr(std::vecto
 Kind nothing() {
   struct Tag {};
   static const Schema<Tag> schema =
-      Schema<Tag>("null", "No point: a body without particles.")
-          .foreignAttribute("label", "an empty tag with this label, further down, refers to this shape");
+      Schema<Tag>("null", "The empty shape: a body without particles.")
+          .foreignAttribute("label", "a name by which an empty tag further down refers to this shape");
   const auto read = [](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
     schema.read(element, diagnostics);
     return std::make_shared<Nothing>();
@@ -107,12 +107,12 @@ struct FileTag {
   std::string file;
 };
 
-/// `load(path, tag, diagnostics)` makes the shape, or reports what is wrong at the tag.
+/// A shape from a file; `load(path, tag, diagnostics)` makes it, or reports a problem at the tag.
 Kind fromFile(const std::string& name, const std::string& sentence, const std::string& whatFile,
               const std::function<PiecePtr(const std::string&, const Element&, Diagnostics&)>& load) {
   const auto schema = std::make_shared<const Schema<FileTag>>(
       Schema<FileTag>(name, sentence)
-          .foreignAttribute("label", "an empty tag with this label, further down, refers to this shape")
+          .foreignAttribute("label", "a name by which an empty tag further down refers to this shape")
           .required("name", &FileTag::file, "m", whatFile));
   const auto read = [schema, load](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
     const std::size_t before = diagnostics.size();
@@ -181,7 +181,7 @@ bool isLabelledDefinition(const Element& element) {
   return !isEmpty(element) && labelOf(element) && findKind(element.name());
 }
 
-/// Collects the labelled shapes that lie wholly above `until`; returns whether that was reached.
+/// Collects the labelled shapes that end above `until`; returns whether `until` was reached.
 bool collectAbove(const Element& from, const Element& until, std::vector<Element>& found) {
   if (from == until) return true;
   const std::size_t place = found.size();
@@ -194,8 +194,8 @@ bool collectAbove(const Element& from, const Element& until, std::vector<Element
   return false;
 }
 
-/// Only in the same section of the scene (MaterialProperties, PhysicalBC, …), as each section has its own labels, which
-/// hide those of others. Parts of the section that are read first count as above.
+/// The labelled shapes above a shape in the same section of the scene (MaterialProperties, PhysicalBC, …): each section
+/// has its own labels, which hide those of others. Parts of the section that are read first count as above.
 std::vector<Element> labelledAbove(const Element& shape) {
   Element section = shape, part = shape;
   while (section.parent() && section.parent()->parent()) {
@@ -257,8 +257,8 @@ PiecePtr readReference(const Element& reference, const std::string& label, Diagn
 void noteIfTaken(const Element& shape, const std::string& label, Diagnostics& diagnostics) {
   const std::vector<Element> others = definitions(label, labelledAbove(shape));
   if (others.empty()) return;
-  diagnostics.note(shape, fmt::format("the label '{}' is that of the <{}> at {}, too, so no tag can refer to it", label,
-                                      others.front().name(), others.front().where().text()));
+  diagnostics.note(shape, fmt::format("the label '{}' is that of the <{}> at {} as well, so no tag can refer to either",
+                                      label, others.front().name(), others.front().where().text()));
 }
 
 /// An empty tag that refers to a shape further up.
@@ -267,7 +267,7 @@ struct Reference {
 };
 
 Schema<Reference> referenceSchema(const std::string& attribute) {
-  return Schema<Reference>("label", "Stands for the shape with this label, further up.")
+  return Schema<Reference>("label", "Refers to the shape further up that has this label.")
       .requiredAttribute(attribute, &Reference::label, "1", "the label of that shape");
 }
 

@@ -11,13 +11,13 @@
 
 namespace tushar::input {
 
-/// The tags that are shapes, for Schema::custom to take over: `.custom("shape", …, geometryNames(), …)`.
+/// The names of tags that are shapes, for Schema::custom: `.custom("shape", …, geometryNames(), …)`.
 std::vector<std::string> geometryNames();
 /// The allowed content of these tags, for Schema::forms.
 std::vector<TagForm> geometryForms();
 
-/// The shapes among the children of a `<geom_object>` (or the like), united if there are several; other children are
-/// left to the schema of `parent`. Null, with an error in the diagnostics, if there is none or if one is wrong.
+/// The shapes among the children of a `<geom_object>` or a similar tag, as their union if there are several; the schema
+/// of `parent` reads the other children. Null, with an error in the diagnostics, if there is none or if one is wrong.
 ///
 /// A shape with a `label` (or `name`) can be used again, further down in the same section of the scene (the tag below
 /// the root), by an empty tag of the same kind with that label.

@@ -7,17 +7,17 @@
 
 namespace tushar::input {
 
-/// The greatest depth to which tags may be nested.
+/// The largest allowed depth of nested tags.
 inline constexpr std::size_t mostNested = 100;
 
-/// The first place of an XML text at which its tags are not properly nested.
+/// The first place in an XML text at which tags are not properly nested.
 struct BadNesting {
-  std::ptrdiff_t where;            ///< byte of the text
+  std::ptrdiff_t where;            ///< byte in the text
   std::string closed;              ///< name of the tag that is closed there; empty at the end of the text
   std::string open;                ///< name of the innermost tag that is open there; empty if none is
-  std::ptrdiff_t whereOpened = 0;  ///< byte of its name
+  std::ptrdiff_t whereOpened = 0;  ///< byte at which its name starts
   bool wasOpened = false;          ///< whether the tag that is closed is open further out
-  bool tooDeep = false;            ///< nested one level too deep, and nothing else is wrong
+  bool tooDeep = false;            ///< whether the only problem is that tags are nested too deep
 };
 
 /// Checks only tags: comments, CDATA, declarations and text between tags are skipped.

@@ -8,20 +8,20 @@
 
 namespace tushar::input {
 
-/// An XML attribute and where it was given: the place of its tag, or the option that overrides it.
+/// An XML attribute and its place: that of its tag, or the option that overrides it.
 struct Attribute {
   std::string name;
   std::string value;
   Location where;
 };
 
-/// A tag (or comment) as a Document keeps it; read it through Element.
+/// A tag or comment in a Document; to be read through Element.
 struct Node {
   enum class Kind { tag, comment };
 
   Kind kind = Kind::tag;
   std::string name;  ///< empty for a comment
-  std::string text;  ///< own text without blanks at its ends; the text of a comment
+  std::string text;  ///< text of the tag or comment, without blanks at its ends
   Location where;
   std::vector<Attribute> attributes;
   std::vector<std::unique_ptr<Node>> children;

@@ -18,10 +18,10 @@ struct OverrideStep {
   std::string value;      ///< of `attribute`
 };
 
-/// The parts of `Grid/Level/Box/resolution=[200,1,1]`.
+/// An override such as `Grid/Level/Box/resolution=[200,1,1]`, in parts.
 struct Override {
   std::vector<OverrideStep> steps;
-  std::string attribute;  ///< the attribute to set; empty if the text of the tag is set
+  std::string attribute;  ///< the attribute to set; empty to set the text of the tag
   std::string value;
 };
 

@@ -59,7 +59,7 @@ void refuseTag(SchemaBase& schema, const std::string& tag, const std::string& in
       [tag, instead](void*, const Element& element, Diagnostics& diagnostics) {
         if (const auto given = element.child(tag)) diagnostics.error(*given, "is not available; " + instead);
       },
-      {tag}, "not there: " + instead);
+      {tag}, "not available: " + instead);
   schema.setFormsOfLast({noForm({tag})});
 }
 

@@ -29,7 +29,7 @@ void noteAttribute(const Element& given, const std::string& attribute, const std
 void refuseTypes(SchemaBase& schema, const std::string& tag, const std::vector<std::string>& available,
                  const std::string& sentence);
 
-/// Refuses each entry of a list whose `member` is not above that of the entry before it. `tags` are the entries' own.
+/// Refuses each entry of a list whose `member` is not above that of the previous entry. `tags` are the entries' own.
 template <class T, class Member>
 void refuseDescent(const std::vector<T>& entries, Member T::*member, const std::vector<Element>& tags,
                    const std::string& problem, Diagnostics& diagnostics) {
@@ -40,7 +40,7 @@ void refuseDescent(const std::vector<T>& entries, Member T::*member, const std::
 /// Options of Uintah's that are not available, and the nearest alternative of each.
 using Lacking = std::vector<std::pair<std::string, std::string>>;
 
-/// Declares a tag with one of several words; for those that are `lacking`, the message names the nearest.
+/// Declares a tag with one of several words; for words that are `lacking`, the message names the nearest alternative.
 template <class S, class E>
 void requiredChoiceOrRefusal(input::Schema<S>& schema, const std::string& tag, E S::*member,
                              const std::type_identity_t<input::Choices<E>>& choices, const Lacking& lacking,

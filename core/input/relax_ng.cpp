@@ -35,7 +35,7 @@ void writePattern(xml_node parent, const std::string& pattern) {
   named(data, "param", "pattern").text() = pattern.c_str();
 }
 
-/// One of some words; compared as numbers where `asNumbers`.
+/// Writes a choice of words; compared as numbers if `asNumbers`.
 void writeWords(xml_node parent, const std::vector<std::string>& words, bool asNumbers) {
   xml_node choice = words.size() == 1 ? parent : parent.append_child("choice");
   for (const std::string& word : words) {
@@ -54,7 +54,7 @@ void writeValue(xml_node parent, const TagForm& form) {
     refer(parent, "value-" + valueTypeOf(form.type).name);
 }
 
-/// How often the content of the node that it returns may occur in `parent`.
+/// Writes how often something may occur in `parent`; returns the node for its content.
 xml_node often(xml_node parent, int atLeast, bool repeats) {
   if (repeats) return parent.append_child(atLeast > 0 ? "oneOrMore" : "zeroOrMore");
   return atLeast > 0 ? parent : parent.append_child("optional");
@@ -62,7 +62,7 @@ xml_node often(xml_node parent, int atLeast, bool repeats) {
 
 bool isTag(const SchemaEntry& entry) { return entry.place == Place::tag; }
 
-/// The grammar: a definition for each way to write a tag.
+/// A grammar, with one definition for each form of a tag.
 class Grammar {
  public:
   explicit Grammar(xml_node grammar) : grammar_(grammar) {}
@@ -87,7 +87,7 @@ class Grammar {
     std::function<void(xml_node)> fill;
   };
 
-  /// The name of the definition of `key`; `fill` writes what is in its element.
+  /// The name of the definition of `key`; on first use, `fill` writes the content of its element.
   std::string define(const std::string& key, const std::string& tag, std::function<void(xml_node)> fill) {
     auto [found, isNew] = names_.try_emplace(key);
     if (isNew) {
@@ -104,7 +104,7 @@ class Grammar {
     return key;
   }
 
-  /// References to all ways to write a tag.
+  /// Writes references to all forms of a tag.
   void referToTag(xml_node parent, const TagForm& form, const std::string& tag, const std::string& documentation) {
     if (form.kind == TagForm::Kind::section) {
       for (const Alternative& alternative : form.alternatives())
@@ -123,7 +123,7 @@ class Grammar {
           }));
   }
 
-  /// A tag as often as it may occur among others.
+  /// Writes a tag with the allowed number of occurrences.
   void writeTag(xml_node parent, TagForm form, const std::string& tag, const std::string& documentation,
                 const Demand* demand, bool isOptional) {
     if (demand && !demand->words.empty()) form.choices = demand->words;
@@ -138,7 +138,7 @@ class Grammar {
     referToTag(isOne ? parent : parent.append_child("choice"), form, tag, documentation);
   }
 
-  /// Tags of which a number must be given, any of them.
+  /// Writes tags of which a certain number must be given, in any combination.
   void writeAnyOf(xml_node parent, const SchemaEntry& entry, int atLeast) {
     const auto choose = [&](xml_node place) {
       xml_node choice = place.append_child("choice");
@@ -203,7 +203,7 @@ class Grammar {
       writeAllTags(element, schema, demands);
   }
 
-  /// Tags in any order; if some are included from another file, missing tags cannot be detected.
+  /// Writes tags in any order; if some are included from another file, missing tags cannot be detected.
   void writeAllTags(xml_node element, const SchemaBase& schema, const std::vector<Demand>& demands) {
     const bool someAreRequired = std::any_of(schema.entries().begin(), schema.entries().end(),
                                              [&](const auto& entry) { return isRequired(entry, demands); });
@@ -221,7 +221,7 @@ class Grammar {
     writeTags(withIncludes, schema, demands, true);
   }
 
-  /// Any attributes but those of `demands`.
+  /// Allows all attributes except those of `demands`.
   static void allowAttributes(xml_node parent, const std::vector<Demand>& demands) {
     xml_node any = parent.append_child("zeroOrMore").append_child("attribute").append_child("anyName");
     if (demands.empty()) return;
@@ -229,7 +229,7 @@ class Grammar {
     for (const Demand& demand : demands) except.append_child("name").text() = demand.name.c_str();
   }
 
-  /// Any attributes but those that are declared.
+  /// Allows all attributes except those that are declared.
   static void allowOtherAttributes(xml_node element) {
     std::vector<Demand> declared;
     for (const pugi::xpath_node& one : element.select_nodes("attribute|optional/attribute|choice/attribute"))
@@ -253,7 +253,7 @@ class Grammar {
     allowAttributes(element, {});
     refer(element, anything);
     xml_node other = named(named(grammar_, "define", include), "element", "include");
-    document(other, "Takes the place of tags of another file.");
+    document(other, "Is replaced by the tags of another file.");
     named(other, "attribute", "href").append_child("text");
     for (const char* name : {"section", "excludeSectionTag"})
       named(other.append_child("optional"), "attribute", name).append_child("text");

@@ -7,9 +7,9 @@
 
 namespace tushar::input {
 
-/// Writes a schema in RELAX NG's XML syntax (ISO/IEC 19757-2) of the files whose outermost tag is `root`, so that
-/// editors complete and check them. It accepts everything that the schemas of `root` read; checks beyond one value or
-/// tag, such as limits, are left to sus. `comment` goes to its top.
+/// Writes a schema for files whose outermost tag is `root`, in RELAX NG's XML syntax (ISO/IEC 19757-2), so that editors
+/// can complete and check them. It accepts everything that the schemas of `root` read; checks beyond one value or tag,
+/// such as limits, are left to sus. `comment` goes to its top.
 void writeRelaxNg(std::ostream& out, const TagForm& root, const std::string& comment);
 
 }  // namespace tushar::input

@@ -18,21 +18,22 @@
 
 namespace tushar::input {
 
-/// The pointer to a member of a base of S, as a member of S.
+/// Converts a pointer to a member of a base of S to one of S.
 template <class S, class T, class Base>
 T S::*memberOf(T Base::*member) {
   return member;
 }
 
-/// How one tag is read into a structure S: each tag and attribute that it may have is declared once, with its type,
-/// default, unit, limits and a sentence. Reading, the messages and the manual all come from these declarations.
+/// A description of how to read one tag into a structure S: each tag and attribute that it may contain is declared
+/// once, with its type, default, unit, limits and a sentence. Reading, the messages and the manual all come from these
+/// declarations.
 ///
 /// S must be default-constructible. Units are as in "m/s"; "1" means none. Schemas that are passed to others are kept
 /// by reference and must outlive them (make them function-local statics).
 template <class S>
 class Schema : public SchemaBase {
  public:
-  /// `name` is the tag's; `sentence` says what it is for.
+  /// `name` is that of the tag; `sentence` describes its purpose.
   Schema(std::string_view name, std::string_view sentence) : SchemaBase(name, sentence) {}
 
   /// Reads the tag; every problem goes to `diagnostics`, and the member concerned keeps its default.
@@ -49,7 +50,7 @@ class Schema : public SchemaBase {
     return object;
   }
 
-  /// A tag with a value; `byDefault` if it is left out.
+  /// A tag with a value, which is `byDefault` if it is left out.
   template <class T, class... C>
   Schema& value(std::string_view name, T S::*member, const std::type_identity_t<T>& byDefault, std::string_view unit,
                 std::string_view sentence, const C&... constraints) {
@@ -105,7 +106,7 @@ class Schema : public SchemaBase {
     return put(choiceEntry<E>(member, name, choices, sentence));
   }
 
-  /// As above, for attributes.
+  /// The same for attributes.
   template <class T, class... C>
   Schema& attributeValue(std::string_view name, T S::*member, const std::type_identity_t<T>& byDefault,
                          std::string_view unit, std::string_view sentence, const C&... constraints) {
@@ -192,13 +193,13 @@ class Schema : public SchemaBase {
   }
 
   /// The allowed content of the tags of the last declaration, a custom one, for the schemas of editors; at least
-  /// `atLeast` of these tags must be given in all.
+  /// `atLeast` of these tags must be given in total.
   Schema& forms(std::vector<TagForm> forms, int atLeast = 0) {
     setFormsOfLast(std::move(forms), atLeast);
     return *this;
   }
 
-  /// Stores the location of the tag or, with the name of an attribute, that of the attribute.
+  /// Stores the location of the tag or, if the name of an attribute is given, of that attribute.
   Schema& location(Location S::*member, std::string attribute = "") {
     addLocate([member, attribute = std::move(attribute)](void* object, const Element& element) {
       static_cast<S*>(object)->*member = element.whereOf(attribute);
@@ -222,7 +223,7 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// Adds to the message about a word that the last choice lacks where that word is available.
+  /// Adds, to the message about a word that is not in the last choice, where that word is available.
   Schema& elsewhere(std::string_view word, std::string_view sentence) {
     explainWordOfLast(word, sentence);
     return *this;
@@ -245,8 +246,8 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// Where `member` of an S is, given the S without its type. From here on the entries do not depend on S, so that
-  /// the compiler makes them once for each type of value.
+  /// The address of `member` in an S whose type is erased. From here on the entries do not depend on S, so that the
+  /// compiler makes them once for each type of value.
   template <class M>
   static Reach<M> reach(M S::*member) {
     return Reach<M>(member);

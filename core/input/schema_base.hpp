@@ -12,7 +12,7 @@
 
 namespace tushar::input {
 
-/// One declaration of a schema, with the type of the structure that it fills erased.
+/// One declaration of a schema, without the type of the structure that it fills.
 struct SchemaEntry {
   SchemaEntry();
   SchemaEntry(const SchemaEntry& other);
@@ -37,8 +37,8 @@ struct SchemaEntry {
   std::vector<std::string> takes;  ///< the tags that it reads; empty for attributes and text
   bool ours = false;
   bool repeatable = false;
-  bool isAlternative = false;  ///< one of the attributes with this mark must be given
-  int atLeast = 0;             ///< how many must be given
+  bool isAlternative = false;  ///< whether it is one of several attributes, one of which must be given
+  int atLeast = 0;             ///< smallest number of occurrences
   std::vector<TagForm> forms;  ///< the allowed content of tags that a function of the parent reads; empty: anything
   const SchemaBase* nested = nullptr;  ///< the schema that reads a nested tag
 
@@ -53,15 +53,15 @@ struct SchemaEntry {
 
 SchemaEntry namedEntry(std::string_view name, std::string_view sentence);
 
-/// `number in Pa, greater than 0, default 1`: what the manual says of a value besides its sentence.
+/// The facts about a value that the manual adds to its sentence: `number in Pa, greater than 0, default 1`.
 std::string factsOf(const SchemaEntry& entry);
 
-/// The message that `text` is none of `words`, or nothing if it is one.
+/// The message that `text` is not one of `words`; empty if it is.
 std::string choiceProblem(const std::string& text, const std::vector<std::string>& words);
 
 /// Reports the attributes of a tag that are not among `allowed`.
 void refuseAttributes(const Element& element, const std::vector<std::string>& allowed, Diagnostics& diagnostics);
-/// Reports text in a tag that may hold only tags.
+/// Reports text in a tag that may contain only tags.
 void refuseText(const Element& element, Diagnostics& diagnostics);
 
 /// The part of a Schema that does not depend on the structure that it fills.
@@ -78,7 +78,7 @@ class SchemaBase {
   std::vector<std::string> attributeNames() const;
   /// Writes the manual of the tag and of all that it may contain, indented by `indent` blanks.
   void describe(std::ostream& out, int indent = 0) const;
-  /// As describe(), without the line of the tag itself.
+  /// Like describe(), without the line of the tag itself.
   void describeContents(std::ostream& out, int indent = 0) const;
 
   using Fill = std::function<void(void* object, const Element& element, Diagnostics& diagnostics)>;
@@ -108,7 +108,7 @@ class SchemaBase {
   static SchemaEntry flagEntry(SchemaEntry&& entry);
   static SchemaEntry ignoredEntry(std::string_view name, std::string_view sentence);
   static SchemaEntry textEntry(std::string_view name, std::string_view sentence);
-  /// A tag that `schema` reads; without a sentence it has that of the schema.
+  /// A tag that `schema` reads; an empty sentence stands for that of the schema.
   static SchemaEntry sectionEntry(std::string_view name, const SchemaBase& schema, std::string_view sentence);
   void markLastOurs();
   void markAllOurs() { all_ours_ = true; }

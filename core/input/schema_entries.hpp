@@ -65,7 +65,7 @@ void storeIn(std::vector<T>& member, T value) {
 template <class T>
 struct Limit {
   std::string allowed;  ///< `greater than 0`
-  /// Why a value, given as `text`, violates it; nothing if it does not.
+  /// Why a value, given as `text`, violates the constraint; empty if it does not.
   std::function<std::string(const T& value, const std::string& text, const std::string& unit)> problem;
 };
 template <class T>

@@ -8,13 +8,13 @@ namespace tushar::input {
 
 class SchemaBase;
 
-/// A required attribute or tag, whose value is one of some words; any value if there are no words.
+/// A required attribute or tag with one of some words as its value; with any value if there are no words.
 struct Demand {
   std::string name;
   std::vector<std::string> words;
 };
 
-/// One way to write a tag: as a schema declares it, and with what else it takes to be read by that schema.
+/// One form of a tag: its schema, and the conditions under which that schema reads it.
 struct Alternative {
   const SchemaBase* schema = nullptr;  ///< must outlive the form
   std::vector<Demand> demands;
@@ -26,13 +26,13 @@ struct TagForm {
 
   std::vector<std::string> tags = {};
   Kind kind = Kind::anything;
-  std::string type = {};                  ///< of a value, as the manual calls it: see typeName
-  std::vector<std::string> choices = {};  ///< words for a value; compared as the type, if there is one
-  std::string pattern = {};               ///< a regular expression of XML Schema for a value, in place of the type
+  std::string type = {};                  ///< name of a value's type in the manual: see typeName
+  std::vector<std::string> choices = {};  ///< allowed words for a value; compared as the type, if any
+  std::string pattern = {};               ///< a regular expression of XML Schema for a value, instead of the type
   std::vector<Demand> demands = {};       ///< attributes of a tag whose contents may be anything
   /// The schemas of a section; called when all schemas are complete.
   std::function<std::vector<Alternative>()> alternatives = {};
-  int atLeast = 0;      ///< how many of each tag must be given
+  int atLeast = 0;      ///< smallest number of occurrences of each tag
   bool repeats = true;  ///< whether a tag may be given more than once
 };
 
@@ -52,7 +52,7 @@ inline TagForm choiceForm(std::vector<std::string> tags, std::vector<std::string
   return form;
 }
 
-/// Tags with a text that matches a regular expression of XML Schema, once its blanks are collapsed.
+/// Tags whose text, with collapsed blanks, matches a regular expression of XML Schema.
 inline TagForm patternForm(std::vector<std::string> tags, std::string pattern) {
   TagForm form = typeForm(std::move(tags), "");
   form.pattern = std::move(pattern);
@@ -85,7 +85,7 @@ inline TagForm onceForm(std::string tag, std::function<std::vector<Alternative>(
   return form;
 }
 
-/// The ways to write the number 0.
+/// A regular expression for the number 0.
 inline constexpr const char* zeroPattern = R"([+\-]?(0+(\.0*)?|\.0+)([eE][+\-]?[0-9]+)?)";
 
 }  // namespace tushar::input

@@ -17,7 +17,7 @@ std::string threeOf(const std::string& pattern) { return fmt::format(R"(\[ ?{0} 
 
 std::string anyNumberOf(const std::string& pattern) { return fmt::format(R"({0}|\[ ?({0}( ?, ?{0})*)? ?\])", pattern); }
 
-/// A number, or a text with a character that does not occur in numbers.
+/// The pattern of a formula: a number, or a text with a character that does not occur in numbers.
 std::string formula() { return fmt::format(R"({}|[^\[\]]*[^\[\]+\-.0-9eE][^\[\]]*)", number); }
 
 template <class T>

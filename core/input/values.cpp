@@ -19,13 +19,13 @@ std::string expected(std::string_view text, std::string_view what) {
   return fmt::format("{}, expected {}", found(text), what);
 }
 
-/// Without a leading '+', which std::from_chars does not accept.
+/// The text without a leading '+', which std::from_chars does not accept.
 std::string_view withoutPlus(std::string_view text) {
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+';
   return plus ? text.substr(1) : text;
 }
 
-/// Without a decimal point that only zeros follow: `2.0` is a whole number, too.
+/// The text without a decimal point that is followed only by zeros: `2.0` is a whole number, too.
 std::string_view withoutPoint(std::string_view text) {
   const auto point = text.find('.');
   const bool isWhole =

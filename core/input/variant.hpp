@@ -8,7 +8,7 @@
 
 namespace tushar::input {
 
-/// A tag whose attribute `type` picks one of several structs, each with its `name` and its `schema()`.
+/// A tag whose attribute `type` selects one of several structs, each with a `name` and a `schema()`.
 template <class Variant>
 class TypedTag;
 
@@ -26,7 +26,7 @@ class TypedTag<std::variant<Ts...>> {
   }
   static std::vector<std::string> names() { return {std::string(Ts::name)...}; }
   static void describe(std::ostream& out, int indent) { (describeOne<Ts>(out, indent), ...); }
-  /// The tag by each of the types.
+  /// The forms of the tag, one for each type.
   static std::vector<input::Alternative> alternatives() {
     return {{&schema<Ts>(), {{"type", {std::string(Ts::name)}}}}...};
   }

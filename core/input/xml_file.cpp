@@ -39,7 +39,7 @@ std::string latin1ToUtf8(std::string_view text) {
   return out;
 }
 
-/// Why the file at `path` cannot be opened at all, or nothing.
+/// Why the file at `path` cannot be opened at all; empty if it can.
 std::string accessProblem(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return "this is a folder, expected a file";

@@ -31,7 +31,7 @@ void restrict(xml_node type, const char* base, const char* facet, const std::vec
   for (const std::string& value : values) restriction.append_child(facet).append_attribute("value") = value.c_str();
 }
 
-/// All allowed forms of a tag or an attribute of one name, from all places where it is declared.
+/// All allowed forms of the tags or attributes with one name, from all declarations.
 class Uses {
  public:
   std::vector<TagForm> values;
@@ -90,7 +90,7 @@ class Writer {
   }
 
  private:
-  /// The name of the type of a tag; empty if the tag contains the type.
+  /// The name of the type of a tag; empty if the type is defined inside the tag.
   std::string typeOf(const std::string& tag, const Uses& uses) {
     if (uses.mayBeAnything || (!uses.sections.empty() && !uses.values.empty())) return "xs:anyType";
     if (uses.sections.empty()) return "";
@@ -182,7 +182,7 @@ class Writer {
       restrict(named(schema_, "xs:simpleType", "value-" + type.name), "xs:token", "xs:pattern", {type.pattern});
     xml_node other = named(schema_, "xs:complexType", "include");
     other.append_attribute("mixed") = "true";
-    annotate(other, "Takes the place of tags of another file.");
+    annotate(other, "Is replaced by the tags of another file.");
     for (const char* name : {"href", "section", "excludeSectionTag"})
       named(other, "xs:attribute", name).append_attribute("type") = "xs:string";
   }

@@ -35,7 +35,7 @@ class CellSystem {
     unknowns_.entries.assign(number_.owned(), Balance<D>::most);
   }
 
-  /// Declares that a constant added to a solution gives another solution: that of mean 0 is taken.
+  /// Declares that a solution plus any constant is also a solution: the one with mean 0 is taken.
   void freeConstant() { unknowns_.constantIsFree = true; }
 
   /// Solves for the unknowns, from the values in `guess` of each patch. `equationOf(p, cell)` gives the CellEquation of
@@ -89,7 +89,7 @@ class CellSystem {
     return static_cast<std::size_t>(number_(levelOf(p), cell));
   }
   /// Finds, from the equations of cells at the faces of patches, which cells of other ranks they use, and how many
-  /// cells there are in a row: all others use those beside them.
+  /// entries their rows have; the equations of other cells contain only direct neighbours.
   template <class EquationOf>
   void meetOthers(EquationOf&& equationOf) {
     forEachCell([&](std::size_t p, const Index<D>& cell) {
@@ -114,7 +114,7 @@ class CellSystem {
       matrix.add({columns.data(), 1}, {&column, 1}, {&far.weight, 1});
     }
   }
-  /// Cells are weighted by volume.
+  /// Subtracts the mean of the solution, weighted by the volumes of cells.
   void takeOutMean() {
     data::Sum sum, volume;
     forEachCell([&](std::size_t p, const Index<D>& cell) {
@@ -126,7 +126,7 @@ class CellSystem {
     unknowns_.ranks->merge(volume);
     for (double& value : solution_) value -= sum.total() / volume.total();
   }
-  /// The centre of the cell with a number, m; none for one of another rank.
+  /// The centre of the cell with a given number, m; none if it belongs to another rank.
   std::optional<Vec3> middleOf(int wanted) const {
     std::optional<Vec3> middle;
     forEachCell([&](std::size_t p, const Index<D>& cell) {

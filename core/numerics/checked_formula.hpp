@@ -13,12 +13,12 @@ namespace tushar::numerics {
 /// A formula of the scene whose values are checked when they are used.
 struct CheckedFormula {
   const input::Expression& formula;
-  std::string path;  ///< its tag, such as `Heat/temperature`
-  std::string unit;  ///< empty without dimension
+  std::string path;  ///< path of its tag, such as `Heat/temperature`
+  std::string unit;  ///< empty for a dimensionless number
 
   /// The value at a point [m]. Throws InputError where it is not finite.
   double finiteAt(const Vec3& x) const;
-  /// Throws InputError where the value is not finite and greater than 0.
+  /// The same, but throws InputError unless the value is finite and greater than 0.
   double positiveAt(const Vec3& x) const;
   /// Sets each cell of a patch to the value at its centre. Throws InputError where that is not finite.
   template <int D>

@@ -53,7 +53,7 @@ class CompositeDiffusion {
  private:
   const Diffusion<D>& on(int level) const { return ofLevels_[level]; }
 
-  /// Calls `visit` for the next level's cells in a cell that touch its face to the previous cell.
+  /// Calls `visit` for the finer cells in a cell that touch its face to the previous cell.
   template <class Visit>
   static void forEachFiner(const Index<D>& next, int d, int side, Visit&& visit) {
     for (int k = 0; k < (1 << D); ++k) {

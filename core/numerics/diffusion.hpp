@@ -10,7 +10,7 @@
 
 namespace tushar::numerics {
 
-/// The mean of two coefficients at the face between their cells that keeps the flux right where they jump (Patankar,
+/// The mean of two coefficients at the face between their cells that gives the correct flux where they jump (Patankar,
 /// Numerical Heat Transfer and Fluid Flow, 4.2).
 inline double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }
 
@@ -25,7 +25,7 @@ struct Balance {
     double weight;
   };
 
-  int level = 0;                       ///< of the cell
+  int level = 0;                       ///< level of the cell
   std::array<Index<D>, most> cells{};  ///< the cell itself, then some of its neighbours, which may be periodic images
   std::array<double, most> weights{};
   std::size_t count = 1;
@@ -79,7 +79,7 @@ class Diffusion {
     const double outward = atFace(cell, next, true) * (phi[cell] - phi[next]) / level_.spacing(d);
     return side == 0 ? -outward : outward;
   }
-  /// The sum over the faces of a cell of k / h²: an explicit step of at most one over it lets no cell overshoot.
+  /// The sum over the faces of a cell of k / h²: in an explicit step of at most 1 over this rate no cell overshoots.
   double rate(const Index<D>& cell) const {
     double sum = 0;
     forEachFace(cell, [&](int d, int, const Index<D>& next, bool isInside) {
@@ -115,7 +115,7 @@ class Diffusion {
         visit(d, side, next, level_.isPeriodic(d) || (next[d] >= 0 && next[d] < level_.cells().upper[d]));
       }
   }
-  /// k in the centre of a cell of the grid or of its periodic images.
+  /// k at the centre of a cell of the grid or of its periodic images.
   double inCell(const Index<D>& cell) const {
     return k_(level_.template expandPoint<D>(level_.template cellCentre<D>(level_.template wrapped<D>(cell))));
   }
@@ -123,7 +123,7 @@ class Diffusion {
     const double own = inCell(cell);
     return k_.isConstant() || !isInside ? own : harmonicMean(own, inCell(next));
   }
-  /// phi beyond a side of the grid, such that the condition holds on the side.
+  /// phi beyond a side of the grid such that the condition holds on the side.
   double mirrored(double phi, const Index<D>& cell, int d, int side) const {
     const auto& given = sides_(d, side, cell);
     if (!given) return phi;

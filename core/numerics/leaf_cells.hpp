@@ -13,8 +13,8 @@ class LeafCells {
   /// The grid must outlive it.
   explicit LeafCells(const grid::Grid& grid) : grid_(&grid) {}
 
-  /// The level of the leaves at the place of a cell of any level: its own, a coarser one, or the next finer one.
-  /// Images along periodic axes count; outside the grid: -1.
+  /// The level of the leaves at a cell of any level: that of the cell, a coarser one, or the next finer one. Images
+  /// along periodic axes count; outside the grid: -1.
   int levelAt(int level, const Index<D>& cell) const { return grid_->tree().levelAt(blockOf(level, cell)); }
   bool isThere(int level, const Index<D>& cell) const { return levelAt(level, cell) == level; }
   bool areInOneBlock(const Index<D>& a, const Index<D>& b) const { return blockOf(0, a).at == blockOf(0, b).at; }
@@ -75,7 +75,7 @@ class FaceInterpolation {
     return (u - 1) * (u - 2) / 2 - 1;
   }
   /// Visits the cells of s_a s_b times the mixed difference: the mean over the corners of the cell whose other cells
-  /// are there.
+  /// exist.
   template <class Visit>
   double addMixed(int level, const Index<D>& cell, int a, int b, const std::array<double, D>& shift,
                   Visit&& visit) const {

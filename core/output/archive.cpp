@@ -46,9 +46,9 @@ struct Archive::State {
   ArchiveIndex index;
   XdmfIndex xdmf;
   GlobalFiles globals{folder};
-  Pace pace;  ///< of the lists
+  Pace pace;  ///< pace of the lists
   int last_step = -1;
-  Pace vtkhdf_pace;  ///< of the VTKHDF files, which take longer
+  Pace vtkhdf_pace;  ///< pace of the VTKHDF files, which take longer
 };
 
 void Archive::State::writeLists() {
@@ -121,7 +121,8 @@ void Archive::flush() {
   if (state_->vtkhdf_pace.isBehind()) state_->writeVtkHdfFiles();
 }
 
-/// The lists keep their pace: a run that continues from here takes that of the checkpoint, and writes the others again.
+/// Does not write the lists: a run that continues from here takes the list of the checkpoint, and adds the later
+/// outputs again.
 ArchivePoint Archive::sync(int step, double time) {
   state_->globals.sync();
   syncToDisk(state_->folder);

@@ -9,11 +9,11 @@
 
 namespace tushar::output {
 
-/// How an archive stores its numbers.
+/// The storage of numbers in an archive.
 struct ArchiveOptions {
   bool doubleAsFloat = false;  ///< keep 4 of the 8 bytes of each real number
   int compression = 0;         ///< gzip level, 0 (none) to 9
-  std::string version{};       ///< of the program that writes
+  std::string version{};       ///< version of the program that writes
 };
 
 /// A global quantity at one time.
@@ -51,32 +51,32 @@ class Archive {
   /// Makes the folder `filebase.NNN`, NNN one above the highest there is, and points the link `filebase` to it.
   /// FileError if `filebase` exists and is not a link, or if nothing can be written there.
   Archive(const std::filesystem::path& filebase, const std::string& inputXml, const ArchiveOptions& options = {});
-  /// Continues in the folder of another run from some point: what came later is removed, outputs and lines of `.dat`
-  /// files alike. `name` is that of the filebase. Where index.xml is damaged, the point's is taken; what the XDMF file
-  /// lacks is read from the outputs.
+  /// Continues in the folder of another run from some point; later outputs and lines of `.dat` files are removed.
+  /// `name` is that of the filebase. Where index.xml is damaged, the point's is taken; what the XDMF file lacks is read
+  /// from the outputs.
   Archive(const std::filesystem::path& folder, const std::string& name, const ArchivePoint& from,
           const std::string& inputXml, const ArchiveOptions& options);
-  /// Flushes; errors are lost, so call flush() first.
+  /// Flushes; errors are ignored, so call flush() first.
   ~Archive();
   Archive(const Archive&) = delete;
   Archive& operator=(const Archive&) = delete;
 
   /// Writes an output. A step that is written again replaces what was there.
   void write(const Snapshot& snapshot);
-  /// Lists an output that is already in the folder: ranks have written it together.
+  /// Lists an output that ranks have already written into the folder together.
   void list(const Snapshot& snapshot);
   /// Adds a line to `<name>.dat`.
   void appendGlobal(const GlobalSample& sample);
-  /// Writes index.xml and the XDMF file if they have been out of date for long enough. To be called after each step.
+  /// Writes index.xml and the XDMF file if they have been out of date long enough. To be called after each step.
   void keepUp();
-  /// Writes them if they are out of date.
+  /// Writes index.xml and the XDMF file if they are out of date.
   void flush();
   /// Waits until the lines of globals are on the disk. Returns the extent of the archive then: kept in a checkpoint, it
   /// replaces lists that are out of date, or that a power cut destroys. Outputs may go with it, except for those of the
   /// last seconds only.
   ArchivePoint sync(int step, double time);
 
-  /// The folder of this run, `sod.uda.001`.
+  /// The folder of this run, such as `sod.uda.001`.
   const std::filesystem::path& folder() const;
   /// The step of the last write(), -1 before the first.
   int lastStep() const;

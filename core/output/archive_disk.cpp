@@ -16,7 +16,7 @@ namespace tushar::output {
 
 namespace {
 
-/// The contents of the access properties, for open().
+/// The content of the access properties, for open().
 struct Settings {
   DiskFailure* failure;
 };
@@ -24,7 +24,7 @@ struct Settings {
 /// An open file; HDF5 keeps its own members in front.
 struct DiskFile : H5FD_t {
   int descriptor;
-  haddr_t allocated;  ///< end of the space that HDF5 has allocated
+  haddr_t allocated;  ///< end of the space allocated by HDF5
   haddr_t size;
   DiskFailure* failure;
 
@@ -36,7 +36,7 @@ struct DiskFile : H5FD_t {
 DiskFile& of(H5FD_t* file) { return *static_cast<DiskFile*>(file); }
 const DiskFile& of(const H5FD_t* file) { return *static_cast<const DiskFile*>(file); }
 
-/// HDF5 tries first without H5F_ACC_CREAT whether the file exists: that may fail.
+/// Opens a file. HDF5 first tries without H5F_ACC_CREAT whether the file exists, which may fail.
 H5FD_t* open(const char* name, unsigned flags, hid_t access, haddr_t) {
   DiskFailure* failure = static_cast<const Settings*>(H5Pget_driver_info(access))->failure;
   const bool creates = (flags & H5F_ACC_CREAT) != 0;
@@ -79,7 +79,7 @@ herr_t setAllocated(H5FD_t* base, H5FD_mem_t, haddr_t address) {
 
 haddr_t size(const H5FD_t* base, H5FD_mem_t) { return of(base).size; }
 
-/// Reads beyond the end of the file give zeros.
+/// Reads bytes; those beyond the end of the file are 0.
 herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t from, size_t count, void* buffer) {
   auto* to = static_cast<char*>(buffer);
   while (count > 0) {
@@ -131,7 +131,7 @@ herr_t truncate(H5FD_t* base, hid_t, hbool_t) {
   return 0;
 }
 
-/// Since 1.14 HDF5 wants its version in the class, and a number for the driver.
+/// Sets the version and the number of the driver, which HDF5 requires since 1.14.
 template <class Class>
 void setVersion(Class& driver) {
   if constexpr (requires { driver.version; }) {

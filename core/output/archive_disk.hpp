@@ -4,15 +4,15 @@
 
 namespace tushar::output {
 
-/// The system's error number of the first failed write, or 0.
+/// The first failed write: the system's error number, or 0.
 struct DiskFailure {
   int error = 0;
 };
 
-/// HDF5 file access properties (to be closed by H5Pclose) of plain files whose writes never fail in HDF5's eyes: the
-/// first failure is noted in `failure`, and later writes are dropped. HDF5 cannot unwind from a full disk: its files
-/// then crash the program when they are closed. `failure` must live until the file is closed. Negative if it cannot be
-/// made.
+/// HDF5 file access properties (to be closed by H5Pclose) for plain files whose writes never fail as far as HDF5 can
+/// tell: the first failure is noted in `failure`, and later writes are dropped. HDF5 cannot unwind from a full disk:
+/// its files then crash the program when they are closed. `failure` must live until the file is closed. Negative if it
+/// cannot be made.
 std::int64_t diskAccess(DiskFailure& failure);
 
 }  // namespace tushar::output

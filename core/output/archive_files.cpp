@@ -25,7 +25,7 @@ namespace {
 
 std::error_code lastError() { return {errno ? errno : EIO, std::generic_category()}; }
 
-/// Whether all of `size` bytes pass: `call(done)` passes some of those after `done`, as read and write do.
+/// Whether all `size` bytes can be transferred: `call(done)` passes some of those after `done`, as read and write do.
 template <class Call>
 bool isWhole(std::size_t size, const Call& call) {
   for (std::size_t done = 0; done < size;) {
@@ -38,10 +38,10 @@ bool isWhole(std::size_t size, const Call& call) {
   return true;
 }
 
-/// A folder with a greater number was made by another run.
+/// The largest number of a folder; one with a larger number does not come from a run.
 constexpr int greatestNumber = 999'999'999;
 
-/// The number of `sod.uda.007` among the folders of `sod.uda`.
+/// The number 7 of the folder `sod.uda.007`, for an archive `sod.uda`; none for other names.
 std::optional<int> numberOf(const fs::path& entry, const std::string& base) {
   const std::string name = entry.filename().string();
   if (name.size() <= base.size() + 1 || !name.starts_with(base + ".")) return {};
@@ -66,8 +66,9 @@ void refuseToReplace(const fs::path& filebase) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(filebase, error);
   if (fs::exists(status) && !fs::is_symlink(status))
-    throw FileError(fmt::format("cannot make '{}' the link to the newest archive: it is a {}; move it away",
-                                filebase.string(), fs::is_directory(status) ? "folder" : "file"));
+    throw FileError(
+        fmt::format("cannot create '{}' as a link to the newest archive: there is a {} of that name; move it away",
+                    filebase.string(), fs::is_directory(status) ? "folder" : "file"));
 }
 
 void writeFile(const fs::path& file, const std::function<void(std::ostream&)>& write) {

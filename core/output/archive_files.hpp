@@ -27,10 +27,10 @@ void pointLink(const std::filesystem::path& filebase, const std::filesystem::pat
 /// Puts `text` into the file, atomically: a reader sees the old text or the new. FileError if it cannot.
 void replaceFile(const std::filesystem::path& file, const std::string& text);
 
-/// As above, with what `write` puts into the stream.
+/// The same with the text that `write` puts into the stream.
 void replaceFile(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
-/// As the first of these, and the file is on the disk when it returns.
+/// Like the first of these; the file is on the disk when it returns.
 void replaceFileOnDisk(const std::filesystem::path& file, const std::string& text);
 
 /// A file open for appending, without a buffer. Its functions throw FileError.
@@ -41,9 +41,9 @@ class AppendFile {
   AppendFile(AppendFile&& other) noexcept
       : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
   ~AppendFile();
-  /// Appends text, which survives if the process is killed afterwards.
+  /// Appends text, which is kept even if the process is killed afterwards.
   void append(std::string_view text);
-  /// Waits until all is on the disk.
+  /// Waits until all text is on the disk.
   void sync() const;
 
  private:
@@ -51,18 +51,18 @@ class AppendFile {
   int descriptor_;
 };
 
-/// Bytes that wait on the disk and take no memory, in a file that has no name and ends with the process. Its functions
-/// throw FileError.
+/// Bytes that are kept on the disk instead of in memory, in a file without a name that ends with the process. Its
+/// functions throw FileError.
 class Scratch {
  public:
-  /// `file` is the path that it has briefly, when the first bytes come.
+  /// `file` is its path, which exists only while the file is created.
   explicit Scratch(std::filesystem::path file) : path_(std::move(file)) {}
   ~Scratch();
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
-  /// Keeps bytes; returns where they are.
+  /// Keeps bytes; returns their place.
   std::uint64_t append(std::span<const std::byte> bytes);
-  /// Reads bytes that are at a place.
+  /// Reads the bytes at a place.
   void read(std::uint64_t first, std::span<std::byte> to) const;
 
  private:
@@ -71,7 +71,7 @@ class Scratch {
   std::uint64_t size_ = 0;
 };
 
-/// Renames a finished temporary file to its name. FileError if it cannot.
+/// Renames a finished temporary file to its final name. FileError if it cannot.
 void moveInto(const std::filesystem::path& temporary, const std::filesystem::path& file);
 
 /// Waits until a file, or the names in a folder, are on the disk. FileError if they cannot be.
@@ -80,13 +80,13 @@ void syncToDisk(const std::filesystem::path& path);
 /// The contents of a file; nothing if it cannot be read.
 std::optional<std::string> textOf(const std::filesystem::path& file);
 
-/// The temporary path of a file, until it is renamed.
+/// The temporary path of a file until it is renamed.
 std::filesystem::path temporaryOf(const std::filesystem::path& file);
 
-/// A name as part of a path, in the file system, in HDF5 or in XDMF: '/' and ':' become '_'.
+/// A name that can be part of a path in the file system, HDF5 or XDMF: '/' and ':' become '_'.
 std::string nameInPath(std::string name);
 
-/// The name of a block's group: that of the material, or `material2` where it has none.
+/// The name of a block's group: that of the material, or `material2` if it has no name.
 std::string groupName(const std::string& material, int materialIndex);
 
 /// `t00042`.

@@ -10,7 +10,7 @@
 
 namespace tushar::output {
 
-/// The `.dat` files of an archive. append() returns when the system has the line, so a killed run loses none.
+/// The `.dat` files of an archive. append() returns when the system has the line, so that a killed run loses none.
 class GlobalFiles {
  public:
   explicit GlobalFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -29,7 +29,7 @@ class GlobalFiles {
 
   std::filesystem::path folder_;
   std::map<std::string, AppendFile> files_;  ///< by the global's name
-  std::string line_;                         ///< memory for one, kept for the next
+  std::string line_;                         ///< memory for one line, kept for the next
 };
 
 }  // namespace tushar::output

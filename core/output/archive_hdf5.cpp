@@ -30,7 +30,8 @@ hid_t fileTypeLike(const Array::Values& type) {
                     type);
 }
 
-/// The start of the next piece: along the axis that varies fastest if there is one, else along the next.
+/// Moves to the start of the next piece, along the axis that varies fastest, if there is one, otherwise along the next
+/// axis.
 void advance(std::vector<hsize_t>& first, const std::vector<hsize_t>& piece, const std::vector<hsize_t>& shape) {
   for (std::size_t k = shape.size(); k-- > 0;) {
     first[k] += piece[k];
@@ -49,7 +50,7 @@ Handle parentsMade() {
   return {links, H5Pclose};
 }
 
-/// Property of a dataset: it does not keep the time of its making, so that equal content makes equal files.
+/// Creation properties of a dataset without its time of creation, so that equal content gives equal files.
 Handle withoutTimes() {
   const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
   H5Pset_obj_track_times(creation, false);
@@ -65,7 +66,7 @@ Handle spaceOf(const std::vector<Extent>& shape) {
 Handle vectorSpace(hsize_t size) { return {H5Screate_simple(1, &size, nullptr), H5Sclose}; }
 Handle scalarSpace() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
 
-/// 0, 1, 2, …, made while it is written.
+/// The numbers 0, 1, 2, …, made while they are written.
 class Sequence : public Source {
  public:
   explicit Sequence(std::size_t count) : count_(count) {}
@@ -78,7 +79,7 @@ class Sequence : public Source {
   std::size_t count_;
 };
 
-/// Selects the section of its dataset that a part shows.
+/// Selects the section of a dataset that a part shows.
 void choose(hid_t space, const VirtualPart& part) {
   const std::size_t axes = part.source.size();
   if (axes > part.extent.size()) return;
@@ -88,11 +89,11 @@ void choose(hid_t space, const VirtualPart& part) {
   H5Sselect_hyperslab(space, H5S_SELECT_SET, from.data(), nullptr, extent.data(), nullptr);
 }
 
-/// HDF5 keeps several copies of each part, of some 2.6 kB (1.10, by a heap profile), until the file is closed. Where
-/// there are more parts than this, a dataset shows others of this file that show so many each.
+/// Limited, because HDF5 keeps several copies of each part, about 2.6 kB (1.10, by a heap profile), until the file is
+/// closed. Where there are more parts than this, a dataset shows others of this file that show so many each.
 constexpr std::size_t mostParts = 256;
 
-/// The end of the parts that go into one dataset: those that begin at the same entry stay together.
+/// The end of the parts that go into one dataset; parts that begin at the same entry stay together.
 std::size_t endOfRun(const std::vector<VirtualPart>& parts, std::size_t begin) {
   std::size_t end = std::min(begin + mostParts, parts.size());
   while (end < parts.size() && parts[end].first[0] == parts[end - 1].first[0]) ++end;
@@ -107,7 +108,7 @@ Handle typeIn(hid_t file, const std::string& dataset) {
 
 }  // namespace
 
-/// Returns a result of HDF5. Throws if it, or the disk behind it, reports failure.
+/// Returns a result of HDF5, or throws if it signals an error. Throws if it, or the disk behind it, reports failure.
 template <class Result>
 Result Hdf5File::checked(Result result, const std::string& what) const {
   if (result >= 0 && failure_.error == 0) return result;
@@ -134,7 +135,7 @@ void Hdf5File::group(const std::string& name) {
   checked<hid_t>(made, name + " in");
 }
 
-/// To be closed by the caller.
+/// Makes a dataset, which the caller must close.
 Hdf5File::Id Hdf5File::makeDataset(const std::string& name, const Array& array, const Shape& shape, bool asFloat,
                                    Id creation) {
   const Handle space = spaceOf(shape);
@@ -196,7 +197,7 @@ void Hdf5File::writeValues(Id data, const std::vector<Number>& values, const std
   checked(H5Dwrite(data, memoryType(Number{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what + " in");
 }
 
-/// Each piece is a box of the shape, contiguous in the file.
+/// Writes the values piece by piece; each piece is a box of the shape, contiguous in the file.
 template <class Number>
 void Hdf5File::writePieces(Id data, const Array& array, const Shape& shape, const std::string& what) {
   if (array.entries() == 0) return;

@@ -19,20 +19,20 @@ std::string hdf5Version();
 /// or `.` for the same file.
 struct VirtualPart {
   std::string file, dataset;
-  std::vector<std::uint64_t> source;  ///< shape of the dataset, of which as much is shown as the box has room for; all
-                                      ///< of it where it has more axes than the box
+  std::vector<std::uint64_t> source;  ///< shape of the dataset; the part shown has the size of the box, or is the whole
+                                      ///< dataset if that has more axes
   std::vector<std::uint64_t> first, extent;  ///< corner and size of the box
   std::vector<std::uint64_t> from{};         ///< start of the shown section in the dataset; empty: 0
 };
 
-/// Precision of real numbers in the file: that with which it was opened, or always 8 bytes.
+/// Precision of real numbers: as chosen when the file was opened, or always 8 bytes.
 enum class Precision { asAsked, full };
 
 /// Writes one HDF5 file. It needs no MPI and never starts it. Each function may throw FileError with the path and the
 /// reason: the system's, or else the innermost of HDF5, whose own printing is kept silent.
 class Hdf5File {
  public:
-  /// Creates the file, replacing one that exists. Real numbers are kept in 4 bytes if `doubleAsFloat`, and all are
+  /// Creates the file, replacing an existing one. Real numbers are kept in 4 bytes if `doubleAsFloat`, and all are
   /// packed by gzip at level `compression` if that is above 0.
   Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression);
   /// Closes the file if close() was not called; errors are then lost.
@@ -40,14 +40,14 @@ class Hdf5File {
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
 
-  /// Makes a group, `/particles/gas`, with those above it.
+  /// Makes a group such as `/particles/gas`, with those above it.
   void group(const std::string& name);
   /// Writes an array as a dataset of shape `shape` × components (the last only if there are several), with the
   /// attributes unit and description. The groups above it are made. Values of a source are written piece by piece.
   void dataset(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape,
                Precision precision = Precision::asAsked);
-  /// As above for an array whose values are written later: makes room for them, without gaps, and returns where in the
-  /// file that begins; of a compressed file 0, as there each chunk gets its room when it comes.
+  /// The same for an array whose values are written later: allocates space for them, without gaps, and returns its
+  /// start in the file; 0 in a compressed file, where each chunk gets its space when it is written.
   std::uint64_t room(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape);
   /// Writes a packed chunk of a dataset that has room for it; `corner` is the index of its first number, `skipped`
   /// HDF5's mask of filters.
@@ -64,7 +64,7 @@ class Hdf5File {
   void sequence(const std::string& name, std::uint64_t count);
   /// Makes a dataset of `count` equal bytes that takes no space.
   void equalBytes(const std::string& name, std::uint8_t value, std::uint64_t count);
-  /// Attributes of a group that exists; `/` is the root.
+  /// Sets an attribute of an existing group; `/` is the root.
   void attribute(const std::string& object, const char* name, double value);
   void attribute(const std::string& object, const char* name, int value);
   void attribute(const std::string& object, const char* name, std::uint64_t value);
@@ -75,12 +75,12 @@ class Hdf5File {
   void attribute(const std::string& object, const char* name, const std::vector<int>& value);
   /// A text of fixed length, in ASCII.
   void fixedText(const std::string& object, const char* name, const std::string& value);
-  /// Writes everything to the disk and closes the file; a full disk is detected here.
+  /// Writes everything to the disk and closes the file; detects a full disk.
   void close();
 
  private:
   using Id = std::int64_t;                        ///< HDF5's hid_t
-  using Shape = std::vector<unsigned long long>;  ///< of its hsize_t
+  using Shape = std::vector<unsigned long long>;  ///< of HDF5's hsize_t
   template <class Result>
   Result checked(Result result, const std::string& what) const;
   Id makeDataset(const std::string& name, const Array& array, const Shape& shape, bool asFloat, Id creation);
@@ -98,8 +98,8 @@ class Hdf5File {
   int compression_;
   DiskFailure failure_;
   Id file_ = -1;
-  std::size_t shown_ = 0;         ///< parts in virtual datasets since the file was opened
-  std::vector<std::byte> piece_;  ///< memory for one, kept for the next
+  std::size_t shown_ = 0;         ///< number of parts in virtual datasets since the file was opened
+  std::vector<std::byte> piece_;  ///< memory for one piece, kept for the next
 };
 
 }  // namespace tushar::output

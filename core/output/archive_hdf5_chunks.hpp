@@ -16,7 +16,7 @@ using Extents = std::vector<unsigned long long>;
 /// The shape of a dataset: that of its entries, and their components.
 Extents fullShape(const std::vector<std::uint64_t>& shape, const Array& array);
 
-/// Its number of values.
+/// Number of values in a dataset.
 unsigned long long numbersOf(const Extents& shape);
 
 /// The unit in which a dataset is written and compressed: about a megabyte, complete along the axes that vary fastest,
@@ -31,18 +31,18 @@ class Chunks {
   std::size_t count() const { return count_; }
   /// The index of the first number of a chunk.
   Extents corner(std::size_t chunk) const;
-  /// Its entries, of `components` numbers each.
+  /// The entries of a chunk, of `components` numbers each.
   Piece entries(std::size_t chunk, int components) const;
 
  private:
-  Extents shape_, chunk_, along_;  ///< along each axis: numbers, those of a chunk, chunks
+  Extents shape_, chunk_, along_;  ///< along each axis: numbers in total, numbers in a chunk, chunks
   std::size_t count_ = 1;
 };
 
 /// The time and the bytes of compression, on one rank.
 struct PackingUse {
-  double bytes = 0, packed = 0;     ///< of the values as they are in a file without compression, and with it
-  double packing = 0, writing = 0;  ///< s spent on compressing them, and on writing what came of it
+  double bytes = 0, packed = 0;     ///< size of the values in a file without compression, and with it
+  double packing = 0, writing = 0;  ///< s spent on compressing them, and on writing the result
 
   PackingUse& operator+=(const PackingUse& other);
 };
@@ -53,16 +53,16 @@ struct PackedChunk {
   std::vector<std::byte> bytes;
 };
 
-/// Packs chunks by HDF5's own filters, in a file in memory: the bytes are those that HDF5 would write.
+/// Packs chunks by HDF5's own filters, in a file in memory, into the bytes that HDF5 would write.
 class ChunkPacker {
  public:
-  /// Compresses at a level of gzip.
+  /// Compresses at a gzip level.
   explicit ChunkPacker(int compression);
   ~ChunkPacker();
   ChunkPacker(const ChunkPacker&) = delete;
   ChunkPacker& operator=(const ChunkPacker&) = delete;
 
-  /// The chunks that follow are of an array with values of this type, and of this shape.
+  /// Sets the type of values and the shape of the array for the following chunks.
   void begin(const Array::Values& type, const Extents& shape, bool asFloat);
   /// `entries` has as many numbers as a chunk, or fewer at an end of the dataset. Throws FileError.
   PackedChunk pack(std::span<const std::byte> entries);

@@ -21,9 +21,9 @@ class Hdf5Input {
   const std::filesystem::path& path() const { return path_; }
   /// Whether there is a group or dataset with that path.
   bool has(const std::string& name) const;
-  /// Whether that path, which there is, is a group.
+  /// Whether an existing path is a group.
   bool isGroup(const std::string& name) const;
-  /// Where a group or dataset begins in the file: what was made later is behind.
+  /// The place in the file at which a group or dataset begins; later ones have larger places.
   std::uint64_t placeOf(const std::string& name) const;
   /// Names in a group, sorted; none if there is no such group.
   std::vector<std::string> names(const std::string& group) const;
@@ -31,15 +31,15 @@ class Hdf5Input {
   Array::Values dataset(const std::string& name) const;
   /// The place of a dataset in the file.
   struct Placed {
-    Array::Values type;        ///< no values, of the type that it has
-    std::size_t count = 0;     ///< of numbers, whatever the shape
-    std::int64_t offset = -1;  ///< of the first in the file; -1 if their layout differs from that in memory
+    Array::Values type;        ///< no values, but their type
+    std::size_t count = 0;     ///< number of values, whatever the shape
+    std::int64_t offset = -1;  ///< of the first value; -1 if the layout differs from that in memory
   };
   Placed placed(const std::string& name) const;
   /// A dataset that Hdf5File::text wrote.
   std::string text(const std::string& name) const;
 
-  /// Attributes of a group; `/` is the root.
+  /// An attribute of a group; `/` is the root.
   double real(const std::string& object, const char* name) const;
   int integer(const std::string& object, const char* name) const;
   std::uint64_t count(const std::string& object, const char* name) const;

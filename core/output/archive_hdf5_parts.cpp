@@ -31,7 +31,7 @@ class OpenFile {
   const int descriptor;
 };
 
-constexpr std::size_t mostAtOnce = 256;  ///< parts; Linux takes 1024
+constexpr std::size_t mostAtOnce = 256;  ///< number of parts; Linux takes 1024
 
 }  // namespace
 
@@ -57,7 +57,7 @@ void Hdf5Parts::read(std::vector<Part> parts) const {
   });
 }
 
-/// Parts that ascend: what the one that reaches farthest so far has of another is copied from there.
+/// Reads ascending parts; numbers that the part reaching farthest so far shares with another are copied from it.
 void Hdf5Parts::readOnce(const std::vector<Part>& parts) const {
   struct Copy {
     const std::byte* from;
@@ -97,7 +97,7 @@ void Hdf5Parts::readWhole(const std::vector<Part>& parts) const {
   for (const Part& part : parts) std::memcpy(part.to, from + part.first * bytes_, part.count * bytes_);
 }
 
-/// Parts that follow one another in the file.
+/// Reads parts that follow one another in the file.
 void Hdf5Parts::readRun(int descriptor, const Part* first, const Part* last) const {
   std::array<iovec, mostAtOnce> to{};
   std::size_t count = 0;

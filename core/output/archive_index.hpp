@@ -14,8 +14,8 @@ namespace tushar::output {
 class ArchiveIndex {
  public:
   static constexpr const char* rootName = "tushar_archive";
-  static constexpr int format = 2;         ///< of archives: the newest, which rises if older readers would go wrong
-  static constexpr int uniformFormat = 1;  ///< of archives whose grids have one level
+  static constexpr int format = 2;         ///< newest format, raised if older readers would misread it
+  static constexpr int uniformFormat = 1;  ///< format of archives with grids of one level
 
   explicit ArchiveIndex(std::string version) : version_(std::move(version)) {}
   /// Continues from the text of another index, without its outputs after `step`.
@@ -25,18 +25,18 @@ class ArchiveIndex {
   bool add(const Snapshot& snapshot);
   void add(const GlobalSample& sample, const std::string& file);
   std::vector<std::string> globals() const;
-  /// How many outputs the text of an index lists, up to a step.
+  /// Number of outputs, up to a step, in the text of an index.
   static std::size_t sizeOf(const std::string& text, int step) { return ArchiveIndex("", text, step).outputs_.size(); }
-  /// Why an archive cannot be read: an index of a newer format. Empty where it can.
+  /// Why an archive cannot be read, as its index has a newer format; empty if it can. Empty where it can.
   static std::string refusalOf(const std::string& text);
-  /// The name of a variable by that of its datasets, in which some characters may be replaced.
+  /// The name of a variable, from that of its datasets, in which some characters may be replaced.
   std::string labelOf(const std::string& nameInFile) const;
   /// The steps of the outputs, ascending.
   std::vector<int> steps() const;
   bool lists(int step) const { return outputs_.contains(step); }
   /// The step of the last output; -1 if there is none.
   int lastStep() const { return outputs_.empty() ? -1 : outputs_.rbegin()->first; }
-  /// The whole file.
+  /// The text of the whole file.
   std::string text() const;
   void write(std::ostream& out) const;
 
@@ -56,7 +56,7 @@ class ArchiveIndex {
   bool addVariable(const Array& array, const std::string& centring, const std::string& material);
 
   std::string version_;
-  int format_ = uniformFormat;  ///< of this archive
+  int format_ = uniformFormat;  ///< format of this archive
   std::map<std::string, Variable> variables_;
   std::map<std::string, Global> globals_;
   std::map<int, Output> outputs_;  ///< by step

@@ -29,7 +29,7 @@ class SnapshotInFlight {
   /// Waits until the file is complete, and gives it its name. Collective on `ranks`: those of the writers, or the first
   /// alone where it is the only writer.
   void finish(const mpi::Communicator& ranks);
-  /// The time and the bytes of compression on this rank, once it is finished.
+  /// Time and bytes of compression on this rank, once the file is finished.
   PackingUse packing() const;
   /// Removes the incomplete file.
   void abandon();
@@ -42,13 +42,13 @@ class SnapshotInFlight {
 /// Writes a snapshot at once.
 void writeSnapshot(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options);
 
-/// The bytes of the values of a snapshot that have sources, on all ranks together.
+/// Total size, on all ranks, of the values of a snapshot that have sources.
 std::uint64_t bytesInFlight(const Snapshot& snapshot);
 
-/// A snapshot without its values, but with their numbers.
+/// A snapshot without its values, but with the number of values.
 Snapshot withoutValues(Snapshot snapshot);
 
-/// For an array whose values have been moved or left elsewhere: it knows their number alone.
+/// A source for an array whose values have been moved or are elsewhere: it only has their number.
 std::shared_ptr<const Source> valuesElsewhere(std::size_t entries);
 
 /// The path of a particle array in the HDF5 file: `/particles/gas/p.density`.
@@ -60,7 +60,7 @@ std::string pathInFile(const FieldBlock& field);
 /// Whether the array is part of the file; a variable that does not exist at this time has no values.
 bool isHeld(const ParticleBlock& block, const Array& array);
 
-/// Number of entries of a field along z, y, x; of one on a grid with boxes, which has no nodes, of all boxes together.
+/// Number of entries of a field along z, y, x; on a grid with boxes, which has no nodes, the total number.
 std::vector<std::uint64_t> fieldShape(const GridInfo& grid, Centring centring);
 
 /// Numbers of cells of a box along z, y, x.

@@ -13,7 +13,7 @@ namespace tushar::output {
 
 namespace {
 
-/// A dataset of so many entries.
+/// The array of a dataset, without values, by its number of entries.
 Array arrayOf(const Hdf5Input& file, const std::string& path, const std::string& label, std::size_t entries) {
   Array array{label, "", "", 1, {}};
   const Hdf5Input::Placed placed = file.placed(path);
@@ -47,10 +47,10 @@ std::vector<ParticleBlock> particlesOf(const Hdf5Input& file, const ArchiveIndex
   return blocks;
 }
 
-/// Fields by where they are in the file, which is the order in which they were made.
+/// Fields by their place in the file, which is the order in which they were made.
 using PlacedFields = std::map<std::uint64_t, FieldBlock>;
 
-/// Adds those of a group: of a material, or of none and of the groups within.
+/// Adds the fields of a group: those of a material; or those without a material, and those of the groups in it.
 void addFields(const Hdf5Input& file, const ArchiveIndex& index, const FieldBlock& like, const std::string& group,
                PlacedFields& all) {
   for (const std::string& name : file.names(group)) {
@@ -76,7 +76,7 @@ void addFields(const Hdf5Input& file, const ArchiveIndex& index, Centring centri
   for (auto& field : all) snapshot.fields.push_back(std::move(field.second));
 }
 
-/// The boxes of a refined grid, as datasets /grid/boxes and /grid/levels have them.
+/// Adds the boxes of a refined grid, from the datasets /grid/boxes and /grid/levels.
 void addBoxes(const Hdf5Input& file, GridInfo& grid) {
   const auto numbers = std::get<std::vector<std::int32_t>>(file.dataset("/grid/boxes"));
   for (std::size_t k = 0; k + 7 <= numbers.size(); k += 7)

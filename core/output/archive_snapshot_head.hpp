@@ -7,7 +7,7 @@
 
 namespace tushar::output {
 
-/// The snapshot of an output's file, with the numbers of its values but without them. `index` has the names of
+/// The snapshot in an output file, with the number of values, but without the values. `index` has the names of
 /// variables, of which a file has only those of its datasets. FileError if the file cannot be read.
 Snapshot readHead(const std::filesystem::path& file, const ArchiveIndex& index);
 

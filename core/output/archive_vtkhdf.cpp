@@ -30,7 +30,7 @@ Times inOrder(const std::vector<ShownOutput>& outputs) {
   return inOrder(std::move(times));
 }
 
-/// One item for each name that occurs at any time.
+/// An item for each name that occurs at any time.
 Items kindsOf(const Times& times) {
   Items kinds;
   const Items* last = nullptr;
@@ -49,7 +49,7 @@ std::vector<double> valuesOf(const Times& times) {
 
 // --- particles
 
-/// The values of all times, one after the other.
+/// Adds a dataset of the values at all times, one after the other.
 void addColumn(Hdf5File& file, const std::string& name, const Item& kind, const Times& times) {
   std::vector<VirtualPart> parts;
   std::uint64_t before = 0;
@@ -65,7 +65,7 @@ void addColumn(Hdf5File& file, const std::string& name, const Item& kind, const 
   file.virtualDataset(inRoot(name), kind.type, kind.shapeOf(before), parts);
 }
 
-/// A vertex for each point. All times show the start of the same 0, 1, 2, …, as numbers of points and as offsets.
+/// Adds a vertex for each point. All times show the start of the same 0, 1, 2, …, as numbers of points and as offsets.
 void addVertices(Hdf5File& file, const std::vector<std::uint64_t>& counts, std::uint64_t total) {
   const std::uint64_t most = *std::max_element(counts.begin(), counts.end());
   const std::string numbers = inRoot("Connectivity");
@@ -109,7 +109,8 @@ void writeParticles(Hdf5File& file, const Times& times) {
 
 using Image = VtkHdfIndex::Image;
 
-/// The corners of the cells: an axis that is not in use has one layer of nodes, in the middle, and two of corners.
+/// The corners of the cells of a grid; along an axis that is not in use, there is one layer of nodes, in the middle,
+/// but two of corners.
 Image imageOf(const pugi::xml_node& grid) {
   Image image{numbersIn<std::uint64_t>(grid.child("Topology").attribute("Dimensions").as_string())};
   const pugi::xml_node origin = grid.child("Geometry").child("DataItem");
@@ -125,12 +126,12 @@ Image imageOf(const pugi::xml_node& grid) {
   return image;
 }
 
-/// What cells and nodes show at a time.
+/// The outputs of cells and nodes at one time.
 struct ShownTime {
   double time;
   std::vector<const ShownOutput*> parts{};
 
-  /// The output with an item, and the item; nulls if there is none.
+  /// The output that has an item, and the item; null pointers if there is none.
   std::pair<const ShownOutput*, const Item*> find(const std::string& name) const {
     for (const ShownOutput* part : parts)
       if (const auto found = part->items->find(name); found != part->items->end()) return {part, &found->second};
@@ -138,7 +139,7 @@ struct ShownTime {
   }
 };
 
-/// Outputs of several blocks, together where they have the same time.
+/// Groups outputs of several blocks by time.
 std::vector<ShownTime> together(const Times& outputs) {
   std::vector<ShownTime> times;
   for (const ShownOutput* output : outputs) {
@@ -148,7 +149,7 @@ std::vector<ShownTime> together(const Times& outputs) {
   return times;
 }
 
-/// Where there are two layers of corners for one of nodes, both show the same nodes.
+/// Adds the parts of a step; two layers of corners for one layer of nodes show the same nodes.
 void addAtStep(std::vector<VirtualPart>& parts, const std::string& output, const Item& item, const Shape& room,
                std::uint64_t step) {
   Shape extent{1};

@@ -12,10 +12,10 @@
 
 namespace tushar::output {
 
-/// The VTKHDF files that show an archive, beside its XDMF file `sod.xdmf` and from what that says of each output:
-/// `sod.vtkhdf` with the cells and nodes, an image, or with the boxes of a refined grid, and `sod.<material>.vtkhdf`
-/// for each material, points. They hold times, counts and virtual datasets of the outputs `t*.h5`; no value is copied.
-/// An output takes some 100 bytes of memory here. Layout: VTKHDF 2.0,
+/// The VTKHDF files that show an archive, next to its XDMF file `sod.xdmf` and derived from its entries: `sod.vtkhdf`
+/// with the cells and nodes, an image, or with the boxes of a refined grid, and `sod.<material>.vtkhdf` for each
+/// material, points. They hold times, counts and virtual datasets of the outputs `t*.h5`; no value is copied. An output
+/// takes some 100 bytes of memory here. Layout: VTKHDF 2.0,
 /// https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format.
 class VtkHdfIndex {
  public:
@@ -26,7 +26,7 @@ class VtkHdfIndex {
   void add(const std::string& block, int step, const pugi::xml_node& grid);
   /// Forgets all outputs.
   void forget();
-  /// Writes the files, each of which is put in place whole. FileError if it cannot.
+  /// Writes the files, each of which replaces the previous one at once. FileError if it cannot.
   void write(const std::filesystem::path& xdmfFile) const;
 
   /// The corners of the cells of a uniform grid.
@@ -38,7 +38,7 @@ class VtkHdfIndex {
  private:
   struct Block {
     std::string name;
-    bool isMesh;  ///< or particles
+    bool isMesh;  ///< false: particles
     Image image;
     std::vector<ShownOutput> outputs;
   };
@@ -46,7 +46,7 @@ class VtkHdfIndex {
   const Items* kindOf(Items items);
 
   std::list<Block> blocks_;
-  std::list<Items> kinds_;  ///< without repeats: few, as outputs differ in counts mostly
+  std::list<Items> kinds_;  ///< without duplicates; few, as outputs differ mostly in counts
   ShownBoxes boxes_;
 };
 

@@ -28,7 +28,7 @@ struct ShownBox {
   std::uint64_t count() const { return cells[0] * cells[1] * cells[2]; }
 };
 
-/// A time without boxes has one grid, whose values have the axes z, y and x.
+/// The first row of a grid; a time without boxes has one grid, whose values have the axes z, y and x.
 std::uint64_t firstRowOf(const pugi::xml_node& grid) {
   const pugi::xml_node slab = grid.child("Attribute").child("DataItem").child("DataItem");
   const auto numbers = numbersIn<std::uint64_t>(slab.text().as_string());
@@ -57,7 +57,7 @@ std::vector<ShownBox> boxesOf(const pugi::xml_node& output) {
   return boxes;
 }
 
-/// Along each axis, that of some box.
+/// The corner of the domain: along each axis, the lowest of any box.
 std::vector<double> cornerOf(const std::vector<ShownBox>& boxes) {
   std::vector<double> corner(3, HUGE_VAL);
   for (const ShownBox& box : boxes)
@@ -75,7 +75,7 @@ BoxCells cellsOf(const ShownBox& box, const std::vector<double>& corner) {
   return cells;
 }
 
-/// Adds a box to the rows before if it continues them.
+/// Adds a box, as a part of the previous rows if it continues them.
 void addBox(std::vector<LevelRows>& all, const ShownBox& box, std::uint64_t place) {
   if (!all.empty() && all.back().level == box.level && all.back().first + all.back().rows == box.first) {
     ++all.back().boxes;
@@ -87,7 +87,7 @@ void addBox(std::vector<LevelRows>& all, const ShownBox& box, std::uint64_t plac
 
 // --- the file
 
-/// Rows of an output, and where those before them end.
+/// Rows of an output, and the end of the previous ones.
 struct Run {
   const ShownOutput* output;
   LevelRows rows;
@@ -96,8 +96,8 @@ struct Run {
 
 /// A level at all times.
 struct ShownLevel {
-  std::vector<std::uint64_t> counts, starts;  ///< of boxes, at each time
-  std::vector<std::uint64_t> cellsBefore;     ///< at each time
+  std::vector<std::uint64_t> counts, starts;  ///< number of boxes and first box, at each time
+  std::vector<std::uint64_t> cellsBefore;     ///< number of previous cells, at each time
   std::vector<Run> runs;
   std::uint64_t boxes = 0, cells = 0;
 };

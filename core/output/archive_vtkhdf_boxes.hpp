@@ -15,9 +15,9 @@ class ShownBoxes {
   /// `scratch` must outlive it.
   explicit ShownBoxes(Scratch& scratch) : scratch_(&scratch) {}
 
-  /// Adds the boxes of an output to what is shown of it: of a spatial collection of XDMF, or of one uniform grid.
+  /// Adds the boxes of an output, from a spatial collection of XDMF or from one uniform grid.
   void add(const pugi::xml_node& grid, ShownOutput& output);
-  /// Whether there has been a collection.
+  /// Whether any output had a collection.
   bool any() const { return any_; }
   /// Writes a VTKHDF file of type OverlappingAMR, of virtual datasets. No box lies over another: where cells are
   /// refined, there are no coarser ones. Layout: VTKHDF 2.2. Outputs ascend in time.
@@ -26,8 +26,8 @@ class ShownBoxes {
  private:
   Scratch* scratch_;
   bool any_ = false;
-  std::vector<double> corner_;                    ///< of the grid, x, y, z, m
-  std::map<int, std::vector<double>> spacing_{};  ///< of the cells of each level, m
+  std::vector<double> corner_;                    ///< corner of the grid, x, y, z, m
+  std::map<int, std::vector<double>> spacing_{};  ///< cell widths of each level, m
 };
 
 }  // namespace tushar::output

@@ -20,7 +20,7 @@ std::string nameOf(const pugi::xml_node& attribute) {
   return (ofCells ? "CellData/" : "PointData/") + nameInPath(attribute.attribute("Name").as_string());
 }
 
-/// The dataset of which a HyperSlab shows rows; that itself which is none.
+/// The dataset of which a HyperSlab shows rows; other items are returned unchanged.
 pugi::xml_node wholeOf(const pugi::xml_node& item) {
   const pugi::xml_node slab = item.child("DataItem");
   return slab ? slab.next_sibling("DataItem") : item;

@@ -11,34 +11,35 @@
 
 namespace tushar::output {
 
-/// A dataset of an output, as an XDMF file shows it.
+/// A dataset of an output, as described in an XDMF file.
 struct Item {
   std::string path;
-  std::vector<std::uint64_t> shape;  ///< that of a list of particles, or of the cells of boxes, has 0 entries
+  std::vector<std::uint64_t> shape;  ///< with 0 entries for lists of particles and of cells of boxes
   Array::Values type;
 
   bool isList() const { return shape.size() <= 2; }
-  /// The shape in an output whose lists have so many entries.
+  /// The shape in an output whose lists have `count` entries.
   std::vector<std::uint64_t> shapeOf(std::uint64_t count) const;
   bool operator==(const Item&) const = default;
 };
 
-/// Those of an output, by name in the VTKHDF file.
+/// The items of an output, by their names in the VTKHDF file.
 using Items = std::map<std::string, Item>;
 
 /// Boxes of a level whose cells are consecutive rows of an output's datasets.
 struct LevelRows {
   int level;
   std::uint32_t boxes;
-  std::uint64_t place;  ///< in the scratch file, of six 32-bit numbers for each box: first and last cell along x, y, z
+  std::uint64_t place;  ///< place in the scratch file, which has six 32-bit numbers for each box: first and last cell
+                        ///< along x, y, z
   std::uint64_t first, rows;  ///< cells
 };
 
-/// What a block shows of an output.
+/// An output of a block.
 struct ShownOutput {
   int step;
   double time;              ///< s
-  std::uint64_t count = 0;  ///< entries of lists
+  std::uint64_t count = 0;  ///< number of entries of lists
   const Items* items = nullptr;
   std::vector<LevelRows> levels{};
 };

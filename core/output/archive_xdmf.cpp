@@ -23,7 +23,7 @@ namespace {
 
 using Shape = std::vector<std::uint64_t>;
 
-/// A run of entries of a dataset, shown with a shape.
+/// Consecutive entries of a dataset, and the shape in which they are shown.
 struct StoredRows {
   std::uint64_t first;
   Shape shape;
@@ -42,7 +42,8 @@ pugi::xml_node addGrid(pugi::xml_node parent, const std::string& name, const cha
   return grid;
 }
 
-/// The readers have no 8-byte unsigned integers, so ids are read as signed ones.
+/// Adds an item with values in HDF5. Readers do not support 8-byte unsigned integers, so ids are declared as signed
+/// ones.
 void addHeavyItem(pugi::xml_node parent, const Context& context, const std::string& path, const Array& array,
                   Shape shape) {
   if (array.components > 1) shape.push_back(static_cast<std::uint64_t>(array.components));
@@ -56,7 +57,7 @@ void addHeavyItem(pugi::xml_node parent, const Context& context, const std::stri
   item.text() = (context.file + ":" + path).c_str();
 }
 
-/// Consecutive entries of an array in the file.
+/// Adds consecutive entries of an array in the file.
 void addSlab(pugi::xml_node parent, const Context& context, const std::string& path, const Array& array,
              const StoredRows& rows) {
   const bool several = array.components > 1;
@@ -114,14 +115,14 @@ void addPointCloud(pugi::xml_node grid, const Context& context, const ParticleBl
 
 Vec3 reversed(const Vec3& xyz) { return {xyz[2], xyz[1], xyz[0]}; }
 
-/// The position of the first node of the nodes' grid: an axis that is not in use has its one node in the middle.
+/// The position of the first node; along an axis that is not in use, the only node is in the middle.
 Vec3 firstNode(const GridInfo& grid) {
   Vec3 at = grid.lower + grid.spacing / 2;
   for (const int axis : axesInUse(grid)) at[axis] = grid.lower[axis];
   return at;
 }
 
-/// A uniform grid with these numbers of points along z, y, x.
+/// Adds a uniform grid with these numbers of points along z, y, x.
 void addMesh(pugi::xml_node grid, const Shape& points, const Vec3& origin, const Vec3& spacing) {
   pugi::xml_node topology = grid.append_child("Topology");
   set(topology, "TopologyType", "3DCoRectMesh");
@@ -146,8 +147,8 @@ std::string nameOf(const FieldBlock& field) {
   return group + field.array.label;
 }
 
-/// A uniform grid for each box, with its part of each field. A reader would search long for names of its own if grids
-/// of several times had the same.
+/// Adds a uniform grid for each box, with its part of each field. A reader would search long for names of its own if
+/// grids of several times had the same.
 void addBoxes(pugi::xml_node collection, const Context& context, const Snapshot& snapshot) {
   set(collection, "CollectionType", "Spatial");
   std::uint64_t first = 0;
@@ -253,7 +254,8 @@ void XdmfIndex::addFields(const Snapshot& snapshot, Centring centring) {
   });
 }
 
-/// A time without particles is an empty collection: the readers refuse a grid of 0 points.
+/// Adds the particles of a time; without particles it is an empty collection, because readers refuse a grid of 0
+/// points.
 void XdmfIndex::addParticles(const Snapshot& snapshot, const ParticleBlock& block) {
   const std::string name = groupName(block.material, block.materialIndex);
   if (block.count() == 0)

@@ -20,15 +20,15 @@ namespace tushar::output {
 /// written. Beside it, what the VTKHDF files show.
 class XdmfIndex {
  public:
-  /// `file` is that which it writes.
+  /// `file` is the file to write.
   XdmfIndex(std::filesystem::path file, bool doubleAsFloat);
 
-  /// Continues with the outputs of an index, from what the file shows of them. Those that it lacks, as after a power
-  /// cut, are taken from the heads of their own files, where they can be read.
+  /// Continues with those outputs of the existing file that an index lists. Those that it lacks, as after a power cut,
+  /// are taken from the heads of their own files, where they can be read.
   void resume(const ArchiveIndex& index);
   /// Adds a time, or replaces that of the same step.
   void add(const Snapshot& snapshot);
-  /// Writes the file whole.
+  /// Writes the whole file.
   void write() const;
   /// Writes the VTKHDF files.
   void writeVtkHdf() const { vtkhdf_.write(file_); }

@@ -31,7 +31,7 @@ pugi::xml_document parsed(const std::string& text) {
   return document;
 }
 
-/// Where a reader is: `depth` elements are open, and `text` is what it has of the output there.
+/// The position of a reader: `depth` elements are open, and `text` is what it has of the output there.
 struct Place {
   const TakeOutput& take;
   unsigned depth = 0;
@@ -47,7 +47,7 @@ struct Place {
   }
 };
 
-/// Goes on by a piece of the file that ends with a tag; `kind` is the first character of the tag's text.
+/// Advances by a piece of the file that ends with a tag; `kind` is the first character of the tag's text.
 void goOn(Place& place, const std::string& piece, std::size_t tag) {
   const char kind = piece[tag + 1];
   const bool isClosing = kind == '/', isEmpty = piece[piece.size() - 2] == '/';

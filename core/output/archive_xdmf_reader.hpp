@@ -7,7 +7,7 @@
 
 namespace tushar::output {
 
-/// The elements that an output is in: Xdmf, Domain, and the Grid of its block.
+/// The number of elements around an output: Xdmf, Domain, and the Grid of its block.
 constexpr unsigned depthOfOutputs = 3;
 
 /// The name, in an XDMF file, of a block's grid at a step.
@@ -16,7 +16,7 @@ std::string nameAtStep(const std::string& block, int step);
 /// The tag that begins the temporal collection of a block in the file.
 std::string headOfBlock(const std::string& name);
 
-/// Takes an output of a block of an XDMF file: the name of the block, the step, and the grid that shows it.
+/// A function that gets each output of a block in an XDMF file: the name of the block, the step, and the grid.
 using TakeOutput = std::function<void(const std::string& block, int step, const pugi::xml_node& grid)>;
 
 /// Reads an XDMF file of an archive, with one output in memory at a time. False where the file is missing or

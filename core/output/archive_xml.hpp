@@ -16,7 +16,7 @@ void set(pugi::xml_node node, const char* name, const Value& value, const More&.
   if constexpr (sizeof...(more) > 0) set(node, more...);
 }
 
-/// A node as text, at a depth of its document.
+/// A node as text, indented for its depth in the document.
 inline std::string textOf(const pugi::xml_node& node, unsigned depth) {
   struct Text : pugi::xml_writer {
     std::string all;
@@ -26,7 +26,7 @@ inline std::string textOf(const pugi::xml_node& node, unsigned depth) {
   return std::move(text.all);
 }
 
-/// How the XML files of an archive begin.
+/// The first line of the XML files of an archive.
 constexpr std::string_view xmlDeclaration = "<?xml version=\"1.0\"?>\n";
 
 }  // namespace tushar::output

@@ -22,11 +22,11 @@ class Behind {
   Behind(const Behind&) = delete;
   Behind& operator=(const Behind&) = delete;
 
-  /// Sets the total size of all buffers; 0: each job runs at once. Waits for all jobs, and forgets a failure.
+  /// Sets the largest total size of all buffers; 0: each job runs at once. Waits for all jobs, and forgets a failure.
   void setMost(std::size_t bytes);
   std::size_t most() const { return most_; }
 
-  /// A buffer of at least `bytes` bytes for the next job; waits until there is room for it.
+  /// Waits until there is room for a buffer of at least `bytes` bytes for the next job, and returns it.
   std::vector<std::byte> buffer(std::size_t bytes);
   /// Queues a job, which may use the bytes of its buffer until it is done. Returns its number.
   long put(std::vector<std::byte> buffer, std::function<void()> job);
@@ -51,7 +51,7 @@ class Behind {
   void waitUntil(std::unique_lock<std::mutex>& lock, Condition&& condition);
 
   std::size_t most_ = 0;
-  std::size_t in_use_ = 0;  ///< bytes of buffers in use
+  std::size_t in_use_ = 0;  ///< total size of buffers in use
   std::deque<Job> jobs_;
   std::vector<std::vector<std::byte>> spare_;
   long given_ = 0, done_ = 0;
@@ -59,7 +59,7 @@ class Behind {
   std::exception_ptr failure_;
   double waited_ = 0;
   mutable std::mutex mutex_;
-  std::condition_variable news_;  ///< a job was queued, or is done
+  std::condition_variable news_;  ///< signals that a job was queued, or is done
   std::thread thread_;
 };
 

@@ -20,7 +20,7 @@ constexpr std::uint64_t prime = (std::uint64_t{1} << bits) - 1;
 constexpr std::uint64_t base = 0x16c86fac93223801;  ///< a primitive root, chosen at random
 constexpr std::size_t wordBytes = sizeof(std::uint64_t);
 
-/// A number modulo the prime, which may be a little above it.
+/// Reduces a number modulo the prime; the result may still be slightly larger than the prime.
 std::uint64_t reduced(Wide number) {
   const std::uint64_t sum = (static_cast<std::uint64_t>(number) & prime) + static_cast<std::uint64_t>(number >> bits);
   return sum >= prime ? sum - prime : sum;
@@ -56,7 +56,7 @@ std::uint64_t sumOfWords(const std::byte* words, std::size_t count) {
   return total;
 }
 
-/// The parts of consecutive ranges between two of their bytes, counted from the start of the first.
+/// The parts of a sequence of ranges between two bytes, which are counted through the ranges.
 std::vector<ByteRange> between(std::span<const ByteRange> ranges, std::uint64_t first, std::uint64_t last) {
   std::vector<ByteRange> found;
   for (std::uint64_t before = 0; const ByteRange& range : ranges) {
@@ -86,7 +86,7 @@ std::uint64_t ByteSum::power(std::uint64_t number) {
   return last_power_;
 }
 
-/// Adds part of a word; the bytes of the word before it do not count.
+/// Adds a part of a word; its other bytes count as 0.
 void ByteSum::addWord(std::uint64_t number, std::span<const std::byte> bytes, std::uint64_t before) {
   if (bytes.empty()) return;
   std::array<std::byte, wordBytes> word{};

@@ -18,7 +18,7 @@ namespace tushar::output {
 /// Dev. 31 (1987) 249-260).
 class ByteSum {
  public:
-  /// Adds bytes that are in the file from a place on. Fastest where places ascend by equal steps.
+  /// Adds the bytes of the file from a place on. Fastest where places ascend by equal steps.
   void add(std::uint64_t at, std::span<const std::byte> bytes);
   std::uint64_t value() const { return total_; }
 
@@ -28,18 +28,18 @@ class ByteSum {
 
   std::uint64_t total_ = 0;
   std::uint64_t last_ = 0, last_power_ = 1;  ///< the power that was needed last
-  std::uint64_t step_ = 0, step_power_ = 1;  ///< from the one before it
+  std::uint64_t step_ = 0, step_power_ = 1;  ///< step from the previous power
 };
 
-/// One of several ranks that share work evenly.
+/// The share of one of several ranks in evenly distributed work.
 struct ShareOf {
   int one = 0, several = 1;
 };
 
-/// The sum of the bytes in ranges of a file that are the share of one. FileError if they cannot be read.
+/// The sum of one rank's share of the bytes in ranges of a file. FileError if they cannot be read.
 std::uint64_t sumOfFile(const std::filesystem::path& file, std::span<const ByteRange> ranges, const ShareOf& share);
 
-/// Sums of what all ranks have, modulo 2^61 - 1, on every rank. Collective.
+/// The sums, over all ranks, of their numbers, modulo 2^61 - 1; on every rank. Collective.
 std::vector<std::uint64_t> sumsOfRanks(const mpi::Communicator& ranks, std::span<const std::uint64_t> mine);
 
 }  // namespace tushar::output

@@ -26,8 +26,8 @@ namespace {
 
 constexpr const char* manifestName = "manifest";
 
-constexpr std::uint64_t blockBytes = std::uint64_t{1} << 24;   ///< of the hashes of older versions
-constexpr std::uint64_t leastOfPart = std::uint64_t{1} << 16;  ///< shorter ones are read twice
+constexpr std::uint64_t blockBytes = std::uint64_t{1} << 24;   ///< size of the blocks for the hashes of older versions
+constexpr std::uint64_t leastOfPart = std::uint64_t{1} << 16;  ///< shorter parts are read twice
 
 struct StateFree {
   void operator()(XXH64_state_t* state) const { XXH64_freeState(state); }
@@ -52,7 +52,7 @@ std::optional<XXH64_hash_t> hashOf(std::ifstream& in, std::uint64_t first, std::
   throw FileError(fmt::format("cannot read '{}'", file.string()));
 }
 
-/// The hashes of the blocks of a file that are the share of one of several.
+/// The hashes of one rank's share of the blocks of a file.
 std::vector<std::uint64_t> hashesOf(const fs::path& file, std::uint64_t size, const ShareOf& share) {
   std::ifstream in(file, std::ios::binary);
   if (!in) refuseToRead(file);
@@ -70,7 +70,7 @@ std::vector<std::uint64_t> hashesOf(const fs::path& file, std::uint64_t size, co
   return hashes;
 }
 
-/// The hash of a file in a manifest, by those of its blocks.
+/// The hash of a file in a manifest, from those of its blocks.
 std::string hashOf(const std::vector<std::uint64_t>& blocks) {
   if (blocks.size() == 1) return fmt::format("{:016x}", blocks.front());
   return fmt::format("{:016x}/{}", XXH64(blocks.data(), blocks.size() * sizeof(blocks[0]), 0), blocks.size());
@@ -79,7 +79,7 @@ std::string hashOf(const std::vector<std::uint64_t>& blocks) {
 /// The text of a sum, which differs from that of a hash of older versions.
 std::string textOfSum(std::uint64_t sum) { return fmt::format("s{:016x}", sum); }
 
-/// The parts of a file that are in none of these ranges, which ascend.
+/// The parts of a file outside these ascending ranges.
 std::vector<ByteRange> outside(const std::vector<ByteRange>& ranges, std::uint64_t size) {
   std::vector<ByteRange> others;
   std::uint64_t first = 0;
@@ -91,7 +91,7 @@ std::vector<ByteRange> outside(const std::vector<ByteRange>& ranges, std::uint64
   return others;
 }
 
-/// The lines of a file that has been written; it is on the disk then.
+/// Writes a file to the disk; returns its lines for the manifest.
 std::string linesOnDisk(const fs::path& file, std::uint64_t size, const std::vector<ByteRange>& ranges,
                         const Writers& writers) {
   std::vector<std::uint64_t> sums(ranges.size() + 1);
@@ -122,7 +122,7 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
   return files;
 }
 
-/// Name and size of each file in a folder, for all ranks; only of the files in the manifest.
+/// Name and size of a file in the manifest, as found in the folder, for all ranks.
 struct ListedFile {
   std::string name;
   std::uint64_t size;
@@ -168,7 +168,7 @@ std::vector<Line> linesOf(const std::string& text) {
   return lines;
 }
 
-/// The damage of the manifest, or of the names and sizes of files; `lines` gets its lines, one per file.
+/// Inspects the manifest, and the names and sizes of files; `lines` gets its lines, one per file.
 Inspection inspectList(const fs::path& folder, std::string& lines) {
   const auto text = textOf(folder / manifestName);
   if (!text) return {fmt::format("{} is missing", manifestName)};
@@ -190,7 +190,7 @@ Inspection inspectList(const fs::path& folder, std::string& lines) {
   return {};
 }
 
-/// The hash of a file as a manifest of an older version has it; empty if it cannot be read. The oldest manifests hash a
+/// The hash of a file, as in manifests of older versions; empty if the file cannot be read. The oldest manifests hash a
 /// large file as a whole, not by blocks; rank 0 alone does that.
 std::string hashNow(const fs::path& file, const Line& line, const mpi::Communicator& ranks) {
   const bool isByBlocks = line.hash.find('/') != std::string::npos;
@@ -213,7 +213,7 @@ std::string hashNow(const fs::path& file, const Line& line, const mpi::Communica
 std::string unreadable(const std::string& name) { return fmt::format("{} cannot be read", name); }
 std::string changed(const std::string& name) { return fmt::format("the content of {} has changed", name); }
 
-/// The damage of bytes of a file whose sum is known; ranks read them together.
+/// Damage to bytes of a file with a known sum; ranks read them together.
 std::string damageOfSum(const fs::path& file, const mpi::Communicator& ranks, std::uint64_t expected,
                         const std::function<std::uint64_t()>& mine) {
   std::uint64_t sum = 0;
@@ -227,7 +227,7 @@ std::string damageOfSum(const fs::path& file, const mpi::Communicator& ranks, st
   return sumsOfRanks(ranks, {&sum, 1}).front() == expected ? "" : changed(file.filename().string());
 }
 
-/// The damage of a file, except for parts of it.
+/// Damage to a file, apart from some parts.
 std::string damageOutside(const fs::path& file, const Line& line, const std::vector<Line>& lines,
                           const mpi::Communicator& ranks) {
   if (!line.isSum()) {

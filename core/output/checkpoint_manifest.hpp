@@ -11,15 +11,15 @@
 
 namespace tushar::output {
 
-/// Bytes of a file of a folder whose sum is apart from that of the rest, so that it can be checked while they are read.
+/// Bytes of a file with a checksum of their own, which can be checked while they are read.
 struct FilePart {
   std::string file;  ///< its name
   ByteRange bytes;
-  std::uint64_t sum = 0;  ///< as ByteSum has it, of such that are in a manifest
+  std::uint64_t sum = 0;  ///< the ByteSum, for parts from a manifest
 };
 
-/// Of manifests; raised whenever older readers would go wrong. 1 had hashes of files and of their blocks, 2 sums of
-/// files and their parts; both are without the number.
+/// Format of manifests; raised whenever older readers would misread it. Format 1 had hashes of files and of their
+/// blocks, 2 sums of files and their parts; neither states its number.
 inline constexpr int manifestFormat = 3;
 
 /// Writes the file `manifest` into a folder: the line `format 3`; for each file there a line with the sum of its bytes,
@@ -30,36 +30,37 @@ inline constexpr int manifestFormat = 3;
 void writeManifest(const std::filesystem::path& folder, const Writers& writers = {},
                    const std::vector<FilePart>& parts = {});
 
-/// The damage of a folder that has a manifest.
+/// The result of inspecting a folder with a manifest.
 struct Inspection {
-  std::string damage;             ///< which file is missing, shorter, longer or has other bytes; empty if none
-  bool isNewer = false;           ///< a newer version has written it, as `damage` says
-  std::vector<FilePart> parts{};  ///< which have not been read
+  std::string damage;             ///< which file is missing, or has a different size or content; empty if none
+  bool isNewer = false;           ///< whether a newer version has written it; then `damage` says so
+  std::vector<FilePart> parts{};  ///< parts that have not been read
 };
 
-/// Reads all but the parts. Ranks share the bytes among themselves. Collective; all get the same. Understands manifests
-/// of older versions, which may have no parts, and the XXH64 of files or that of the XXH64 of their blocks of 2^24
-/// bytes.
+/// Inspects a folder; does not read the parts. Ranks share the bytes among themselves. Collective; all get the same.
+/// Understands manifests of older versions, which may have no parts, and the XXH64 of files or that of the XXH64 of
+/// their blocks of 2^24 bytes.
 Inspection inspect(const std::filesystem::path& folder, const mpi::Communicator& ranks = mpi::Communicator::alone());
 
-/// The damage in a folder, parts included. Collective; all get the same.
+/// Damage in a folder, including the parts; empty if there is none. Collective; all get the same.
 std::string damageOf(const std::filesystem::path& folder, const mpi::Communicator& ranks = mpi::Communicator::alone());
 
-/// The damage of a part, as in Inspection.
+/// A damaged part; the text is that of Inspection::damage.
 class DamageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Parts that are checked when ranks read what they need of them. Collective; where it throws DamageError, all ranks
+/// Parts that are checked while ranks read the bytes that they need. Collective; where it throws DamageError, all ranks
 /// do.
 class CheckedParts {
  public:
   /// `ranks` must outlive it.
   CheckedParts(std::filesystem::path folder, std::vector<FilePart> parts, const mpi::Communicator& ranks);
-  /// Calls `read` with a sum, to which it adds the bytes that this rank reads of the part of a file that begins at a
-  /// byte; all ranks together add every byte once. Passes null if there is no such part, or it has been checked.
+  /// Calls `read` for the part of a file that begins at a given byte, with a sum to which it adds the bytes that this
+  /// rank reads; all ranks together must add every byte once. Passes null if there is no such part, or it has been
+  /// checked.
   void read(const std::string& file, std::uint64_t first, const std::function<void(ByteSum*)>& read);
-  /// Reads those that have not been.
+  /// Reads the parts that have not been read.
   void checkOthers();
 
  private:

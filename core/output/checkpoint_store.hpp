@@ -21,7 +21,7 @@ namespace tushar::output {
 /// checkpoints before as they were.
 class CheckpointStore {
  public:
-  /// `cycle` is how many checkpoints are kept, at least 1. Nothing is made before the first write().
+  /// `cycle` is the number of checkpoints to keep, at least 1. Nothing is made before the first write().
   explicit CheckpointStore(const std::filesystem::path& archive, int cycle, const Writers& writers = {});
 
   /// Writes a checkpoint: `fill` puts its files into the folder that it is given, and returns their parts that are to
@@ -36,7 +36,7 @@ class CheckpointStore {
   std::filesystem::path folder(int step) const;
   /// Steps of the existing checkpoints, intact or not, ascending.
   std::vector<int> steps() const;
-  /// The step that LATEST names, or else that of the last checkpoint; -1 if there is none.
+  /// The step in LATEST, or that of the last checkpoint if there is no LATEST; -1 if there is no checkpoint.
   int latest() const;
 
  private:

@@ -5,8 +5,8 @@
 
 namespace tushar::output {
 
-/// Decides when a list that is rewritten as a whole is due again. Writing takes longer the more it lists: so it waits
-/// for a second after the last time, and for 20 times as long as that has taken.
+/// Decides when to rewrite a list that can only be written as a whole. Writing takes longer the more it lists: so it
+/// waits for a second after the last time, and for 20 times as long as that has taken.
 class Pace {
  public:
   /// Notes that there is something new; `urgent` if readers need it.
@@ -16,7 +16,7 @@ class Pace {
   }
   bool isBehind() const { return behind_; }
   bool isDue() const { return urgent_ || (behind_ && Clock::now() >= next_); }
-  /// Writes by a function; the list is then up to date, unless that throws.
+  /// Calls `write`; the list is then up to date, unless it throws.
   template <class Write>
   void catchUp(const Write& write) {
     const auto started = Clock::now();

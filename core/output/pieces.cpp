@@ -9,7 +9,7 @@ namespace tushar::output {
 
 namespace {
 
-/// A number in as few bytes as possible, seven bits to a byte.
+/// Appends a number in as few bytes as possible, seven bits to a byte.
 void appendShort(mpi::Bytes& bytes, std::uint32_t number) {
   for (; number >= 128; number >>= 7) bytes.push_back(static_cast<std::byte>(number | 128));
   bytes.push_back(static_cast<std::byte>(number));
@@ -24,8 +24,8 @@ std::uint32_t takeShort(const std::byte*& from) {
   }
 }
 
-/// The entries of a piece on this rank: how many, and in how many stretches; their bytes; of each stretch how many
-/// entries of others come before it, and its length. Empty where it has none.
+/// Packs the entries of a piece on this rank: their number and that of their stretches; their bytes; and for each
+/// stretch the number of entries of other ranks before it, and its length. Empty where it has none.
 mpi::Bytes packed(const Source& source, const Piece& piece, std::size_t bytes, mpi::Outbox& outbox) {
   const std::vector<Stretch> stretches = source.stretches(piece.first, piece.count);
   std::size_t count = 0;

@@ -16,23 +16,23 @@ struct Piece {
   std::size_t first = 0, count = 0;
 };
 
-/// The most bytes of a piece. On a single rank, it should stay in the processor's cache while it is written; with
-/// several, which wait for each other at each piece, it should be small compared with 64 MB.
+/// Largest size of a piece, in bytes. On a single rank, it should stay in the processor's cache while it is written;
+/// with several, which wait for each other at each piece, it should be small compared with 64 MB.
 std::size_t mostOfPiece(const Writers& writers);
 
-/// Bytes of an entry in memory, and of all entries on all ranks.
+/// Size of an entry in memory, and of all entries on all ranks, in bytes.
 std::size_t entryBytes(const Array& array);
 std::uint64_t bytesOf(const Array& array);
 
-/// Sends the pieces of an array that is spread over the ranks to the writers, one to each at a time: so a writer needs
-/// memory for one piece, and a rank for its parts of the others.
+/// Sends the pieces of an array that is distributed over the ranks to the writers, one to each at a time, so that a
+/// writer needs memory for one piece only, and a rank for its parts of the others.
 class Pieces {
  public:
   /// `writers` must outlive it.
   explicit Pieces(const Writers& writers) : writers_(&writers), outbox_(writers.ranks()) {}
 
-  /// Sends each writer its piece of the array, which has a source; `of[w]` is for writer w. Returns the entries of this
-  /// rank's own piece, in `into`, which grows to hold them. Collective.
+  /// Sends each writer its piece of the array, which must have a source; `of[w]` is for writer w. Returns the entries
+  /// of this rank's own piece, in `into`, which grows to hold them. Collective.
   std::span<std::byte> bring(const Array& array, std::span<const Piece> of, std::vector<std::byte>& into);
 
  private:
@@ -40,7 +40,7 @@ class Pieces {
   mpi::Outbox outbox_;
 };
 
-/// Moves the values of all arrays to rank 0; the others lose theirs. Collective.
+/// Moves the values of all arrays to rank 0; other ranks keep none. Collective.
 void load(Snapshot& snapshot, const mpi::Communicator& ranks = mpi::Communicator::alone());
 
 }  // namespace tushar::output

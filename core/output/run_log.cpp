@@ -37,7 +37,7 @@ Json entryOf(const RunRecord& record) {
   return entry;
 }
 
-/// The runs that a file lists; none if there is no file, or it is damaged, in which case it is moved away.
+/// The runs listed in a file; none if there is no file, or if it is damaged, in which case it is moved away.
 Json runsIn(const fs::path& file) {
   Json empty = {{"format", RunLog::format}, {"runs", Json::array()}};
   const auto text = textOf(file);
@@ -49,7 +49,7 @@ Json runsIn(const fs::path& file) {
   return empty;
 }
 
-/// As text; bytes that are not UTF-8 are replaced.
+/// The runs as text; bytes that are not UTF-8 are replaced.
 std::string textOf(const Json& runs) { return runs.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 }  // namespace

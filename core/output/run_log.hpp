@@ -15,15 +15,15 @@ struct RunRecord {
   std::vector<std::string> hosts;                              ///< host names of the ranks, without repeats
   int ranks = 1, threads = 1;
   bool restarts = false;
-  int step = 0;  ///< from which it starts
+  int step = 0;  ///< step from which it starts
 };
 
 /// `run.json` in the folder of an archive: the runs that wrote there, each start and restart, with dates (UTC). They
 /// are here, not in outputs, so that equal results have equal bytes. A run without an end was killed.
 class RunLog {
  public:
-  /// The format of the archive: it rises when an older sus would take what a newer one writes for damaged. 2: the
-  /// manifests of checkpoints have sums of parts of files. 3: they have a format of their own.
+  /// The format of the archive, raised when an older sus would mistake a newer archive for a damaged one. 2: the
+  /// manifests of checkpoints contain sums of parts of files. 3: they have a format of their own.
   static constexpr int format = 3;
 
   /// Why a file with this text must not be extended: a newer version has written it. Empty: it may be.
@@ -38,7 +38,7 @@ class RunLog {
 
   /// Adds a library that the run has loaded since; end() writes it to the file.
   void addLibrary(const std::string& name, const std::string& version);
-  /// Adds how the run ended: why, after which step, and the exit code. It is lost if the disk is full.
+  /// Adds the end of the run: why it ended, after which step, and the exit code. It is lost if the disk is full.
   void end(const std::string& why, int step, int exitCode);
 
  private:

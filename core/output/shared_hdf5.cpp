@@ -19,7 +19,7 @@ bool isNarrowed(const Storage& how, const Array& array) {
   return how.doubleAsFloat && std::holds_alternative<std::vector<double>>(array.values);
 }
 
-/// Adds the time for which it lives, s.
+/// Adds its lifetime to a number, s.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}
@@ -33,7 +33,7 @@ class Stopwatch {
   Clock::time_point started_ = Clock::now();
 };
 
-/// A file on rank 0 whose values are written later.
+/// A file that rank 0 has begun, and whose values are written later.
 struct Begun {
   std::shared_ptr<Hdf5File> file;
   std::vector<std::uint64_t> rooms;  ///< the offset of each dataset with a source
@@ -64,8 +64,8 @@ std::vector<Slab> slabsOf(const Writers& writers, const Storage& how, const std:
 
 }  // namespace
 
-/// Compresses datasets: the writers a chunk each at a time, which rank 0 puts into the file in their order: at
-/// once where it is the only writer, else when all have theirs.
+/// Compresses datasets: each writer packs one chunk at a time, and rank 0 writes them to the file in order: at once if
+/// it is the only writer, otherwise when all chunks of a round are packed.
 class FileInFlight::Chunks {
  public:
   /// The file is open on rank 0.
@@ -117,10 +117,10 @@ class FileInFlight::Chunks {
     std::string dataset;
     std::vector<Extents> corners;
     std::shared_ptr<PackedChunk> mine;
-    long job;  ///< after which it is packed
+    long job;  ///< the job that packs it
   };
 
-  /// Packs the entries of a chunk, of whose bytes a share is in a file without compression.
+  /// Packs the entries of a chunk; `share` is the size of the numbers in the file over that in memory.
   static PackedChunk packed(ChunkPacker& packer, std::span<const std::byte> entries, double share, PackingUse& use) {
     const Stopwatch watch(use.packing);
     PackedChunk chunk = packer.pack(entries);
@@ -196,9 +196,9 @@ class FileInFlight::Chunks {
   std::shared_ptr<Hdf5File> file_;
   mpi::Outbox outbox_;
   std::shared_ptr<PackingUse> use_;  ///< by jobs
-  PackingUse placing_;               ///< by this thread
+  PackingUse placing_;               ///< time spent by this thread
   std::shared_ptr<std::optional<ChunkPacker>> packer_;
-  std::deque<Round> rounds_;  ///< whose chunks are not yet in the file
+  std::deque<Round> rounds_;  ///< rounds whose chunks are not yet in the file
   std::exception_ptr failure_;
 };
 

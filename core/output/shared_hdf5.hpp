@@ -23,9 +23,9 @@ struct Dataset {
   std::vector<std::uint64_t> shape;
 };
 
-/// How a file stores its numbers.
+/// The storage of numbers in a file.
 struct Storage {
-  bool doubleAsFloat = false;  ///< 4 of the 8 bytes of each real number
+  bool doubleAsFloat = false;  ///< keep 4 of the 8 bytes of each real number
   int compression = 0;         ///< gzip level, 0 (none) to 9
 };
 
@@ -46,16 +46,16 @@ class FileInFlight {
   /// Waits until the file is complete, and closes it. Collective on `ranks`: those of the writers, or the first alone
   /// where it is the only writer.
   void finish(const mpi::Communicator& ranks);
-  /// Where the values of the datasets that have a source are; none where they are compressed.
+  /// The places in the file of the values of datasets with a source; none if they are compressed.
   const std::vector<ByteRange>& places() const { return places_; }
-  /// The time and the bytes of compression on this rank, once the file is complete.
+  /// Time and bytes of compression on this rank, once the file is complete.
   PackingUse packing() const;
 
  private:
   class Chunks;
   std::vector<ByteRange> places_;
   std::optional<SlabsInFlight> slabs_;
-  std::unique_ptr<Chunks> chunks_;  ///< of a file that is compressed
+  std::unique_ptr<Chunks> chunks_;  ///< only for a compressed file
 };
 
 /// Writes such a file at once. Returns FileInFlight::places(). Collective.

@@ -10,7 +10,7 @@
 
 namespace tushar::output {
 
-static_assert(std::endian::native == std::endian::little, "files have the bytes of memory");
+static_assert(std::endian::native == std::endian::little, "files store numbers as in memory, in little-endian order");
 
 namespace {
 
@@ -49,7 +49,7 @@ class SlabWriter {
   }
 
  private:
-  /// The next bytes of a writer's slab, after those that are `done`.
+  /// The next bytes of a writer's slab, after the `done` ones.
   ByteRange next(int writer, std::uint64_t done) const {
     const ByteRange slab = slabOf(all_, writer, writers_.count());
     const std::uint64_t first = std::min(slab.first + done, slab.last);

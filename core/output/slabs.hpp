@@ -14,7 +14,7 @@
 
 namespace tushar::output {
 
-/// The slabs of a file start at multiples of this many bytes, so that no page and no stripe has two writers.
+/// The slabs of a file start at multiples of this number of bytes, so that no page or stripe has two writers.
 inline constexpr std::uint64_t slabCut = std::uint64_t{1} << 20;
 
 /// The part of a range that one of the writers writes. The parts are contiguous, and as equal as the cuts allow.
@@ -22,13 +22,13 @@ ByteRange slabOf(const ByteRange& all, int writer, int writers);
 
 /// An array with a source, and its place in a file.
 struct Slab {
-  std::string name;          ///< of the dataset
-  const Array* array;        ///< of real numbers, if `asFloat`
-  std::uint64_t offset = 0;  ///< of the first number in the file
-  bool asFloat = false;      ///< real numbers take 4 bytes there
+  std::string name;          ///< name of the dataset
+  const Array* array;        ///< contains real numbers, if `asFloat`
+  std::uint64_t offset = 0;  ///< offset of the first number in the file
+  bool asFloat = false;      ///< whether the file stores real numbers in 4 bytes
 };
 
-/// The bytes of all its numbers in the file.
+/// The range of bytes of a slab's numbers in the file.
 ByteRange rangeOf(const Slab& slab);
 
 /// Writes arrays to a file that rank 0 has made: each writer writes its own slab. The constructor copies the values;

@@ -22,7 +22,7 @@ struct Array {
   /// If set, it provides the values, and `values` gives only their type.
   std::shared_ptr<const Source> source{};
 
-  /// Number of particles, cells, nodes or rows that have a value, on all ranks together.
+  /// Number of particles, cells, nodes or rows with a value, on all ranks.
   std::size_t entries() const {
     if (source) return source->entries();
     const std::size_t numbers = std::visit([](const auto& all) { return all.size(); }, values);
@@ -30,7 +30,7 @@ struct Array {
   }
 };
 
-/// Loads the values of an array that is on this rank alone.
+/// Loads the values of an array whose entries are all on this rank.
 void load(Array& array);
 
 /// The particles of a material. The first array is p.x [m], with 3 components always; the others have as many entries
@@ -69,10 +69,10 @@ struct GridInfo {
   /// Where the run may have several levels, the boxes of cells that tile the domain, those of the coarsest level first;
   /// none if it has one.
   std::vector<GridBox> boxes{};
-  int levels = 1;  ///< one more than the finest level of any box, at least
+  int levels = 1;  ///< number of levels: at least one more than the finest level of any box
 };
 
-/// The state at one time, gathered over patches in an order that no layout changes.
+/// The state at one time, gathered over patches in an order that does not depend on the layout.
 struct Snapshot {
   int step = 0;
   double time = 0, delT = 0;  ///< s

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> order{"L1", "L2", "max", "relative"};  // of the values of data::Norm
 
-/// Without values the maximum is -infinity and the mean NaN; then there is no maximum.
+/// Whether an error has no values: then the maximum is -infinity and the mean NaN.
 bool isOfNothing(const std::vector<double>& values) {
   if (values.size() == 1) return values[0] == -std::numeric_limits<double>::infinity();
   return values.empty() || (std::isnan(values[0]) && values[2] == 0);
@@ -38,7 +38,7 @@ std::optional<std::string> unmeasurable(const std::vector<ErrorNorms>& errors) {
   for (const ErrorNorms& error : errors)
     for (const auto& [norm, value] : error.norms)
       if (!std::isfinite(value))
-        return fmt::format("the end of the run cannot be measured: {} of the error of {}, {}, is not finite", norm,
+        return fmt::format("no errors at the end of the run: the {} norm of the error of {}, {}, is not finite", norm,
                            error.field, error.place);
   return std::nullopt;
 }

@@ -18,8 +18,8 @@ struct MeasuredError {
 /// A part of an energy budget that an analysis module keeps: the total `label` (J).
 struct EnergyTerm {
   enum class Side {
-    came,  ///< present at the start, or added since
-    went,  ///< present now, or gone elsewhere
+    came,  ///< energy present at the start, or added since
+    went,  ///< energy present now, or lost
   };
   std::string name;
   const data::Label* label;

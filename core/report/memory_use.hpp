@@ -11,18 +11,18 @@ struct MemoryUse {
   double fields = 0;     ///< variables on nodes and cells
   double particles = 0;  ///< variables of particles
   double buffers = 0;    ///< memory kept from step to step: for variables within a step, for messages
-  double files = 0;      ///< by how much outputs and checkpoints have raised the peak
+  double files = 0;      ///< increase of the peak by outputs and checkpoints
 };
 
 /// The memory of all ranks.
 struct MemoryOfRanks {
-  MemoryUse sum, most;  ///< sums over the ranks; the largest on any rank, for each number separately
+  MemoryUse sum, most;  ///< sums over the ranks; and maxima over the ranks, for each number separately
 };
 
-/// Adds up the variables that a rank holds.
+/// Adds the memory of the variables of a rank.
 void addVariables(const data::Warehouse& warehouse, MemoryUse& use);
 
-/// All ranks call it.
+/// The memory of all ranks, which must all call this.
 MemoryOfRanks ofRanks(const MemoryUse& mine, const mpi::Communicator& ranks);
 
 }  // namespace tushar::report

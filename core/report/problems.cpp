@@ -7,7 +7,7 @@ namespace tushar::report {
 
 namespace {
 
-/// The word in ` (did you mean 'x'?)` of a sentence.
+/// The word x in ` (did you mean 'x'?)` at the end of a sentence.
 std::optional<std::string> suggestionIn(const std::string& sentence) {
   constexpr std::string_view before = "(did you mean '", after = "'?)";
   const std::size_t start = sentence.find(before);

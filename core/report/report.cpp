@@ -130,11 +130,11 @@ std::string energyTable(const Report& report) {
   std::string text = fmt::format("\n  {:<36} {:>14}\n", "energy budget", "J");
   for (const auto& [name, value] : energies.came) text += fmt::format("  {:<36} {:>14.6g}\n", name, value);
   for (const auto& [name, value] : energies.went) text += fmt::format("  - {:<34} {:>14.6g}\n", name, value);
-  return text + fmt::format("  {:<36} {:>14.2e}   {:.2e} of the greatest\n", "unaccounted", energies.unaccounted(),
+  return text + fmt::format("  {:<36} {:>14.2e}   {:.2e} of the largest term\n", "unaccounted", energies.unaccounted(),
                             energies.greatest() > 0 ? energies.unaccounted() / energies.greatest() : 0.0);
 }
 
-/// How the threads spent their time during the time loop and its outputs, in parts of the whole.
+/// The shares of the threads' time during the time loop and its outputs.
 std::string useLine(const Report& report) {
   const TimeUse& use = report.use;
   const double all = use.task + use.message + use.output + use.wait;
@@ -152,7 +152,7 @@ std::string memoryLine(const Report& report) {
   const MemoryUse& sum = report.memoryOfRanks.sum;
   if (sum.peak <= 0) return "";
   const std::string most =
-      report.ranks > 1 ? fmt::format(" (of a rank up to {:.1f})", 1e-6 * report.memoryOfRanks.most.peak) : "";
+      report.ranks > 1 ? fmt::format(" (at most {:.1f} on one rank)", 1e-6 * report.memoryOfRanks.most.peak) : "";
   return fmt::format(
       "  memory: peak {:.1f} MB{}; fields {:.1f}, particles {:.1f}, kept for later steps {:.1f}, outputs and "
       "checkpoints "
@@ -160,9 +160,9 @@ std::string memoryLine(const Report& report) {
       1e-6 * sum.peak, most, 1e-6 * sum.fields, 1e-6 * sum.particles, 1e-6 * sum.buffers, 1e-6 * sum.files);
 }
 
-/// How many times as long the update of a cell takes on levels as on a uniform grid, by the number of dimensions:
-/// measured with `euler` in small blocks (ups/euler/README.md, "Several levels"), where it is 10 to 15, 1.8 to 3.1, and
-/// 1.9.
+/// The cost of updating a cell on several levels, relative to that on a uniform grid, by the number of dimensions:
+/// measured with `euler` in small blocks (ups/euler/README.md, "Several levels"), where it is 10 to 15, 1.8 to 3.1,
+/// and 1.9.
 double costOnLevels(int dimension) { return std::array{10.0, 2.5, 1.9}.at(std::clamp(dimension, 1, 3) - 1); }
 
 /// The cost of a uniform grid of the finest cells, and whether refinement has paid.
@@ -170,18 +170,19 @@ std::string uniformLine(const Report& report) {
   if (report.updates <= 0 || report.uniformUpdates <= 0) return "";
   const double saved = report.uniformUpdates / report.updates;
   const double cost = costOnLevels(report.dimension);
-  const std::string text = fmt::format(
-      "a uniform grid of the finest cells: {:.4g} cell updates, {:.3g} times as many\n", report.uniformUpdates, saved);
+  const std::string text =
+      fmt::format("a uniform grid of the finest cells would need {:.4g} cell updates, {:.3g} times as many\n",
+                  report.uniformUpdates, saved);
   if (saved > cost) return text;
   return text +
          fmt::format("  it would probably be faster: on levels an update takes about {:g} times as long\n", cost);
 }
 
-/// The updates of each level, if finer ones take smaller steps.
+/// The cell updates of each level, if finer levels take smaller steps.
 std::string updatesLine(const Report& report) {
   std::string updates;
   for (const double one : report.levelUpdates) updates += fmt::format("{}{:.4g}", updates.empty() ? "" : " + ", one);
-  return updates.empty() ? "" : fmt::format("  of levels that each take their own steps: {}\n", updates);
+  return updates.empty() ? "" : fmt::format("  cell updates of each level, with time steps of its own: {}\n", updates);
 }
 
 /// The cells of each level, and the cost of updating and regridding them.
@@ -222,7 +223,7 @@ std::string timeTable(const Report& report) {
   if (report.patches > 1) row("  ghost exchange", report.exchange);
   if (isRefined(report)) row("  regridding", report.wallRegrid);
   row("output", report.wallOutput);
-  if (report.wallOutputWait > 0) row("  waiting for the one before", report.wallOutputWait);
+  if (report.wallOutputWait > 0) row("  waiting for the previous output", report.wallOutputWait);
   return text + compressionLine(report.compression) + useLine(report) + memoryLine(report) + rebalancingLine(report);
 }
 

@@ -23,7 +23,7 @@ struct ErrorNorms {
 struct Drift {
   std::string name;  ///< mass, momentum, energy
   double start = 0, end = 0;
-  double change = 0;  ///< relative to the start where that is not 0, else absolute
+  double change = 0;  ///< relative to the start if that is not 0, otherwise absolute
   bool relative = true;
   std::string unit;
 };
@@ -31,28 +31,28 @@ struct Drift {
 /// The energy budget of a run, J.
 struct EnergyBudget {
   std::vector<std::pair<std::string, double>> came,
-      went;  ///< names and amounts; work done on the surroundings is negative
+      went;  ///< names and amounts of the terms; work done on the surroundings is negative
 
   /// The energy that is not accounted for.
   double unaccounted() const;
-  /// The greatest amount, the scale for `unaccounted`.
+  /// The largest amount, the scale for `unaccounted`.
   double greatest() const;
 };
 
-/// The patches that have changed ranks in a run.
+/// Changes of the distribution of patches over the ranks during a run.
 struct Rebalancing {
   int times = 0;
-  int step = 0;                  ///< the last step after which they did
+  int step = 0;                  ///< the last step after which patches changed ranks
   double before = 1, after = 1;  ///< the largest cost of a rank over the mean, before and after the last change
 };
 
 /// The time and the bytes of compressing the values of outputs, summed over ranks.
 struct Compression {
   double bytes = 0, packed = 0;     ///< without compression, and with it
-  double packing = 0, writing = 0;  ///< s spent on compressing, and on writing what came of it
+  double packing = 0, writing = 0;  ///< s spent on compressing, and on writing the result
 
-  /// The extra time that writing all bytes at that speed would take, less that of compressing, s; negative where
-  /// compression did not pay off.
+  /// The extra time for writing all bytes at that speed, less the time for compressing, s; negative if compression did
+  /// not pay off.
   double savedSeconds() const { return packed > 0 ? writing * (bytes / packed - 1) - packing : 0; }
 };
 
@@ -67,41 +67,41 @@ struct Report {
   std::string scene, title, component, version, build;
   int dimension = 0, patches = 0, ranks = 1, threads = 1;
   long cells = 0, particles = 0, dropped = 0;
-  double spacing = 0;          ///< least cell width, m
+  double spacing = 0;          ///< smallest cell width, m
   int steps = 0, retries = 0;  ///< steps taken; undone and repeated
   std::vector<std::pair<std::string, int>>
       limits;                   ///< reasons that limit the time step, and how many steps each has limited
-  double time = 0;              ///< reached, s
-  std::string ended;            ///< why: maxTime, max_Timesteps, max_wall_time, stop_now, interrupted, failed
-  std::string failure, advice;  ///< of a run that failed: the unphysical value, and what to try
+  double time = 0;              ///< time reached, s
+  std::string ended;            ///< reason: maxTime, max_Timesteps, max_wall_time, stop_now, interrupted, failed
+  std::string failure, advice;  ///< for a run that failed: the unphysical value, and what to try
   double particleSteps = 0;
-  ResidentMemory memory;  ///< of the rank with the most, after the last step
+  ResidentMemory memory;  ///< memory of the rank with the largest, after the last step
   MemoryOfRanks memoryOfRanks;
   double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
-  double wallOutputWait = 0;  ///< s of the output spent waiting for one that was still being written
+  double wallOutputWait = 0;  ///< part of wallOutput: waiting for an output still being written, s
   Compression compression;
   TimeUse use;
   Rebalancing rebalancing;
   std::vector<long> levels;          ///< cells of each level at the end, the coarsest first; 0 for a single level
   double updates = 0;                ///< cell updates: the sum over steps of the cells of all levels
-  std::vector<double> levelUpdates;  ///< those of each level; none if all take the same steps
-  double uniformUpdates = 0;         ///< as `updates`, had all cells been as fine as the finest
+  std::vector<double> levelUpdates;  ///< cell updates of each level; empty if all take the same steps
+  double uniformUpdates = 0;         ///< the same if all cells were as fine as the finest
   int regrids = 0;                   ///< number of regrids
   double wallRegrid = 0;             ///< s of the loop spent on regridding
   std::vector<TaskTime> tasks;
   double exchange = 0;  ///< s of the loop spent filling ghosts
   std::vector<ErrorNorms> errors;
-  std::vector<std::string> unmeasured;  ///< why errors are left out, a sentence for each module that has none
+  std::vector<std::string> unmeasured;  ///< why errors are missing: a sentence for each module without valid ones
   std::vector<Drift> drifts;
   EnergyBudget energies;  ///< empty if not requested
   std::vector<std::string> kept;
   std::vector<tasks::LeftOut> leftOut;
   std::string fingerprint;
   std::string archive;                     ///< folder, if anything was saved
-  std::vector<std::string> unusedOptions;  ///< options for PETSc that no solve has used
+  std::vector<std::string> unusedOptions;  ///< PETSc options that no solve has used
 };
 
-/// The report as JSON, with the keys that tools/README.md lists.
+/// The report as JSON, with the keys in tools/README.md.
 std::string toJson(const Report& report);
 /// The report as a table for a terminal.
 std::string toText(const Report& report);

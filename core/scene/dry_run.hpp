@@ -9,7 +9,7 @@
 namespace tushar::scene {
 
 /// The work of one of many ranks in a step, and the cost of this estimate: graph and messages are compiled as in a run,
-/// but no other rank is there and no variable has memory.
+/// but without the other ranks and without memory for variables.
 struct DryRun {
   int rank = 0, ranks = 1;
   int patches = 0, patchesOfAll = 0;  ///< of this rank, and of the grid
@@ -24,7 +24,7 @@ struct DryRun {
   double megabytes = 0;               ///< memory taken by this
 };
 
-/// Reads a scene as if this were the rank, of `workers.ranks`, that has the middle of the grid. Throws what readScene
+/// Reads a scene as if this rank were the one of `workers.ranks` that has the centre of the grid. Throws what readScene
 /// throws.
 DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides,
               const simulation::Catalogue& catalogue, const grid::Workers& workers);

@@ -23,7 +23,7 @@ namespace {
   throw InputError({{{where.string(), 0, 0}, "", sentence}});
 }
 
-/// The folder behind a path that may be a link to it.
+/// The folder at a path, which may be a link to it.
 fs::path folderOf(const fs::path& uda) {
   if (!fs::exists(uda)) refuse(uda, "there is no such folder; --restart takes the .uda folder of a run");
   if (!fs::is_directory(uda))
@@ -40,7 +40,7 @@ fs::path folderOf(const fs::path& uda) {
   return folder;
 }
 
-/// Steps whose checkpoints may be used; the first that is intact will be: the chosen one, or those from LATEST back.
+/// The steps of checkpoints to try in turn: the chosen one alone, or those from LATEST backwards.
 std::vector<int> candidatesOf(const std::string& uda, const fs::path& archive, std::optional<int> chosen) {
   const output::CheckpointStore store(archive, 1);
   const std::vector<int> steps = store.steps();
@@ -55,7 +55,7 @@ std::vector<int> candidatesOf(const std::string& uda, const fs::path& archive, s
 void restoreScene(simulation::Restart& restart) {
   if (!output::textOf(restart.scene()).value_or("").empty()) return;
   output::replaceFileOnDisk(restart.scene(), output::Hdf5Input(restart.state()).text("/scene"));
-  restart.notes.push_back(fmt::format("{} was lost and is that of the checkpoint now", restart.scene().string()));
+  restart.notes.push_back(fmt::format("{} was missing; it was restored from the checkpoint", restart.scene().string()));
 }
 
 }  // namespace

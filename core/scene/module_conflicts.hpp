@@ -13,16 +13,17 @@
 
 namespace tushar::scene {
 
-/// The quantities that the modules above in the scene measure and compute.
+/// The quantities that earlier modules of the scene measure and compute.
 struct TakenByModules {
   std::set<std::string> measured, computed;
 };
 
-/// Throws InputError for a module that measures or computes what one above does, and adds its own. A report has one
-/// place for the errors of a field, and for an energy budget; a variable has one task that computes it.
+/// Throws InputError for a module that measures or computes the same as an earlier one; otherwise adds its quantities.
+/// A report has one place for the errors of a field, and for an energy budget; a variable has one task that computes
+/// it.
 void refuseTwice(const simulation::Analysis& analysis, const input::Element& module, TakenByModules& taken);
 
-/// Reports files of an archive that two modules would write, or a module and the archive itself for a saved global.
+/// Reports files of an archive that two modules would write, or a module and the archive itself.
 void refuseSharedFiles(const std::vector<std::unique_ptr<simulation::Analysis>>& analyses,
                        const std::vector<simulation::SaveRequest>& saves, input::Diagnostics& diagnostics);
 

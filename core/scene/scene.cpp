@@ -40,17 +40,17 @@ struct Meta {
   std::string title;
 };
 const input::Schema<Meta>& metaSchema() {
-  static const input::Schema<Meta> schema = input::Schema<Meta>("Meta", "About the scene.")
+  static const input::Schema<Meta> schema = input::Schema<Meta>("Meta", "A description of the scene.")
                                                 .custom(
                                                     "title",
                                                     [](Meta& meta, const Element& element, Diagnostics&) {
                                                       if (const auto title = element.child("title"))
                                                         meta.title = title->text();
                                                     },
-                                                    {"title"}, "its name")
+                                                    {"title"}, "title")
                                                 .forms({input::patternForm({"title"}, ".*")})
-                                                .ignored("info", "for readers")
-                                                .ignored("description", "for readers");
+                                                .ignored("info", "a note for readers")
+                                                .ignored("description", "a note for readers");
   return schema;
 }
 
@@ -64,7 +64,7 @@ const input::Schema<ComponentTag>& componentSchema() {
   return schema;
 }
 
-/// The section of that name; a missing or second one is a problem.
+/// The section with that name; reports one that is missing or given twice.
 std::optional<Element> section(const Element& root, const std::string& name, bool required, Diagnostics& diagnostics) {
   const std::vector<Element> all = root.children(name);
   if (all.empty()) {
@@ -108,7 +108,7 @@ void refuseUnknownSections(const Element& root, const ComponentKind& kind, Diagn
                                            didYouMean(child.name(), known), joined(known, ", ")));
 }
 
-/// Refuses text and attributes of the root, except the name spaces that editors write.
+/// Refuses text and attributes of the root, except for XML namespaces, which editors write.
 void refuseLooseWords(const Element& root, Diagnostics& diagnostics) {
   std::vector<std::string> allowed;
   for (const input::Attribute& attribute : root.attributes())
@@ -176,7 +176,7 @@ void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, co
                   "attribute 'interval': ", diagnostics);
 }
 
-/// Refuses such intervals at which analysis modules sample by time.
+/// Refuses sampling intervals of analysis modules that the times of the run could not resolve.
 void checkIntervals(const TimeSettings& time, const std::vector<ReadModule>& modules, Diagnostics& diagnostics) {
   for (const ReadModule& module : modules)
     if (const auto tag = module.element.child("outputInterval"))
@@ -209,7 +209,7 @@ Location checkTakesLevels(const ComponentKind& kind, const Component& component,
   return where.where();
 }
 
-/// A component on the smallest grid that it accepts, with one axis if possible.
+/// A component on a minimal grid that it accepts, with one axis if possible.
 struct Trial {
   std::unique_ptr<grid::Level> level;
   std::unique_ptr<Component> component;  ///< null if it accepts no grid
@@ -244,8 +244,8 @@ void renameLabels(const simulation::OtherNames& names, std::vector<SaveRequest>&
   saves = std::move(kept);
 }
 
-/// Reports what is wrong with the labels that are saved and sampled. Removes, with a note, labels that Uintah has and
-/// no task here computes.
+/// Reports problems with saved and sampled labels. Removes, with a note, labels that Uintah has and no task here
+/// computes.
 void checkLabels(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
                  std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   renameLabels(otherNames(component, analyses), saves, diagnostics);
@@ -268,8 +268,9 @@ void checkLabels(const Component& component, const std::vector<std::unique_ptr<A
   refuseSharedFiles(analyses, saves, diagnostics);
 }
 
-/// Checks the labels even if other parts of the scene are wrong: those of a component and of its modules do not depend
-/// on the grid. Returns false if it cannot: some components and modules cannot be made on the small grid that it uses.
+/// Checks the labels even if other parts of the scene are invalid, as those of a component and its modules do not
+/// depend on the grid. Returns false if it cannot: some components and modules cannot be made on the small grid that it
+/// uses.
 bool checkLabelsWithoutGrid(const MakeComponent& make, const std::vector<ReadModule>& modules,
                             std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   const auto [level, component] = tryOut(make);
@@ -284,7 +285,7 @@ bool checkLabelsWithoutGrid(const MakeComponent& make, const std::vector<ReadMod
   return true;
 }
 
-/// The parts of a scene besides its grid and its component.
+/// Reads the parts of a scene that do not depend on the component.
 void readSharedSections(const Element& root, Problem& problem, Diagnostics& diagnostics) {
   if (const auto meta = section(root, "Meta", false, diagnostics))
     problem.title = metaSchema().read(*meta, diagnostics).title;
@@ -310,7 +311,7 @@ void takeThreads(const grid::Workers& workers, Problem& problem) {
   if (workers.mayBeFewer) problem.cellsPerThread = grid::cellsPerThread;
 }
 
-/// The tag that has finer levels take smaller steps; none on a single level.
+/// The tag by which finer levels take smaller steps; none on a single level.
 std::optional<Location> smallerStepsOn(const grid::Grid& grid, const AmrSettings& amr, Diagnostics& diagnostics) {
   if (grid.levels() > 1 || !amr.smallerSteps) return amr.smallerSteps;
   diagnostics.note(*amr.smallerSteps, "AMR/useLockStep", "does nothing: the grid has one level");

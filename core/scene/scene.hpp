@@ -32,24 +32,24 @@ simulation::ArchiveSettings readArchive(const input::Element& section, input::Di
 /// The `AMR` section, read before the grid is known.
 struct AmrSettings {
   simulation::RegridSettings regrid;
-  std::optional<int> maxLevels;               ///< with the coarsest
+  std::optional<int> maxLevels;               ///< number of levels, including the coarsest
   std::optional<Index3> block;                ///< cells along x, y, z
-  std::optional<std::vector<Index3>> ratios;  ///< of cell widths from level to level
-  std::optional<input::Element> tag;          ///< `AMR`, where it is given; for messages
-  std::optional<Location> smallerSteps;       ///< the tag that has finer levels take smaller steps
+  std::optional<std::vector<Index3>> ratios;  ///< ratios of cell widths from level to level
+  std::optional<input::Element> tag;          ///< `AMR`, if given; for messages
+  std::optional<Location> smallerSteps;       ///< the tag by which finer levels take smaller steps
 };
-/// `kind`: the component of the scene, null if it is not known.
+/// `kind`: the component of the scene; null if it is unknown.
 AmrSettings readAmr(const input::Element& section, const simulation::ComponentKind* kind,
                     input::Diagnostics& diagnostics);
-/// When and where a component's grid is refined: by its own criteria where the scene has none. Reports variables that
-/// the component lacks.
+/// When and where to refine a component's grid: by its own criteria if the scene has none. Reports variables that the
+/// component lacks.
 simulation::RegridSettings settled(AmrSettings amr, const simulation::Component& component,
                                    input::Diagnostics& diagnostics);
 /// The boundary conditions that a component supports.
 struct SideWords {
   std::vector<grid::BoundaryVariable> labels = {};
-  bool takesParts = false;     ///< parts of a side with conditions of their own
-  bool takesFormulas = false;  ///< for Dirichlet values
+  bool takesParts = false;     ///< whether parts of a side may have conditions of their own
+  bool takesFormulas = false;  ///< whether Dirichlet values may be formulas
   simulation::ConditionWords own = {};
 };
 /// The `Grid` section.
@@ -61,8 +61,8 @@ void describeArchive(std::ostream& out);
 void describeGrid(std::ostream& out);
 void describeAmr(std::ostream& out, const simulation::Catalogue& catalogue);
 
-/// How the shared sections are read, for the schemas of editors; Grid with the boundary labels and words of a
-/// component, AMR with its name.
+/// The schemas of the shared sections, for editors; Grid with the boundary labels and words of a component, AMR with
+/// its name.
 const input::SchemaBase& metaForm();
 const input::SchemaBase& timeForm();
 const input::SchemaBase& archiveForm();
@@ -71,7 +71,7 @@ const input::SchemaBase& gridForm(const simulation::ComponentKind& kind);
 /// The tag SimulationComponent; its `type` says which component.
 const input::SchemaBase& componentForm();
 
-/// Uintah's sections without effect here, and why.
+/// Uintah's sections that have no effect here, and why.
 const std::vector<std::pair<std::string, std::string>>& idleSections();
 
 }  // namespace tushar::scene

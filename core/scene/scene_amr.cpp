@@ -60,7 +60,7 @@ struct AmrSection {
 bool isLower(Indicator indicator) { return indicator == Indicator::below; }
 bool isValue(Indicator indicator) { return indicator == Indicator::above || indicator == Indicator::below; }
 
-/// Half the threshold; for values, half their size beyond it.
+/// The threshold for coarsening: half that for refining; for values, half their magnitude beyond it.
 double coarsenOf(const VariableTag& tag, double refine) {
   if (tag.coarsen) return *tag.coarsen;
   return isLower(tag.indicator) ? refine + 0.5 * std::abs(refine) : refine - 0.5 * std::abs(refine);
@@ -91,35 +91,35 @@ void checkThresholds(const VariableTag& tag, const Element& element, Diagnostics
   if (!isValue(tag.indicator) && *tag.coarsen < 0) refuse("coarsen", *tag.coarsen, "a value of at least 0");
   if (isLower(tag.indicator) ? *tag.coarsen < refine : *tag.coarsen > refine)
     refuse("coarsen", *tag.coarsen,
-           fmt::format("a value {} that of value, {:g}", isLower(tag.indicator) ? "not below" : "not above", refine));
+           fmt::format("{} the attribute 'value', {:g}", isLower(tag.indicator) ? "at least" : "at most", refine));
 }
 
 const Schema<VariableTag>& variableSchema() {
   static const Schema<VariableTag> schema =
-      Schema<VariableTag>("Variable", "A reason for finer cells.")
+      Schema<VariableTag>("Variable", "A refinement criterion.")
           .location(&VariableTag::where)
           .requiredAttribute("name", &VariableTag::name, "1",
-                             "a variable of cells, such as c.density; or particles, which need nothing else: the "
+                             "a cell variable, such as c.density; or particles, which takes no other attribute: the "
                              "finest level follows them in any case")
           .optionalAttribute("value", &VariableTag::refine, "1",
-                             "finer cells where the indicator is above this (of type below: where it is below); all "
-                             "but particles must have it")
+                             "cells are refined where the indicator is above this (for type below: where it is below); "
+                             "required, except for particles")
           .attributeValue("matl", &VariableTag::material, "all", "1", "name or number of the material, or all")
-          .choiceAttribute("type", &VariableTag::indicator,
-                           {{"jump", Indicator::jump},
-                            {"second_derivative", Indicator::secondDerivative},
-                            {"gradient", Indicator::gradient},
-                            {"above", Indicator::above},
-                            {"below", Indicator::below}},
-                           Indicator::jump,
-                           "the indicator: half the difference of the neighbours over the least magnitude of the three "
-                           "cells, for quantities that stay away from 0, where it is infinite; Löhner's second "
-                           "difference, from 0 to 1; the gradient, unit of the variable over m, which is Uintah's; "
-                           "the value itself")
+          .choiceAttribute(
+              "type", &VariableTag::indicator,
+              {{"jump", Indicator::jump},
+               {"second_derivative", Indicator::secondDerivative},
+               {"gradient", Indicator::gradient},
+               {"above", Indicator::above},
+               {"below", Indicator::below}},
+              Indicator::jump,
+              "the indicator. jump: half the difference of the neighbours over the smallest magnitude in the three "
+              "cells (for quantities that stay away from 0); second_derivative: Löhner's, from 0 to 1; gradient: in "
+              "the unit of the variable per m, as in Uintah; above, below: the value itself")
           .ours()
           .optionalAttribute("coarsen", &VariableTag::coarsen, "1",
-                             "no coarser cells where the indicator is above this (of type below: where it is below); "
-                             "half of value")
+                             "cells are not coarsened where the indicator is above this (for type below: where it is "
+                             "below); half of value by default")
           .ours()
           .check(checkThresholds);
   return schema;
@@ -127,9 +127,10 @@ const Schema<VariableTag>& variableSchema() {
 
 const Schema<CriteriaSection>& criteriaSchema() {
   static const Schema<CriteriaSection> schema =
-      Schema<CriteriaSection>("Refinement_Criteria_Thresholds",
-                              "Where finer cells are needed; of several reasons, the one for the finest cells decides.")
-          .list("Variable", &CriteriaSection::variables, variableSchema(), "a reason for finer cells");
+      Schema<CriteriaSection>(
+          "Refinement_Criteria_Thresholds",
+          "Where finer cells are needed; of several criteria, the one that requests the finest cells decides.")
+          .list("Variable", &CriteriaSection::variables, variableSchema(), "a refinement criterion");
   return schema;
 }
 
@@ -140,12 +141,12 @@ const Schema<ThresholdsSection>& thresholdsSchema() {
         .value("do_Refluxing", &ThresholdsSection::refluxes, true, "1",
                "the flux out of coarse cells equals that into finer ones, to round-off; otherwise totals drift")
         .section("Refinement_Criteria_Thresholds", &ThresholdsSection::criteria, criteriaSchema());
-    const std::string order = "values between levels are of second order";
+    const std::string order = "interpolation between levels is of second order";
     input::noteTag(section, "orderOfInterpolation", order);
     input::noteTag(section, "orderOf_CFI_Interpolation", order);
     input::noteTag(section, "CFI_interpolator", order);
     section.ignored("ClampSpecificVolume", "Uintah does not read it here either");
-    const std::string region = "a further <Level> of <Grid> says where cells are finer";
+    const std::string region = "where cells are finer is specified by a further <Level> of <Grid>";
     for (const char* tag : {"min_grid_level", "max_grid_level", "manualGrid", "Refine_Regions"})
       input::noteTag(section, tag, region);
     return section;
@@ -154,15 +155,15 @@ const Schema<ThresholdsSection>& thresholdsSchema() {
 }
 
 void noteOldRegridderTags(Schema<RegridderSection>& section) {
-  input::noteTag(section, "max_timestep_interval", "every regrid is due by <min_timestep_interval>");
+  input::noteTag(section, "max_timestep_interval", "<min_timestep_interval> alone determines when to regrid");
   const std::string buffer =
-      "<cell_stability_dilation> alone widens the refined region, besides the distance that signals travel";
+      "<cell_stability_dilation> alone widens the refined region, in addition to the distance that signals travel";
   for (const char* tag :
        {"cell_regrid_dilation", "cell_deletion_dilation", "min_boundary_cells", "dynamic_dilation", "max_dilation"})
     input::noteTag(section, tag, buffer);
   const std::string cost = "the refinement does not depend on its cost";
   for (const char* tag : {"amr_overhead_low", "amr_overhead_high"}) input::noteTag(section, tag, cost);
-  input::noteTag(section, "patches_per_level_per_proc", "patches are boxes of blocks; -layout sets how many");
+  input::noteTag(section, "patches_per_level_per_proc", "patches are boxes of blocks; --layout sets their size");
 }
 
 const Schema<RegridderSection>& regridderSchema() {
@@ -170,33 +171,30 @@ const Schema<RegridderSection>& regridderSchema() {
     Schema<RegridderSection> section("Regridder", "How the grid is refined, and when.");
     section
         .choiceAttribute("type", &RegridderSection::type, {{"Tiled", "Tiled"}, {"BNR", "BNR"}}, "Tiled",
-                         "Uintah's ways to choose patches; both mean blocks here")
-        .elsewhere("SingleLevel", "patches of one level are chosen by <patches> of its Box, or -layout")
+                         "Uintah's algorithms for choosing patches; both mean blocks here")
+        .elsewhere("SingleLevel", "the patches of a single level are set by <patches> in its Box, or by --layout")
         .optional("adaptive", &RegridderSection::adaptive, "1",
-                  "whether the refinement follows the state; by default, whether there is a <Variable> or, for mpm, "
-                  "<max_levels> above 1. Without a <Variable>, euler takes jumps above 0.02 of c.density, c.pressure "
-                  "and c.mach; mpm needs none, as "
-                  "the finest level follows its particles")
-        .value("regrid_once", &RegridderSection::once, false, "1", "only at the start")
-        .optional(
-            "max_levels", &RegridderSection::maxLevels, "1",
-            "the most levels, including the coarsest; by default as many as the Levels of Grid make, but at least "
-            "2 if it is adaptive",
-            input::between(1, 16))
+                  "whether the refinement follows the state; true by default if there is a <Variable> or, for mpm, if "
+                  "<max_levels> is above 1. Without a <Variable>, euler refines at jumps of c.density, c.pressure and "
+                  "c.mach above 0.02; mpm needs none, as the finest level follows its particles")
+        .value("regrid_once", &RegridderSection::once, false, "1", "refine only at the start")
+        .optional("max_levels", &RegridderSection::maxLevels, "1",
+                  "largest number of levels, including the coarsest; by default the number that the Levels of Grid "
+                  "make, but at least 2 if the grid is adaptive",
+                  input::between(1, 16))
         .optional("cell_refinement_ratio", &RegridderSection::ratios, "1",
-                  "from each level to the next; the last one also holds for further levels. 2, 4, 8 … along all axes "
-                  "that the "
-                  "grid uses; 4 counts as two levels",
+                  "ratio of cell widths from each level to the next; the last one also holds for further levels. 2, 4, "
+                  "8 … along all axes that the grid uses; 4 counts as two levels",
                   input::atLeast(1))
         .optional("min_patch_size", &RegridderSection::blocks, "1",
-                  "cells of a block, which is refined as a whole: an even number from 4 on that divides the "
-                  "resolution, the same for all levels; without it the greatest up to 8, in one dimension 16",
+                  "cells in a block, which is refined as a whole: an even number of at least 4 that divides the "
+                  "resolution, the same for all levels; by default the largest up to 8 (in one dimension, up to 16)",
                   input::atLeast(1))
         .value("min_timestep_interval", &RegridderSection::interval, 8, "1", "steps from one regridding to the next",
                input::atLeast(1))
         .value("cell_stability_dilation", &RegridderSection::dilation, Index3::filled(1), "1",
-               "cells to refine around those that signals can reach until the next regridding; the greatest of the "
-               "three holds along all axes",
+               "number of cells to refine around those that signals can reach until the next regridding; the largest "
+               "of the three numbers is used along all axes",
                input::nonNegative());
     input::refuseOtherValues(section, "simple_refinement_ratio", {"2"}, "give one more level instead");
     noteOldRegridderTags(section);
@@ -211,7 +209,7 @@ ThresholdsSection readThresholds(const Element& given, Diagnostics& diagnostics)
   return read;
 }
 
-/// `AMR` with the sections of components that have these names.
+/// The schema of `AMR` with the sections of components that have these names.
 Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
   Schema<AmrSection> section("AMR", "Adaptive mesh refinement: cells of several sizes.");
   const auto readComponents = [names](AmrSection& read, const Element& element, Diagnostics& diagnostics) {
@@ -223,8 +221,8 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
         input::noteAttribute(given, "type", "a grid is adaptive where <Regridder> says so", diagnostics);
       })
       .value("useLockStep", &AmrSection::usesLockStep, true, "1",
-             "all levels take the same time step; false: finer ones take several smaller steps for each of the next "
-             "coarser level, if no task of a step needs new values of other cells or sums over the grid")
+             "true: all levels take the same time step; false: finer levels take several smaller steps for each step "
+             "of the next coarser level, if no task of a step needs new values of other cells or sums over the grid")
       .section("Regridder", &AmrSection::regridder, regridderSchema());
   if (!names.empty()) {
     input::TagForm form = input::sectionForm(names, [] {
@@ -237,7 +235,7 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
         .forms({std::move(form)});
   }
   input::noteTag(section, "doMultiTaskgraphing", "all levels are in one graph of tasks");
-  input::noteTag(section, "FineCoarseInterfaces", "values between levels are of second order");
+  input::noteTag(section, "FineCoarseInterfaces", "interpolation between levels is of second order");
   return section;
 }
 
@@ -247,8 +245,8 @@ const Schema<AmrSection>& amrSchema(const std::vector<std::string>& names) {
   return known != schemas.end() ? known->second : schemas.emplace(names, makeAmrSchema(names)).first->second;
 }
 
-/// The sections of `AMR` that belong to a component: those that it names, and one with its own name, `MyFlow` of
-/// `my_flow`.
+/// The sections of `AMR` that belong to a component: those that it lists, and one with its own name, such as `MyFlow`
+/// for `my_flow`.
 std::vector<std::string> amrSectionsOf(const simulation::ComponentKind& kind) {
   std::vector<std::string> names = kind.amrSections;
   if (!kind.takesLevels) return names;
@@ -263,7 +261,7 @@ std::vector<std::string> amrSectionsOf(const simulation::ComponentKind& kind) {
   return names;
 }
 
-/// If the component is unknown, every tag that is not one of `AMR` itself.
+/// For an unknown component: every tag that does not belong to `AMR` itself.
 std::vector<std::string> unknownTagsOf(const Element& amr) {
   std::vector<std::string> names;
   const std::vector<std::string> own = amrSchema({}).tagNames();
@@ -291,11 +289,11 @@ void checkBlocks(const Element& amr, const std::optional<std::vector<Index3>>& b
     diagnostics.error(
         *amr.child("Regridder")->child("min_patch_size"),
         fmt::format(
-            "found {}, expected the same for all levels: a block is refined into blocks with as many cells as it has",
+            "found {}, expected the same for all levels: a block is refined into blocks with the same number of cells",
             input::toText(*blocks)));
 }
 
-/// Checks which of the materials that have its variable a criterion is for; its number determines the name.
+/// Checks that the material of a criterion has its variable; replaces a number by the name.
 void checkMaterial(Criterion& criterion, const std::vector<std::string>& materials, Diagnostics& diagnostics) {
   std::string& given = criterion.material;
   if (given.empty()) return;

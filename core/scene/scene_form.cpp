@@ -21,10 +21,10 @@ using simulation::SectionForm;
 
 namespace {
 
-/// Schemas for editors read nothing.
+/// The structure for schemas of editors, which read nothing.
 struct Unread {};
 
-/// The schemas stay at their addresses.
+/// Schemas whose addresses stay valid.
 using Schemas = std::list<Schema<Unread>>;
 
 void addTag(Schema<Unread>& parent, const TagForm& form, const std::string& sentence) {
@@ -44,7 +44,7 @@ void addSection(Schema<Unread>& root, const std::string& tag, const SchemaBase& 
   addTag(root, form, schema.sentence());
 }
 
-/// A name as it is and, as Uintah writes it, in capitals.
+/// A name as it is and in capitals, as Uintah accepts.
 std::vector<std::string> spellings(const std::string& name) {
   std::string capitals = name;
   std::transform(name.begin(), name.end(), capitals.begin(), [](unsigned char c) { return std::toupper(c); });
@@ -62,7 +62,7 @@ const SchemaBase& analysisForm(const Catalogue& catalogue, Schemas& schemas) {
   TagForm form = input::sectionForm({"Module"}, [modules] { return modules; });
   Schema<Unread>& all = schemas.emplace_back("DataAnalysis", "What is measured while a scene runs.");
   const bool hasUnknown = modules.size() < kinds.size();
-  addTag(all, hasUnknown ? input::anyForm({"Module"}) : form, "a module; its name says which");
+  addTag(all, hasUnknown ? input::anyForm({"Module"}) : form, "an analysis module, selected by its name");
   return all;
 }
 

@@ -26,12 +26,12 @@ struct GridSection {
 /// <BoundaryConditions>, with the sections of a component's own.
 Schema<FacesSection> facesTag(const Schema<FaceSection>& face, const std::vector<simulation::SectionForm>& own) {
   Schema<FacesSection> tags("BoundaryConditions",
-                            "What happens at the sides of the grid; a side that is not named is free.");
+                            "The conditions at the sides of the grid; a side without conditions is free.");
   tags.list("Face", &FacesSection::faces, face, "a side, or a part of one");
   for (const simulation::SectionForm& section : own)
     tags.custom(
             section.name, [](FacesSection&, const Element&, Diagnostics&) {}, {section.name},
-            "what conditions of this kind need",
+            "values for conditions of this kind",
             [schema = section.schema](std::ostream& out, int indent) { schema->describeContents(out, indent); })
         .forms({input::onceForm(section.name, [schema = section.schema] {
           return std::vector<input::Alternative>{{schema, {}}};
@@ -44,8 +44,8 @@ struct GridTags {
   explicit GridTags(const Schema<ConditionSection>& condition, const std::vector<simulation::SectionForm>& own)
       : face(faceTag(condition)),
         faces(facesTag(face, own)),
-        grid(Schema<GridSection>("Grid", "The grid and what happens at its sides.")
-                 .ignoredAttribute("doAMR", "a grid is refined where it has several levels")
+        grid(Schema<GridSection>("Grid", "The grid and its boundary conditions.")
+                 .ignoredAttribute("doAMR", "a grid with several levels is refined")
                  .section("BoundaryConditions", &GridSection::boundaries, faces)
                  .list("Level", &GridSection::levels, levelSchema(),
                        "the grid, and boxes in which it is finer; the coarsest first", 1)) {}
@@ -119,8 +119,8 @@ void groupBlocks(const Element& section, const grid::Workers& workers, grid::Dom
       for (const char* tag : {"patches", "autoPatch"})
         if (const auto given = box.child(tag))
           diagnostics.note(*given,
-                           "does nothing: patches of a refined grid are boxes of blocks; -layout sets how many "
-                           "blocks a patch has at the most");
+                           "does nothing: patches of a refined grid are boxes of blocks; --layout sets the largest "
+                           "number of blocks in a patch");
 }
 
 }  // namespace

@@ -15,20 +15,21 @@ namespace {
 const Schema<GridBox>& boxSchema() {
   static const Schema<GridBox> schema =
       Schema<GridBox>("Box", "The box that is divided into cells.")
-          .attributeValue("label", &GridBox::label, "", "1", "its name")
-          .required("lower", &GridBox::lower, "m", "its lower corner")
-          .required("upper", &GridBox::upper, "m", "its upper corner")
+          .attributeValue("label", &GridBox::label, "", "1", "name")
+          .required("lower", &GridBox::lower, "m", "lower corner")
+          .required("upper", &GridBox::upper, "m", "upper corner")
           .optional("resolution", &GridBox::resolution, "1", "cells along x, y, z (or give <spacing> of the Level)",
                     input::atLeast(1))
           .optional(
               "patches", &GridBox::patches, "1",
-              "patches along x, y, z; where neither this nor autoPatch is given, as many as the threads and ranks need",
+              "patches along x, y, z; if neither this nor autoPatch is given, as many as the threads and ranks need",
               input::atLeast(1))
-          .optional("autoPatch", &GridBox::autoPatch, "1", "approximate number of patches, in place of patches",
+          .optional("autoPatch", &GridBox::autoPatch, "1", "approximate number of patches, instead of <patches>",
                     input::atLeast(1))
-          .value("extraCells", &GridBox::extraCells, Index3{}, "1",
-                 "accepted for Uintah's sake: the shape function determines the extra cells around the grid",
-                 input::nonNegative())
+          .value(
+              "extraCells", &GridBox::extraCells, Index3{}, "1",
+              "accepted for compatibility with Uintah: the shape function determines the extra cells around the grid",
+              input::nonNegative())
           .check([](const GridBox& box, const Element& element, Diagnostics& diagnostics) {
             if (box.patches && box.autoPatch) diagnostics.error(element, "gives both patches and autoPatch; keep one");
             for (int axis = 0; axis < 3; ++axis)
@@ -49,10 +50,10 @@ const Schema<LevelSection>& levelSchema() {
                 "the box that is divided into cells; further Levels may have any number of them, each grown to whole "
                 "blocks (see AMR/Regridder/min_patch_size)",
                 1)
-          .optional("spacing", &LevelSection::spacing, "m", "cell widths, in place of the resolution of the Box",
+          .optional("spacing", &LevelSection::spacing, "m", "cell widths, instead of the resolution of the Box",
                     input::positive())
-          .value("periodic", &LevelSection::periodic, Index3{}, "1",
-                 "1 along axes where the grid repeats without end; the same for all Levels", input::between(0, 1))
+          .value("periodic", &LevelSection::periodic, Index3{}, "1", "1 along periodic axes; the same for all Levels",
+                 input::between(0, 1))
           .check([](const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
             for (const GridBox& box : level.boxes)
               if (box.resolution.has_value() == level.spacing.has_value())
@@ -78,11 +79,11 @@ Index3 resolutionOf(const GridBox& box, const LevelSection& level, const Element
 
 namespace {
 
-constexpr int mostLevels = 16;         ///< of a tree of blocks,
-constexpr int mostBlocks = 1 << 20;    ///< and the most of its finest blocks along an axis
-constexpr int fewestCellsOfBlock = 4;  ///< along an axis in use
+constexpr int mostLevels = 16;         ///< largest number of levels of a tree of blocks,
+constexpr int mostBlocks = 1 << 20;    ///< and of its finest blocks along an axis
+constexpr int fewestCellsOfBlock = 4;  ///< smallest number of cells of a block along an axis in use
 
-/// A tag of `Regridder` if it is given, else its substitute.
+/// A tag of `Regridder` if it is given, otherwise another place for messages.
 Element tagOr(const AmrSettings& amr, const std::string& tag, const Element& other) {
   const auto regridder = amr.tag ? amr.tag->child("Regridder") : std::nullopt;
   const auto given = regridder ? regridder->child(tag) : std::nullopt;
@@ -169,7 +170,7 @@ class Refiner {
     return diagnostics_.size() == before;
   }
 
-  /// The level whose cells are as wide as those of a box: how often those of the first Level are halved.
+  /// The level with the cell width of a box: the number of halvings of that of the first Level.
   std::optional<int> levelOf(const GridBox& box, const LevelSection& section, const Element& element) {
     const std::size_t before = diagnostics_.size();
     const Index3 cells = resolutionOf(box, section, element, diagnostics_);
@@ -189,10 +190,11 @@ class Refiner {
                                                 "Level, expected 2, 4, 8 or another power of two",
                                                 ratio, "xyz"[axis]));
       else if (first && *first != halvings)
-        diagnostics_.error(element, fmt::format("its cells are {:g} times as fine along {}, but {:g} times along {}; "
-                                                "refine all axes alike, and give one more Level where one needs more",
-                                                std::ldexp(1, *first), "xyz"[coarsest_.axis(0)],
-                                                std::ldexp(1, halvings), "xyz"[axis]));
+        diagnostics_.error(
+            element,
+            fmt::format("its cells are {:g} times as fine along {}, but {:g} times along {}; refine all axes alike, "
+                        "and add another Level where one axis needs finer cells",
+                        std::ldexp(1, *first), "xyz"[coarsest_.axis(0)], std::ldexp(1, halvings), "xyz"[axis]));
       if (!first) first = halvings;
     }
     return diagnostics_.size() == before ? first : std::nullopt;
@@ -218,7 +220,7 @@ class Refiner {
       }
   }
 
-  /// The levels of twos in `levels` levels of the ratios that the scene gives.
+  /// The number of levels of ratio 2 for `levels` levels with the ratios of the scene.
   int levelsOfTwos(int levels) {
     if (!amr_.ratios || amr_.ratios->empty()) return levels;
     int twos = 1;
@@ -229,7 +231,7 @@ class Refiner {
     return twos;
   }
 
-  /// The number of levels that the run may have, from the scene.
+  /// The largest number of levels in the run, from the scene.
   int countLevels() {
     const int given = finest_ + 1;
     const bool isAdaptive = amr_.regrid.adaptive;
@@ -241,7 +243,8 @@ class Refiner {
     else if (isAdaptive && asked < 2)
       diagnostics_.error(place, "found 1, expected at least 2, since the grid is <adaptive>");
     else if (!isAdaptive && asked > given)
-      diagnostics_.note(place, "does nothing: where the grid is not <adaptive>, its Levels say what is refined");
+      diagnostics_.note(place,
+                        "does nothing: the grid is not <adaptive>, so its Levels alone determine what is refined");
     if (asked > mostLevels)
       diagnostics_.error(place, fmt::format("found {}, which by <cell_refinement_ratio> are {} levels of ratio 2; the "
                                             "most is {}",
@@ -285,7 +288,7 @@ class Refiner {
       takeNearestBlock(axis, cells, size, sizes);
   }
 
-  /// Blocks that divide the cells, as an alternative to those that the scene requests.
+  /// Chooses blocks that divide the cells instead of those that the scene requests.
   void takeNearestBlock(int axis, int cells, int size, const std::vector<int>& sizes) {
     const auto distance = [&](int a, int b) { return std::abs(a - size) < std::abs(b - size); };
     const int nearest = *std::min_element(sizes.begin(), sizes.end(), distance);
@@ -311,7 +314,7 @@ class Refiner {
     return sizes;
   }
 
-  /// `4, 10 or 20`: of the sizes, those next to one.
+  /// The sizes nearest to a wanted one, in words: `4, 10 or 20`.
   static std::string namesOfNearest(std::vector<int> sizes, int wanted) {
     constexpr std::size_t most = 6;
     std::stable_sort(sizes.begin(), sizes.end(),
@@ -363,7 +366,7 @@ class Refiner {
   grid::Level coarsest_;
   grid::Refinement& refinement_;
   Diagnostics& diagnostics_;
-  std::vector<Element> boxes_;  ///< of the regions
+  std::vector<Element> boxes_;  ///< tags of the regions
   int finest_ = 0;              ///< the level of the finest Box
 };
 

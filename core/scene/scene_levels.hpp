@@ -9,7 +9,7 @@
 
 namespace tushar::scene {
 
-/// The most cells that an int can number.
+/// Largest number of cells that an int can number.
 inline constexpr double mostCells = 2147483647.0;
 
 /// The tag `Box`.
@@ -35,8 +35,8 @@ const input::Schema<LevelSection>& levelSchema();
 Index3 resolutionOf(const GridBox& box, const LevelSection& level, const input::Element& element,
                     input::Diagnostics& diagnostics);
 
-/// Reads how a grid is refined into `domain`, which has all of the first Level except its patches: `levels` are those
-/// of the section `grid`, the first among them.
+/// Reads the refinement of a grid into `domain`, which already contains the first Level except its patches: `levels`
+/// are those of the section `grid`, the first among them.
 void readRefinement(const input::Element& grid, const std::vector<LevelSection>& levels, const AmrSettings& amr,
                     grid::Domain& domain, input::Diagnostics& diagnostics);
 

@@ -26,7 +26,7 @@ struct Known {
   simulation::OtherNames names;
   tasks::Names labels;
   std::set<std::string> foreign;
-  std::vector<std::string> materials;  ///< by their numbers in the scene
+  std::vector<std::string> materials;  ///< names of materials, by their numbers in the scene
   std::set<std::string> noted;         ///< names of materials that a note is about
 
   Known(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses)
@@ -48,14 +48,14 @@ int numberOf(const std::string& word, const Known& known, std::string& problem) 
   const auto number = input::parse<int>(word);
   if (word.empty()) return 0;
   if (number.value && *number.value >= 0 && *number.value < count) return *number.value;
-  problem = number.value ? fmt::format("there is no material {}; they are counted from 0 to {}", word, count - 1)
+  problem = number.value ? fmt::format("there is no material {}; materials are numbered from 0 to {}", word, count - 1)
             : all.empty()
                 ? fmt::format("there is no material '{}': the variables of this component belong to none", word)
                 : fmt::format("there is no material '{}'{}; available: {}", word, didYouMean(word, all), allOf(all));
   return -1;
 }
 
-/// Whether a word may stand for the only material, whatever its name.
+/// Whether a word may refer to the only material, whatever its name.
 bool isLoneMaterial(const std::string& word, const Known& known) {
   return known.materials.size() == 1 && !input::parse<int>(word).value;
 }
@@ -90,7 +90,7 @@ void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagno
   request.material.clear();
 }
 
-/// Whether a variable is kept.
+/// Resolves the names of a variable; returns whether to keep it.
 bool settle(SampledVariable& variable, Known& known, Diagnostics& diagnostics) {
   simulation::SaveRequest& request = variable.request;
   request.label = nameHere(known.names, request.label);

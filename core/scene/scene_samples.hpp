@@ -11,10 +11,10 @@
 
 namespace tushar::scene {
 
-/// Uintah's names of variables of a component and its modules whose names differ in Tushar, with the names in Tushar.
+/// Variables of a component and its modules that have another name in Uintah: pairs of Uintah's name and Tushar's.
 simulation::OtherNames otherNames(const simulation::Component& component,
                                   const std::vector<std::unique_ptr<simulation::Analysis>>& analyses);
-/// The name in Tushar of a variable for which a scene may use Uintah's name; other names stay as they are.
+/// The name in Tushar of a variable that a scene may call by Uintah's name; other names are returned unchanged.
 std::string nameHere(const simulation::OtherNames& names, const std::string& name);
 
 /// Replaces the names and materials of sampled variables by those used here, and removes, with a note, variables of
@@ -23,7 +23,7 @@ std::string nameHere(const simulation::OtherNames& names, const std::string& nam
 void settleSamples(const simulation::Component& component,
                    const std::vector<std::unique_ptr<simulation::Analysis>>& analyses, input::Diagnostics& diagnostics);
 
-/// As above without notes, for the same modules on another grid.
+/// The same without notes, for the same modules on another grid.
 void settleSamples(const simulation::Component& component,
                    const std::vector<std::unique_ptr<simulation::Analysis>>& analyses);
 

@@ -15,7 +15,7 @@ using input::Element;
 
 namespace {
 
-/// A word for a side or a part of one, and the attributes that go with it.
+/// A word for a side or a part of one, and its attributes.
 struct FaceWord {
   std::string name;
   std::optional<int> FaceSection::*face;
@@ -32,7 +32,7 @@ const std::vector<FaceWord>& faceWords() {
   return words;
 }
 
-/// Three numbers between blanks or commas, as Uintah has them; also in brackets.
+/// A point as three numbers separated by blanks or commas, as in Uintah; also in brackets.
 std::optional<Vec3> pointOf(const std::optional<std::string>& text, const Element& tag, const char* attribute,
                             Diagnostics& diagnostics) {
   std::string list = text.value_or("");
@@ -55,7 +55,7 @@ std::optional<Vec3> pointOf(const std::optional<std::string>& text, const Elemen
 
 std::string called(const FaceWord& word) { return word.name == "side" ? "whole side" : "part with " + word.name; }
 
-/// Whether the attributes are those of one word, all of them.
+/// Whether a tag has all the attributes of a word, and no others.
 bool hasAttributesOf(const FaceWord& word, const Element& tag, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const auto& own = word.attributes;
@@ -72,7 +72,7 @@ bool hasAttributesOf(const FaceWord& word, const Element& tag, Diagnostics& diag
       if (tag.attribute(attribute) && told.insert(attribute).second)
         diagnostics.error(
             tag.whereOf(attribute), tag.path(),
-            fmt::format("unknown attribute '{}' of a {}; it goes with {}", attribute, called(word), other.name));
+            fmt::format("unknown attribute '{}' of a {}; it belongs to {}", attribute, called(word), other.name));
   }
   return diagnostics.size() == before;
 }
@@ -88,7 +88,7 @@ bool spansArea(const Vec3& lower, const Vec3& upper, int across, const Element& 
   return true;
 }
 
-/// Whether the smaller of two lengths is no larger than the other.
+/// Whether one length is no larger than another; reports it otherwise.
 bool areInOrder(double smaller, double larger, const FaceWord& word, const Element& tag, Diagnostics& diagnostics) {
   if (smaller <= larger) return true;
   diagnostics.error(tag, fmt::format("{} is greater than {}: {:g} > {:g} m", word.attributes[1], word.attributes[2],
@@ -155,7 +155,7 @@ int kernelAxisOf(const grid::Level& level, int axis) {
   return -1;
 }
 
-/// The middles of the faces at a side that belong to a part of it, m.
+/// The centres of the faces at a side that belong to a part of it, m.
 template <int D>
 std::vector<Vec3> middlesOf(const grid::SidePart& shape, const grid::Level& level, int kernelAxis, int side) {
   grid::Box faces = level.cellsNear(shape.lower(), shape.upper());
@@ -174,7 +174,7 @@ std::vector<Vec3> middlesOf(const grid::SidePart& shape, const grid::Level& leve
   return middlesOf<3>(shape, level, kernelAxis, side);
 }
 
-/// How many faces a part has, on a level. Refuses one that another part has, too.
+/// Number of faces of a part, on a level. Refuses one that another part has, too.
 std::size_t countFaces(const GivenPart& part, const std::vector<GivenPart>& all, const grid::Level& level,
                        Diagnostics& diagnostics) {
   const int d = kernelAxisOf(level, part.face / 2), side = part.face % 2;

@@ -31,7 +31,7 @@ bool isOfFlow(const std::string& label) {
   return std::find(labelsOfFlow.begin(), labelsOfFlow.end(), label) != labelsOfFlow.end();
 }
 
-/// The error in an attribute.
+/// Reports an error in an attribute.
 void errorOf(const std::string& attribute, const Element& element, const std::string& problem,
              Diagnostics& diagnostics) {
   diagnostics.error(element.whereOf(attribute), element.path(), attribute + ": " + problem);
@@ -39,7 +39,7 @@ void errorOf(const std::string& attribute, const Element& element, const std::st
 
 Schema<ConditionSection> conditionTag() {
   return Schema<ConditionSection>("BCType", "The condition for a variable at a face.")
-      .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material that it holds for, or all");
+      .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material for which it holds, or all");
 }
 
 /// The words that `var` may have: those of all components, and further ones.
@@ -49,7 +49,7 @@ std::vector<std::string> varsWith(const std::vector<std::string>& further) {
   return vars;
 }
 
-/// `var`, and the value that it may need.
+/// Checks `var`, and the value that it may need.
 void checkKind(const ConditionSection& condition, const Element& element, const std::vector<std::string>& furtherVars,
                Diagnostics& diagnostics) {
   if (const std::string problem = input::choiceProblem(condition.var, varsWith(furtherVars)); !problem.empty())
@@ -58,7 +58,7 @@ void checkKind(const ConditionSection& condition, const Element& element, const 
     diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
 }
 
-/// Choices whose values are the words themselves.
+/// A choice whose values are the words themselves.
 input::Choices<std::string> wordsOf(const std::vector<std::string>& words) {
   input::Choices<std::string> choices;
   for (const std::string& word : words) choices.emplace_back(word, word);
@@ -93,7 +93,7 @@ Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>&
     tag.requiredAttribute("label", &ConditionSection::label, "1", "the variable");
   else
     tag.requiredChoiceAttribute("label", &ConditionSection::label, wordsOf(names), "the variable");
-  return tag.requiredChoiceAttribute("var", &ConditionSection::var, wordsOf(kinds), "what it does")
+  return tag.requiredChoiceAttribute("var", &ConditionSection::var, wordsOf(kinds), "the kind of condition")
       .optional("value", &ConditionSection::value, "SI unit of the variable",
                 "a number or a vector; for some components also formulas");
 }
@@ -104,37 +104,38 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
   const auto point = [](const char* what) { return std::string(what) + ", as 0 0.5 0.5"; };
   return Schema<FaceSection>("Face", "A side of the grid, or a part of one.")
       .optionalChoiceAttribute("side", &FaceSection::side, sides, "all of this side except its parts")
-      .optionalChoiceAttribute("circle", &FaceSection::circle, sides, "the part of this side in a circle")
+      .optionalChoiceAttribute("circle", &FaceSection::circle, sides, "the part of this side inside a circle")
       .optionalChoiceAttribute("annulus", &FaceSection::annulus, sides, "the part between two circles")
-      .optionalChoiceAttribute("ellipse", &FaceSection::ellipse, sides, "the part in an ellipse")
-      .optionalChoiceAttribute("rectangle", &FaceSection::rectangle, sides, "the part in a rectangle")
+      .optionalChoiceAttribute("ellipse", &FaceSection::ellipse, sides, "the part inside an ellipse")
+      .optionalChoiceAttribute("rectangle", &FaceSection::rectangle, sides, "the part inside a rectangle")
       .optionalChoiceAttribute("rectangulus", &FaceSection::rectangulus, sides, "the part between two rectangles")
       .oneOfLast(6)
-      .optionalAttribute("origin", &FaceSection::origin, "m", point("the middle of a circle, annulus or ellipse"))
-      .optionalAttribute("radius", &FaceSection::radius, "m", "of a circle", input::positive())
-      .optionalAttribute("inner_radius", &FaceSection::innerRadius, "m", "of an annulus", input::positive())
-      .optionalAttribute("outer_radius", &FaceSection::outerRadius, "m", "of an annulus", input::positive())
-      .optionalAttribute("minor_radius", &FaceSection::minorRadius, "m", "of an ellipse, half its shorter axis",
+      .optionalAttribute("origin", &FaceSection::origin, "m", point("the centre of a circle, annulus or ellipse"))
+      .optionalAttribute("radius", &FaceSection::radius, "m", "radius of a circle", input::positive())
+      .optionalAttribute("inner_radius", &FaceSection::innerRadius, "m", "inner radius of an annulus",
                          input::positive())
-      .optionalAttribute("major_radius", &FaceSection::majorRadius, "m", "of an ellipse, half its longer axis",
+      .optionalAttribute("outer_radius", &FaceSection::outerRadius, "m", "outer radius of an annulus",
                          input::positive())
-      .optionalAttribute(
-          "angle", &FaceSection::angle, "degree",
-          "of the longer axis of an ellipse, seen from outside, to y on x+ and x-, to z on y+ and y-, to "
-          "x on z+ and z-")
+      .optionalAttribute("minor_radius", &FaceSection::minorRadius, "m", "shorter semi-axis of an ellipse",
+                         input::positive())
+      .optionalAttribute("major_radius", &FaceSection::majorRadius, "m", "longer semi-axis of an ellipse",
+                         input::positive())
+      .optionalAttribute("angle", &FaceSection::angle, "degree",
+                         "angle of the longer axis of an ellipse, seen from outside, with y on x+ and x-, z on y+ and "
+                         "y-, x on z+ and z-")
       .optionalAttribute("lower", &FaceSection::lower, "m", point("a corner of a rectangle"))
-      .optionalAttribute("upper", &FaceSection::upper, "m", point("the opposite one"))
+      .optionalAttribute("upper", &FaceSection::upper, "m", point("the opposite corner"))
       .optionalAttribute("inner_lower", &FaceSection::innerLower, "m", point("a corner of the hole of a rectangulus"))
-      .optionalAttribute("inner_upper", &FaceSection::innerUpper, "m", point("the opposite one"))
+      .optionalAttribute("inner_upper", &FaceSection::innerUpper, "m", point("the opposite corner"))
       .optionalAttribute("outer_lower", &FaceSection::outerLower, "m", point("a corner of a rectangulus"))
-      .optionalAttribute("outer_upper", &FaceSection::outerUpper, "m", point("the opposite one"))
-      .ignoredAttribute("name", "for readers")
+      .optionalAttribute("outer_upper", &FaceSection::outerUpper, "m", point("the opposite corner"))
+      .ignoredAttribute("name", "a note for readers")
       .list("BCType", &FaceSection::conditions, condition, "the condition for a variable there");
 }
 
 namespace {
 
-/// The text of a value that may be a formula, where the component takes formulas.
+/// Reads a value, which may be a formula if the component takes formulas.
 template <class T, class Formula>
 std::string readValue(const std::string& text, bool mayVary, T& value, std::optional<Formula>& formula) {
   const auto plain = input::parse<T>(text);
@@ -171,11 +172,11 @@ void takeValue(const ConditionSection& given, const Element& tag, bool mayVary, 
   condition.formula = std::make_shared<const input::VectorExpression>(*std::move(formula));
 }
 
-/// Why a condition contradicts itself or, on a plane of symmetry, the plane; or nothing.
+/// Why a condition contradicts itself or a plane of symmetry; empty if it does not.
 std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPlane) {
   const bool symmetry = condition.kind == grid::BoundaryKind::symmetry;
   if (symmetry != (condition.variable == grid::symmetric))
-    return fmt::format("found label '{}' with var '{}'; 'Symmetric' goes with 'symmetry', and with nothing else",
+    return fmt::format("found label '{}' with var '{}'; 'Symmetric' and 'symmetry' are allowed only together",
                        condition.variable.name, nameOf(condition.kind));
   if (!symmetry && onOddPlane &&
       (condition.kind == grid::BoundaryKind::dirichlet || condition.formula || condition.value != Vec3::Zero()))
@@ -183,14 +184,14 @@ std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPl
   return {};
 }
 
-/// Whether a value may be given on a plane of symmetry: the images of its vector have the same where it lies in the
-/// plane.
+/// Whether a value may be given on a plane of symmetry: a vector must lie in the plane, so that its mirror image is the
+/// same.
 bool fitsPlane(const grid::BoundaryVariable& label, const grid::BoundaryCondition& condition, int axis) {
   return label.isEven && condition.kind == grid::BoundaryKind::dirichlet &&
          (!label.isVector || (!condition.formula && condition.value[axis] == 0));
 }
 
-/// The places where conditions of a face were given: by label, and by the materials that they hold for.
+/// The places of the conditions of a face, by label and material.
 using SeenConditions = std::map<std::string, std::map<std::string, Location>>;
 
 /// The place of an earlier condition for the same variable and some of the same materials.
@@ -205,10 +206,10 @@ std::optional<Location> givenBefore(const ConditionSection& given, const Locatio
 /// The settings of a face.
 struct ReadFace {
   const SideWords& words;
-  const Element& sides;                              ///< all of them
-  int axis;                                          ///< across it
-  std::vector<grid::BoundaryCondition>& conditions;  ///< of it, and of the same part read before
-  SeenConditions& seen;                              ///< where each of them was given
+  const Element& sides;                              ///< the section with all sides
+  int axis;                                          ///< axis across the face
+  std::vector<grid::BoundaryCondition>& conditions;  ///< conditions of this face, and of the same part read before
+  SeenConditions& seen;                              ///< the place of each condition
 };
 
 void noteSeen(const ConditionSection& given, const Element& tag, const ReadFace& face, Diagnostics& diagnostics) {
@@ -217,7 +218,7 @@ void noteSeen(const ConditionSection& given, const Element& tag, const ReadFace&
         tag, fmt::format("{} already has a condition on this face, at {}; keep one", given.label, first->text()));
 }
 
-/// Adds what a condition in words of the component's own means.
+/// Adds the meaning of a condition in a component's own words.
 void readOwnCondition(const ConditionSection& given, const Element& tag, const ReadFace& face,
                       Diagnostics& diagnostics) {
   noteSeen(given, tag, face, diagnostics);
@@ -238,7 +239,7 @@ void readCondition(const ConditionSection& given, const Element& tag, bool onPla
     return;
   }
   if (!label && isOfFlow(given.label))
-    diagnostics.note(tag, given.label + " is for components of flow: nothing here depends on it");
+    diagnostics.note(tag, given.label + " is for flow components: nothing here depends on it");
   else if (!label && !labels.empty())
     errorOf("label", tag, input::choiceProblem(given.label, namesOf(labels)), diagnostics);
   const auto& further = face.words.own.vars;

@@ -27,7 +27,7 @@ struct FaceSection {
   std::optional<std::string> origin, lower, upper, innerLower, innerUpper, outerLower, outerUpper;
   std::vector<ConditionSection> conditions;
 
-  /// The side that it is or belongs to.
+  /// The side that the face is, or to which it belongs.
   int face() const {
     for (const auto& given : {side, circle, annulus, ellipse, rectangle, rectangulus})
       if (given) return *given;
@@ -41,22 +41,22 @@ struct FacesSection {
 };
 
 const input::Schema<ConditionSection>& conditionSchema();
-/// The conditions of a component for the schemas of editors: of its labels, with its further `var`s.
+/// The conditions of a component, for the schemas of editors, with its labels and further `var`s.
 input::Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>& labels,
                                              const std::vector<std::string>& furtherVars);
 /// The tag `Face`, with a tag for conditions, which must outlive it.
 input::Schema<FaceSection> faceTag(const input::Schema<ConditionSection>& condition);
 
-/// A part of a side, where a scene gives it.
+/// A part of a side, and its place in the scene.
 struct GivenPart {
   input::Element tag;
   int face = 0;          ///< the side, 0 to 5
-  std::size_t part = 0;  ///< its number on that side
+  std::size_t part = 0;  ///< number of the part on that side
 };
 
-/// Whether a face is one side or one part of a side, with the attributes that go with it.
+/// Whether a face is one side or one part of a side, with the right attributes.
 bool checkFaceWords(const input::Element& tag, input::Diagnostics& diagnostics);
-/// The shape of a face that is a part of a side; nothing, with an error, if its numbers define none.
+/// The shape of a face that is a part of a side; none, with an error, if its numbers are invalid.
 std::optional<grid::SidePart> readShape(const FaceSection& face, const input::Element& tag,
                                         input::Diagnostics& diagnostics);
 /// Refuses parts of sides for components that do not take them.
@@ -64,7 +64,7 @@ void refuseParts(const input::Element& tag, input::Diagnostics& diagnostics);
 /// The conditions of a `Grid` section. Returns the parts of sides that have some.
 std::vector<GivenPart> readFaces(const input::Element& section, const FacesSection& faces, const SideWords& words,
                                  grid::BoundaryConditions& boundaries, input::Diagnostics& diagnostics);
-/// A side of a periodic axis takes no conditions; Uintah ignores them.
+/// Reports conditions at sides of periodic axes, which have no effect, as in Uintah.
 void checkPeriodic(const input::Element& section, const grid::Domain& domain, input::Diagnostics& diagnostics);
 /// Checks that parts of sides lie in their sides, do not overlap, and have faces.
 void checkParts(const std::vector<GivenPart>& parts, const grid::Domain& domain, input::Diagnostics& diagnostics);

@@ -26,27 +26,28 @@ constexpr double unlimited = std::numeric_limits<double>::max();
 void refuseRestartStep(TimeSettings&, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("override_restart_delt");
   if (given && input::parse<double>(given->text()).value != 0.0)
-    diagnostics.error(*given,
-                      fmt::format("found '{}', expected 0: a restart continues as the run would have", given->text()));
+    diagnostics.error(
+        *given, fmt::format("found '{}', expected 0: a restart continues with the step that the run would have taken",
+                            given->text()));
 }
 
 const Schema<TimeSettings>& timeSchema() {
   static const Schema<TimeSettings> schema =
-      Schema<TimeSettings>("Time", "How far a run goes, and in which steps.")
+      Schema<TimeSettings>("Time", "When a run starts and ends, and how long its steps are.")
           .required("maxTime", &TimeSettings::maxTime, "s", "time at which the run ends", input::positive())
           .value("initTime", &TimeSettings::initTime, 0, "s", "time at which the run starts")
-          .value("delt_min", &TimeSettings::deltMin, 0, "s", "least time step", input::nonNegative())
-          .value("delt_max", &TimeSettings::deltMax, unlimited, "s", "greatest time step; 0 is no limit",
+          .value("delt_min", &TimeSettings::deltMin, 0, "s", "smallest time step", input::nonNegative())
+          .value("delt_max", &TimeSettings::deltMax, unlimited, "s", "largest time step; 0 means no limit",
                  input::nonNegative())
-          .value("delt_init", &TimeSettings::deltInit, unlimited, "s", "greatest first time step", input::positive())
+          .value("delt_init", &TimeSettings::deltInit, unlimited, "s", "largest first time step", input::positive())
           .value("max_delt_increase", &TimeSettings::maxDeltIncrease, unlimited, "1",
-                 "greatest relative growth of the time step from one step to the next; 0 or less is no limit")
+                 "largest relative growth of the time step from one step to the next; 0 or less means no limit")
           .value("timestep_multiplier", &TimeSettings::timestepMultiplier, 1, "1",
                  "factor on the time step that the physics allows", input::positive())
           .value("max_Timesteps", &TimeSettings::maxTimesteps, std::numeric_limits<int>::max(), "1",
                  "number of steps after which the run ends", input::positive())
           .value("max_wall_time", &TimeSettings::maxWallTime, unlimited, "s",
-                 "wall time after which the run ends, its output written", input::positive())
+                 "wall time after which the run writes its output and ends", input::positive())
           .value("end_at_max_time_exactly", &TimeSettings::endAtMaxTimeExactly, false, "1",
                  "shorten the last step so that it ends at maxTime")
           .value("clamp_time_to_output", &TimeSettings::clampTimeToOutput, false, "1",
@@ -55,11 +56,10 @@ const Schema<TimeSettings>& timeSchema() {
                  "if a value becomes unphysical, undo the step and repeat it with half the time step, up to 20 times")
           .ours()
           .value("initial_delt_range", &TimeSettings::initialDeltRange, 0, "s",
-                 "time up to which delt_init holds; the first step at least", input::nonNegative())
-          .custom(
-              "override_restart_delt", refuseRestartStep, {"override_restart_delt"},
-              "only 0: a restart continues as the run would have; sus --restart --set Time/delt_max=… makes its steps "
-              "shorter")
+                 "time until which delt_init limits the steps; it always limits the first", input::nonNegative())
+          .custom("override_restart_delt", refuseRestartStep, {"override_restart_delt"},
+                  "only 0: a restart continues with the step that the run would have taken; sus --restart --set "
+                  "Time/delt_max=… makes its steps shorter")
           .forms({input::patternForm({"override_restart_delt"}, input::zeroPattern)})
           .check([](const TimeSettings& time, const Element& element, Diagnostics& diagnostics) {
             if (time.maxTime <= time.initTime)
@@ -74,9 +74,9 @@ const Schema<SaveRequest>& saveSchema() {
   static const Schema<SaveRequest> schema =
       Schema<SaveRequest>("save", "A variable to be saved.")
           .requiredAttribute("label", &SaveRequest::label, "1", "its name, such as p.x or KineticEnergy")
-          .attributeValue("material", &SaveRequest::material, "", "1", "only of this material")
+          .attributeValue("material", &SaveRequest::material, "", "1", "save it for this material only")
           .ignoredAttribute("levels", "all levels are saved")
-          .ignoredAttribute("compression", "<compression> in <DataArchiver> holds for all")
+          .ignoredAttribute("compression", "<compression> in <DataArchiver> holds for all variables")
           .ignoredAttribute("table_lookup", "belongs to components that read tables")
           .location(&SaveRequest::where, "label")
           .location(&SaveRequest::whereOfMaterial, "material")
@@ -129,24 +129,25 @@ const Schema<CheckpointSettings>& checkpointSchema() {
       Schema<Settings>("checkpoint",
                        "The whole state, from which sus --restart continues: at the start, at one of these "
                        "intervals, and at the end.")
-          .attributeValue("cycle", &Settings::cycle, 2, "1", "how many are kept", input::atLeast(1))
-          .optionalAttribute("interval", &Settings::interval, "s", "simulated time between them", input::positive())
+          .attributeValue("cycle", &Settings::cycle, 2, "1", "how many checkpoints are kept", input::atLeast(1))
+          .optionalAttribute("interval", &Settings::interval, "s", "simulated time between checkpoints",
+                             input::positive())
           .optionalAttribute("timestepInterval", &Settings::timestepInterval, "1",
-                             "steps between them; 0: only the start and the end", input::nonNegative())
-          .optionalAttribute("walltimeInterval", &Settings::walltimeInterval, "s", "wall time between them",
+                             "steps between checkpoints; 0: only at the start and the end", input::nonNegative())
+          .optionalAttribute("walltimeInterval", &Settings::walltimeInterval, "s", "wall time between checkpoints",
                              input::positive())
           .optionalAttribute("walltimeStart", &Settings::walltimeStart, "s",
-                             "wall time of the first; walltimeInterval if it is left out", input::positive())
-          .optionalAttribute("walltimeIntervalHours", &Settings::walltimeIntervalHours, "h", "wall time between them",
-                             input::positive())
+                             "wall time of the first checkpoint; walltimeInterval by default", input::positive())
+          .optionalAttribute("walltimeIntervalHours", &Settings::walltimeIntervalHours, "h",
+                             "wall time between checkpoints", input::positive())
           .optionalAttribute("walltimeStartHours", &Settings::walltimeStartHours, "h",
-                             "wall time of the first; walltimeIntervalHours if it is left out", input::positive())
+                             "wall time of the first checkpoint; walltimeIntervalHours by default", input::positive())
           .ignoredAttribute("lastTimestep", "the last state is always kept")
           .check(checkCheckpointIntervals);
   return schema;
 }
 
-/// A level, or a word of Uintah's.
+/// Reads the compression: a level, or a word of Uintah's.
 void readCompression(ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("compression");
   if (!given) return;
@@ -162,7 +163,7 @@ void readCompression(ArchiveSettings& archive, const Element& element, Diagnosti
     archive.compression = *level.value;
 }
 
-/// The last part of an absolute path, which Uintah's scenes use for the machines of their authors.
+/// The name of the folder; of an absolute path, which some of Uintah's scenes contain, only the last part.
 std::string nameOf(const std::string& filebase) {
   return filebase.starts_with('/') ? std::filesystem::path(filebase).filename().string() : filebase;
 }
@@ -180,8 +181,7 @@ const Schema<ArchiveSettings>& archiveSchema() {
           .flag("outputLastTimestep", &ArchiveSettings::outputLastTimestep, "also save the state at the end")
           .flag("outputDoubleAsFloat", &ArchiveSettings::doubleAsFloat, "save with 7 digits")
           .custom("compression", readCompression, {"compression"},
-                  "level of gzip, from 0 (none, the default) to 9; "
-                  "gzip means 1; none, rle and tryall mean 0")
+                  "gzip level, from 0 (none, the default) to 9; gzip means 1; none, rle and tryall mean 0")
           .forms({input::patternForm({"compression"}, R"(.*gzip.*|none|rle|tryall|\+?0*[0-9](\.0*)?)")})
           .ignoredAttribute("type", "there is one kind of archive: HDF5 with an index for ParaView")
           .ignored("save_crack_geometry", "there are no cracks")
@@ -193,9 +193,9 @@ const Schema<ArchiveSettings>& archiveSchema() {
               diagnostics.error(element, "gives both outputInterval and outputTimestepInterval; keep one");
             const std::string name = nameOf(archive.filebase);
             if (name.empty() || name.find('/') != std::string::npos || name == "." || name == "..")
-              diagnostics.error(*element.child("filebase"),
-                                "found '" + archive.filebase +
-                                    "', expected the name of a folder within the one where sus is started");
+              diagnostics.error(
+                  *element.child("filebase"),
+                  "found '" + archive.filebase + "', expected the name of a folder inside the current one");
           });
   return schema;
 }
@@ -211,7 +211,7 @@ ArchiveSettings readArchive(const Element& section, Diagnostics& diagnostics) {
   if (name != archive.filebase)
     diagnostics.note(
         *section.child("filebase"),
-        fmt::format("the folder is called '{}'; sus makes it where it is started, or where --output says", name));
+        fmt::format("the folder is called '{}'; sus creates it in the current folder, or in that of --output", name));
   archive.filebase = name;
   takeOutRepeated(archive.saves, section.children("save"), diagnostics);
   return archive;

@@ -27,8 +27,8 @@ struct SampledVariable {
 
 /// A file of the archive that a module writes, or a folder.
 struct OwnFile {
-  std::string path;  ///< in the archive; of one at each output what does not change
-  Location where;    ///< what asks for it in the scene
+  std::string path;  ///< path in the archive; for files of each output, the part that does not change
+  Location where;    ///< the place in the scene that requires it
 };
 
 /// A `DataAnalysis/Module`: it measures the state of a run by diagnostic tasks.
@@ -39,36 +39,36 @@ class Analysis {
   virtual void schedule(tasks::TaskList& tasks) const = 0;
   /// Sets the time of the state [s] and the time since the start [s]. Called before the tasks run.
   virtual void setTime(double time, double sinceStart) = 0;
-  /// The errors that the tasks measure; they run at the end of the run.
+  /// The errors that the tasks measure at the end of the run.
   virtual std::vector<MeasuredError> errors() const { return {}; }
   /// The terms of the energy budget, which the report adds up.
   virtual std::vector<EnergyTerm> energies() const { return {}; }
-  /// Why errors have no meaning at the time that is set, in a sentence; empty if they have.
+  /// Why errors are meaningless at the current time, in a sentence; empty if they are valid.
   virtual std::string whyUnmeasured() const { return {}; }
-  /// Variables that sample() needs, and where the scene names them.
+  /// Variables that sample() needs, and their places in the scene.
   virtual std::vector<SaveRequest> samples() const { return {}; }
-  /// The variables among samples() whose names the scene replaces where they are Uintah's; it removes those that no
+  /// The variables among samples() in which the scene replaces Uintah's names, and from which it removes those that no
   /// task computes. Null if there are none.
   virtual std::vector<SampledVariable>* variables() { return nullptr; }
   /// Uintah's names of the module's own variables, where they differ.
   virtual OtherNames otherNames() const { return {}; }
-  /// The layers of the grid in which sample() needs them, without particles; if there are none, everywhere.
+  /// The layers of the grid in which sample() needs the variables, without particles; if empty, everywhere.
   virtual std::vector<collect::Layer> layers() const { return {}; }
-  /// The parts of the grid in which sample() needs them, likewise.
+  /// The windows of the grid in which sample() needs the variables, likewise.
   virtual std::vector<collect::Window> windows() const { return {}; }
-  /// The parts over which sample() needs the least values, the greatest and the sums instead: a snapshot of each.
+  /// The parts for which sample() needs snapshots of minima, maxima and sums instead.
   virtual std::optional<collect::SummaryOver> summary() const { return {}; }
-  /// Whether sample() is to be called after this step, at the time that is set.
+  /// Whether to call sample() after this step, at the current time.
   virtual bool isSampleDue(int /*step*/) const { return false; }
   /// Processes the variables of samples(): in each of the layers() and windows(), as a summary(), or everywhere.
   /// Files of its own go to the folder of the archive.
   virtual void sample(const std::vector<output::Snapshot>&, const std::filesystem::path&) {}
   /// The files that sample() writes. Each belongs to one module. Called once the names of variables() are settled.
   virtual std::vector<OwnFile> files() const { return {}; }
-  /// Completes its files, so that a run that goes on from here finds in them what was sampled so far. Called on the
-  /// first rank before each checkpoint is written, and at the end of the run. May throw FileError.
+  /// Completes the files, so that a run that continues from here finds all samples so far. Called on the first rank
+  /// before each checkpoint is written, and at the end of the run. May throw FileError.
   virtual void flush() {}
-  /// A table of exact values to draw beside the result, one column an array, `x` first; empty if there is none.
+  /// A table of exact values to plot with the result, one array per column, `x` first; empty if there is none.
   virtual std::vector<output::Array> exactProfile(const grid::Level&) const { return {}; }
 };
 

@@ -26,16 +26,16 @@ class Balance {
 
   /// Counts a step. Returns whether to measure the costs now.
   bool isDue() { return ranks_ > 1 && ++steps_ >= next_; }
-  /// New shares if they pay off: the busiest rank gets a tenth less, and over `costs` (of each patch of the grid) that
-  /// saves more than the change takes.
+  /// A new distribution, if it pays off: if the busiest rank gets at least a tenth less, and if that saves more than
+  /// the change takes, by `costs` (of each patch of the grid).
   std::optional<grid::RankOffsets> better(const std::vector<double>& costs, const grid::RankOffsets& now, int step);
-  /// Notes how long the change took on the slowest rank [s].
+  /// Notes the duration of the change on the slowest rank [s].
   void noteChange(double seconds) { change_ = seconds; }
 
   const Rebalancing& report() const { return report_; }
 
  private:
-  static constexpr double particleCost = 1;  ///< of a particle, in cells
+  static constexpr double particleCost = 1;  ///< cost of a particle, in cells
   static constexpr int soonest = 8, latest = 64;
 
   int ranks_;

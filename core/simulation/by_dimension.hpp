@@ -18,7 +18,7 @@ std::unique_ptr<Component> makeByDimension(const grid::Level& level, const Argum
   return std::make_unique<C<3>>(arguments...);
 }
 
-/// Reads the section that a schema describes from the root of a scene; a missing one or a second one is a problem.
+/// Reads the section of a schema from the root of a scene; reports one that is missing or given twice.
 template <class S>
 S readSection(const input::Element& root, const input::Schema<S>& schema, input::Diagnostics& diagnostics) {
   const auto sections = root.children(schema.name());
@@ -32,7 +32,7 @@ S readSection(const input::Element& root, const input::Schema<S>& schema, input:
   return schema.read(sections.front(), diagnostics);
 }
 
-/// As readSection, but a missing section has its defaults.
+/// Like readSection, but a missing section has its defaults.
 template <class S>
 S readOptionalSection(const input::Element& root, const input::Schema<S>& schema, input::Diagnostics& diagnostics) {
   return root.child(schema.name()) ? readSection(root, schema, diagnostics) : schema.defaults();
@@ -49,7 +49,7 @@ inline std::vector<input::Element> boundaryConditions(const input::Element& root
   return all;
 }
 
-/// A component of as many dimensions as the grid has axes that is made of the settings of its one section.
+/// The description of a component with as many dimensions as the grid has axes, and one section of settings.
 template <template <int> class C, class S>
 ComponentKind kindWithSection(std::string name, std::string sentence, const input::Schema<S>& schema,
                               std::vector<grid::BoundaryVariable> boundaryLabels) {

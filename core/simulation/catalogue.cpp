@@ -8,7 +8,7 @@ namespace tushar::simulation {
 
 namespace {
 
-/// Adds an entry that must be the first of its name.
+/// Adds an entry; its name must not exist yet.
 template <class Entries, class Value>
 void insert(Entries& entries, const std::string& name, const Value& value) {
   if (!entries.emplace(name, value).second) throw std::invalid_argument(fmt::format("the name '{}' is taken", name));

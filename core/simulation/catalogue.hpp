@@ -16,23 +16,24 @@
 
 namespace tushar::simulation {
 
-/// Builds a component on a grid, from what was read of the scene before.
+/// Builds a component on a grid, with the settings read from the scene before.
 using MakeComponent = std::function<std::unique_ptr<Component>(const grid::Level&)>;
 
 /// A section that a component reads, for the schemas of editors.
 struct SectionForm {
   std::string name;
-  const input::SchemaBase* schema = nullptr;  ///< null: it may contain anything
+  const input::SchemaBase* schema = nullptr;  ///< null: the section may contain anything
   bool required = true;
-  std::vector<input::Demand> demands = {};  ///< what else must hold for the schema to apply
+  std::vector<input::Demand> demands = {};  ///< further conditions for the schema to apply
 };
 
 /// Conditions at sides of the grid in words of a component's own.
 struct ConditionWords {
   std::vector<std::string> vars = {};  ///< further `var`s of a BCType
-  /// Tags of BoundaryConditions with what such conditions need.
+  /// Tags of BoundaryConditions with values for such conditions.
   std::vector<SectionForm> sections = {};
-  /// The meaning of a BCType with such a word; `sides` is its BoundaryConditions. Problems go to the diagnostics.
+  /// The conditions that a BCType with such a word stands for; `sides` is its BoundaryConditions. Problems go to the
+  /// diagnostics.
   std::function<std::vector<grid::BoundaryCondition>(const input::Element& sides, const input::Element& condition,
                                                      input::Diagnostics&)>
       read = {};
@@ -41,11 +42,11 @@ struct ConditionWords {
 /// The description of a component that sus can run.
 struct ComponentKind {
   std::string name;                                    ///< the `type` of SimulationComponent
-  std::string sentence;                                ///< what it is
-  std::vector<std::string> sections;                   ///< tags below the root that it reads
-  std::vector<grid::BoundaryVariable> boundaryLabels;  ///< that its conditions are for
-  ConditionWords conditionWords;                       ///< of its own, for conditions
-  /// Reads its sections from the root of the scene; every problem goes to the diagnostics.
+  std::string sentence;                                ///< description in a sentence
+  std::vector<std::string> sections;                   ///< tags below the root that the component reads
+  std::vector<grid::BoundaryVariable> boundaryLabels;  ///< variables of its boundary conditions
+  ConditionWords conditionWords;                       ///< the component's own words for conditions
+  /// Reads the component's sections from the root of the scene; reports every problem to the diagnostics.
   std::function<MakeComponent(const input::Element& root, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;  ///< its manual
   /// Layers of nodes that the scene needs beyond the sides of the grid; an empty function means none.
@@ -56,13 +57,13 @@ struct ComponentKind {
   bool refinesByItself = false;       ///< whether <max_levels> above 1 makes the grid adaptive without a <Variable>
   bool takesPartsOfSides = false;     ///< whether a part of a side may have conditions of its own
   bool takesFormulasAtSides = false;  ///< whether values of its conditions may be formulas
-  /// Tags of AMR for its thresholds, besides the one of `sections` that has its name.
+  /// Tags of AMR with its thresholds, in addition to the one with its name.
   std::vector<std::string> amrSections;
   /// Paths of tags whose labelled shapes their siblings can use, even those further up: `MaterialProperties/MPM`.
   std::vector<std::string> readFirst;
 };
 
-/// Builds a module for a component; throws InputError if the two do not go together.
+/// Builds a module for a component; throws InputError if the component does not support it.
 using MakeAnalysis = std::function<std::unique_ptr<Analysis>(const Component&, const grid::Level&)>;
 
 /// The description of an on-the-fly analysis: a `DataAnalysis/Module name=`.
@@ -72,10 +73,10 @@ struct AnalysisKind {
   std::function<MakeAnalysis(const input::Element& module, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;
   std::function<const input::SchemaBase*()> schema =
-      {};  ///< of the tag; where it is empty, the tag may contain anything
+      {};  ///< schema of the tag; if it is empty, the tag may contain anything
 };
 
-/// The entry of that name, or null.
+/// The entry with that name, or null.
 template <class Kind>
 const Kind* findKind(const std::vector<Kind>& kinds, std::string_view name) {
   for (const Kind& kind : kinds)
@@ -89,7 +90,7 @@ std::vector<std::string> namesOf(const std::vector<Kind>& kinds) {
   return names;
 }
 
-/// A shared library of components and analyses, with their names; loaded when one of them is first needed.
+/// A shared library with components and analyses, and their names; it is loaded when one of them is first needed.
 struct Module {
   std::string name;
   std::vector<std::string> components, analyses;
@@ -112,7 +113,7 @@ class Catalogue {
   const ComponentKind* component(std::string_view name) const;
   /// The analysis of that name, as component().
   const AnalysisKind* analysis(std::string_view name) const;
-  /// All in the order of their names; loads all modules.
+  /// All entries in the order of their names; loads all modules.
   std::vector<const ComponentKind*> components() const;
   std::vector<const AnalysisKind*> analyses() const;
 

@@ -5,8 +5,8 @@
 
 namespace tushar::simulation {
 
-/// Adds to the checkpoints of the scene one every `interval` s of wall time, if there are any: in place of its own
-/// interval of wall time, beside those of steps and simulated time.
+/// Adds checkpoints every `interval` s of wall time, if the scene has checkpoints: instead of its own interval of wall
+/// time, and in addition to intervals of steps or simulated time.
 void addWallTimeInterval(std::optional<CheckpointSettings>& settings, double interval);
 
 /// Decides when checkpoints are due. They never change a run: no time step is shortened for them.

@@ -24,7 +24,7 @@ void writeGrid(output::Hdf5File& file, const output::GridInfo& grid) {
   file.attribute("/grid", "dimension", grid.dimension);
 }
 
-/// Which blocks are refined, if there are several levels.
+/// Writes which blocks are refined, if there are several levels.
 void writeTree(output::Hdf5File& file, const grid::Grid& grid) {
   if (grid.levels() == 1) return;
   file.attribute("/grid", "levels", grid.levels());
@@ -33,7 +33,7 @@ void writeTree(output::Hdf5File& file, const grid::Grid& grid) {
   file.dataset("/grid/leaves", {"leaves", "1", "blocks that are not refined", 1, keys}, {keys.size()});
 }
 
-/// The blocks that were refined.
+/// Reads which blocks were refined.
 void readTree(const output::Hdf5Input& file, RunState& run) {
   grid::Grid& grid = *run.problem.grid;
   const bool isRefined = file.has("/grid/leaves");
@@ -74,7 +74,7 @@ void checkScene(const output::Hdf5Input& file, const Problem& problem) {
 
 collect::StateNames stateNames(const RunState& run) { return {run.phases.lasting(), run.phases.materials()}; }
 
-/// Writes all but the state.
+/// Writes everything except the state.
 void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTarget& target) {
   file.attribute("/", "format", format);
   file.attribute("/", "step", run.time.step());

@@ -18,15 +18,15 @@ namespace tushar::simulation {
 //     /totals/<name>     mass, momentum and energy at the very start, for the drift of the report
 //     and the state: see core/collect/stored_state.hpp
 
-/// Where the file of a checkpoint goes, and what it holds besides the state.
+/// The place of a checkpoint file, and its content apart from the state.
 struct CheckpointTarget {
   std::filesystem::path path;
   output::ArchivePoint point;  ///< extent of the archive; on rank 0 only
   long dropped = 0;            ///< particles that have left the grid, on all ranks
 };
 
-/// Writes the state of a run as it is now; returns where its values are in the file. All ranks call it. Throws
-/// FileError on a rank that cannot write, and FailedElsewhere on the others.
+/// Writes the current state of a run; returns where its values are in the file. All ranks call it. Throws FileError on
+/// a rank that cannot write, and FailedElsewhere on the others.
 std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTarget& target);
 
 /// Restores a run from the checkpoint named in its problem: the variables, step and time, dropped particles, and totals
@@ -34,7 +34,8 @@ std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTar
 /// whose values have changed since it was written. All ranks call it.
 void readCheckpoint(RunState& run);
 
-/// The extent of the archive when the checkpoint of a restarted run was written; the run has read the checkpoint.
+/// The extent of the archive when the checkpoint of a restarted run was written; to be called after the checkpoint was
+/// read.
 output::ArchivePoint archivePointOf(const RunState& run);
 
 }  // namespace tushar::simulation

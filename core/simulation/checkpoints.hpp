@@ -11,13 +11,12 @@
 
 namespace tushar::simulation {
 
-/// The checkpoints of a run, in the folder of its archive: when they are due, and which was the last. All ranks make
-/// the same calls.
+/// Writes and reads the checkpoints of a run, in the folder of its archive. All ranks make the same calls.
 class Checkpoints {
  public:
   Checkpoints(RunState& run, Outputs& outputs);
 
-  /// Sets the function that gets the messages of rank 0 about damaged checkpoints.
+  /// Sets a function that is called on rank 0 with messages about damaged checkpoints.
   void setWarning(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
   /// Reads the checkpoint from which the run continues; if that is damaged, the one before it. Throws InputError
   /// where there is none, or for one that does not fit the scene.
@@ -37,13 +36,13 @@ class Checkpoints {
   double memory() const { return memory_; }
 
  private:
-  /// False where the checkpoint is damaged; that before it is then the one to read.
+  /// Reads the checkpoint; false if it is damaged: then the previous one is to be read.
   bool read();
 
   RunState& run_;
   Outputs& outputs_;
   std::optional<CheckpointControl> control_;  ///< empty if the scene has none
-  int last_ = -1;                             ///< step of the last that was written or read
+  int last_ = -1;                             ///< step of the last checkpoint that was written or read
   double seconds_ = 0, memory_ = 0;
   std::function<void(const std::string&)> warn_;
 };

@@ -23,9 +23,9 @@ class Component {
   virtual void scheduleComputeStableTimeStep(tasks::TaskList&) const {}
   /// One step, from the old state to a new one.
   virtual void scheduleTimeAdvance(tasks::TaskList& tasks) const = 0;
-  /// Advice for a user if a value breaks its bound: continues `try `.
+  /// Advice for a user if a value violates its bound; continues `try `.
   virtual std::string advice() const { return "a smaller time step (timestep_multiplier in <Time>)"; }
-  /// Whether a step with an impossible value is repeated with half the time step even if the scene does not request it.
+  /// Whether a step with an invalid value is repeated with half the time step even if the scene does not request it.
   virtual bool mayRepeatStep() const { return false; }
   /// Variables that Uintah's component of this kind computes, whether or not this one does.
   virtual std::vector<std::string> foreignLabels() const { return {}; }
@@ -36,17 +36,17 @@ class Component {
   /// The names of the gases, whose variables belong to no material here. In the scene they are the last materials, in
   /// this order.
   virtual std::vector<std::string> gasNames() const { return {}; }
-  /// Why it cannot run on a grid of several levels, if its kind can; empty if it can: continues `needs a grid of one
-  /// level: `.
+  /// Why it cannot run on several levels, although its kind can; empty if it can. Continues `needs a grid of one level:
+  /// `.
   virtual std::string whyOneLevel() const { return ""; }
-  /// Where the grid is to be finer, if the scene refines it and does not say where.
+  /// Criteria for finer cells, for scenes that refine the grid without criteria.
   virtual std::vector<Criterion> criteria() const { return {}; }
-  /// Marks cells where finer ones are needed, from the old state and diagnostics: `perPatch` tasks with `marks()`. They
-  /// run beside the criteria of the scene before each regridding of an adaptive grid.
+  /// Tasks that mark cells where finer ones are needed, from the old state and diagnostics: `perPatch` tasks with
+  /// `marks()`. They run beside the criteria of the scene before each regridding of an adaptive grid.
   virtual void scheduleErrorEstimate(tasks::TaskList&) const {}
-  /// Gives cells that regridding has made finer other values than interpolated ones: tasks that modify variables of
-  /// cells, which have the interpolated values, on all patches; `newCells()` are those of the patch that are finer than
-  /// they were. At the start of a run cells of all levels are initialised instead.
+  /// Tasks that change the interpolated values of cells which regridding has made finer: they modify cell variables on
+  /// all patches; `newCells()` are the cells of the patch that were coarser before. At the start of a run cells of all
+  /// levels are initialised instead.
   virtual void scheduleRefine(tasks::TaskList&) const {}
   /// Diagnostics of the old state: totals, derived fields. Only those that are needed run.
   virtual void scheduleDiagnostics(tasks::TaskList&) const {}

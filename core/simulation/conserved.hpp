@@ -8,10 +8,10 @@
 
 namespace tushar::simulation {
 
-/// What a method may conserve; the report shows the drift of its total.
+/// Quantities that a method may conserve; the report shows the drift of their totals.
 enum class Conserved { mass, momentum, energy };
 
-/// The reduction that has the total of what is conserved.
+/// A conserved quantity, and the reduction with its total.
 struct ConservedTotal {
   Conserved quantity;
   std::string label;
@@ -20,7 +20,8 @@ struct ConservedTotal {
   std::string name() const { return std::array{"mass", "momentum", "energy"}[static_cast<std::size_t>(quantity)]; }
 };
 
-/// Labels of such totals. A component whose total has another unit or meaning declares its own label of the same name.
+/// Labels of totals of conserved quantities. A component whose total has another unit or meaning declares its own label
+/// of the same name.
 namespace total {
 inline constexpr data::ReductionLabel<data::Sum> mass{"TotalMass", "kg", "mass"};
 inline constexpr data::ReductionLabel<data::VectorSum> momentum{"TotalMomentum", "kg m/s", "momentum"};

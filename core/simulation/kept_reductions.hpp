@@ -9,7 +9,7 @@
 
 namespace tushar::simulation {
 
-/// Reductions as they were before a step that may fail: of each there is one value, which a step overwrites as it goes.
+/// The values of reductions before a step that may fail, as a step overwrites the only value of each.
 class KeptReductions {
  public:
   KeptReductions(data::Warehouse& warehouse, const std::vector<int>& numbers) : warehouse_(&warehouse) {

@@ -11,7 +11,7 @@ namespace {
 
 using data::Centring;
 
-/// Why blocks are too small for the ghosts of an access, or nothing.
+/// Why blocks are too small for the ghosts of an access; empty if they are not.
 std::string blockProblem(const tasks::Task& task, const tasks::Access& access, const grid::Grid& grid) {
   const int fewest = tasks::fewestCellsOfBlock(access.ghost);
   for (int d = 0; d < grid.dimension(); ++d)
@@ -35,7 +35,7 @@ std::string accessProblem(const tasks::Task& task, const tasks::Access& access, 
   return "";
 }
 
-/// What a task does that keeps it from smaller steps on finer levels; empty if nothing.
+/// Why an access does not allow smaller steps on finer levels; empty if it does.
 std::string accessAgainstSmallerSteps(const tasks::Access& access) {
   const std::string_view name = access.label->name;
   switch (access.label->centring) {
@@ -58,7 +58,7 @@ std::string accessAgainstSmallerSteps(const tasks::Access& access) {
 
 std::string taskAgainstSmallerSteps(const tasks::Task& task) {
   if (task.kind != tasks::TaskKind::work) return "moves particles";
-  if (task.perRank) return "sees all patches at once";
+  if (task.perRank) return "needs all patches at once";
   for (const tasks::Access& access : task.accesses)
     if (std::string problem = accessAgainstSmallerSteps(access); !problem.empty()) return problem;
   return "";
@@ -92,7 +92,7 @@ std::vector<InputProblem> problemsOnLevels(const std::vector<tasks::Task>& tasks
     const bool seesTooMuch = task.perRank && task.perMaterial();
     if (seesTooMuch)
       problems.push_back(
-          {where, "", fmt::format("task {} sees all patches at once, which needs a grid of one level", task.name)});
+          {where, "", fmt::format("task {} needs all patches at once, and hence a grid of one level", task.name)});
     for (const tasks::Access& access : task.accesses)
       if (std::string problem = seesTooMuch ? "" : accessProblem(task, access, grid); !problem.empty())
         problems.push_back({where, "", std::move(problem)});

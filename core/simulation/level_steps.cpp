@@ -115,10 +115,10 @@ double LevelSteps::longestStep(double rest, const tasks::StepInfo& next) const {
   constexpr double most = 1000;  // steps in one of the coarser level: signals do not get so much faster
   const double stable = run_.problem.time.timestepMultiplier * stable_[static_cast<std::size_t>(next.level)]->value;
   if (!(stable * most > rest))
-    throw NumericalError(fmt::format("the time step of level {} fell to {:.6g} s within one of {:.6g} s (step {}, time "
-                                     "{:.6g} s)",
+    throw NumericalError(fmt::format("the time step of level {} fell to {:.6g} s, with {:.6g} s left of the next "
+                                     "coarser level's step (step {}, time {:.6g} s)",
                                      next.level, stable, rest, next.step, next.time),
-                         "whatever keeps speeds finite, or useLockStep true in <AMR>");
+                         "a setting that keeps speeds finite, or useLockStep true in <AMR>");
   return stable;
 }
 

@@ -21,7 +21,7 @@ class LevelSteps {
  public:
   explicit LevelSteps(RunState& run) : run_(run) {}
 
-  /// The longest step of the coarsest level [s] with which two steps of each level in one of the next coarser are
+  /// The longest step of the coarsest level [s] for which two steps of each level per step of the next coarser one are
   /// stable, and what limits it.
   data::Minimum stable();
   /// Advances the old state of all levels by the step of the coarsest, `whole.delT`; the new state has stable steps. If
@@ -31,7 +31,7 @@ class LevelSteps {
   std::optional<data::Minimum> advance(const tasks::StepInfo& whole);
 
  private:
-  /// Makes a step of a level, and those of the finer ones within it.
+  /// Makes a step of a level, and the steps of finer levels within it.
   std::optional<data::Minimum> advanceLevel(const tasks::StepInfo& at);
   std::optional<data::Minimum> advanceFiner(const tasks::StepInfo& coarser);
   /// Computes what the state of a level allows, unless that is known.

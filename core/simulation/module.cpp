@@ -24,14 +24,14 @@ namespace fs = std::filesystem;
 /// The modules of this program that openModules() has found.
 struct OwnModules {
   fs::path folder;
-  std::map<std::string, Catalogue> loaded;  ///< what each has brought
+  std::map<std::string, Catalogue> loaded;  ///< the contents of each
 };
 OwnModules& ownModules() {
   static OwnModules modules;
   return modules;
 }
 
-/// Whether a file begins as shared libraries do, or cannot be read, which dlopen then explains.
+/// Whether a file begins like a shared library, or cannot be read, in which case dlopen gives the reason.
 bool mayBeLibrary(const fs::path& file) {
   constexpr std::string_view magic = "\177ELF";
   std::string start(magic.size(), ' ');
@@ -39,7 +39,7 @@ bool mayBeLibrary(const fs::path& file) {
   return !in || (in.read(start.data(), magic.size()) && start == magic);
 }
 
-/// Opens a shared library and finds its card. Throws std::runtime_error if it is no module, or does not fit.
+/// Opens a shared library and returns its card. Throws std::runtime_error if it is no module, or does not fit.
 const ModuleCard& open(const fs::path& file) {
   if (!mayBeLibrary(file))
     throw std::runtime_error(fmt::format("{} is not a module of Tushar: it is not a shared library", file.string()));
@@ -70,7 +70,7 @@ const Catalogue& loadOwn(const std::string& name) {
   return loaded.emplace(name, open(file).kinds()).first->second;
 }
 
-/// Lines such as `heat component heat`: a module, and one thing that it has.
+/// Reads lines such as `heat component heat`: a module, and a component or analysis in it.
 void addOwnModules(Catalogue& catalogue) {
   std::ifstream index(ownModules().folder / "index.txt");
   if (!index) throw std::runtime_error(fmt::format("{}: cannot be read", (ownModules().folder / "index.txt").string()));
@@ -86,7 +86,7 @@ void addOwnModules(Catalogue& catalogue) {
   for (const auto& [name, module] : modules) catalogue.addModule(module, [name = name] { return loadOwn(name); });
 }
 
-/// Shared libraries in the folders of TUSHAR_PLUGINS, in the order of their names.
+/// The shared libraries in the folders of TUSHAR_PLUGINS, in the order of their names.
 std::vector<std::string> filesOfUser() {
   std::vector<std::string> files;
   const char* const folders = std::getenv("TUSHAR_PLUGINS");

@@ -5,7 +5,7 @@
 
 namespace tushar::simulation {
 
-/// Why a module with that card cannot be loaded by this program, or nothing.
+/// Why this program cannot load a module with that ABI; empty if it can.
 std::string misfitOf(const ModuleAbi& module);
 
 /// A catalogue of all modules of this program, each loaded when it is first needed, and of those of the user: the files
@@ -13,8 +13,8 @@ std::string misfitOf(const ModuleAbi& module);
 /// for each that cannot be loaded.
 Catalogue openModules(const std::vector<std::string>& files);
 
-/// Loads a module of this program, which then puts itself where it is used. Does nothing in a program without
-/// openModules(), which has all linked in. Throws std::runtime_error if the module is not there.
+/// Loads a module of this program, which then registers itself. Does nothing in a program without openModules(), which
+/// has all linked in. Throws std::runtime_error if the module is not there.
 void loadModule(const std::string& name);
 
 }  // namespace tushar::simulation

@@ -6,11 +6,11 @@ class Catalogue;
 
 /// Properties that a module and the program that loads it must share.
 struct ModuleAbi {
-  const char* version;    ///< of Tushar
-  const char* compiler;   ///< and its version
+  const char* version;    ///< version of Tushar
+  const char* compiler;   ///< name and version of the compiler
   const char* interface;  ///< a hash of the headers of core
   int checks;             ///< 1 if every index of every view is checked
-  int alignment;          ///< of vectors, bytes
+  int alignment;          ///< alignment of vectors, bytes
 };
 
 /// The card that a shared library exports as `extern "C" const ModuleCard tusharModule`; tushar_module() of CMake

@@ -11,7 +11,7 @@
 
 namespace tushar::simulation {
 
-/// The module `name` with tags of its own, which `schema` reads; that must outlive it. It is made by
+/// The module `name` with its own tags, which `schema` reads; the schema must outlive the module. It is made by
 /// `make(settings, its tag, component, grid)`.
 template <class Settings, class Make>
 AnalysisKind moduleMadeBy(std::string name, std::string sentence, const input::Schema<Settings>& schema, Make make) {
@@ -24,7 +24,7 @@ AnalysisKind moduleMadeBy(std::string name, std::string sentence, const input::S
           [&schema] { return &schema; }};
 }
 
-/// The same for an `A` that is made from the settings and, if it takes them, the component and the grid.
+/// The same for a type A that is constructed from the settings and, optionally, the component and the grid.
 template <class A, class Settings>
 AnalysisKind moduleWithTags(std::string name, std::string sentence, const input::Schema<Settings>& schema) {
   const auto make = [](const Settings& settings, const input::Element&, [[maybe_unused]] const Component& component,

@@ -168,8 +168,8 @@ void Outputs::save() {
   seconds_ += secondsSince(started);
 }
 
-/// The share of an output that a rank has on average, or an amount that is little compared with a state. Nothing for a
-/// small output: waking a thread would take as long as writing it.
+/// The average share of an output per rank, or an amount that is small compared with a state. Nothing for a small
+/// output: waking a thread would take as long as writing it.
 std::size_t Outputs::mostBehind(std::uint64_t bytes) const {
   constexpr std::uint64_t small = std::uint64_t{1} << 20, little = std::uint64_t{16} << 20;
   if (bytes <= small) return 0;

@@ -18,7 +18,7 @@ namespace tushar::simulation {
 /// ranks make the same calls; rank 0 writes, with the writers of the run for outputs.
 class Outputs {
  public:
-  /// A new archive will be made in this folder; empty: the current one.
+  /// A new archive will be made in `folder`; empty: the current one.
   Outputs(RunState& run, std::filesystem::path parent);
   /// If a run ends by an exception, finishes the output in progress if rank 0 can do so alone, or if all ranks come
   /// here.
@@ -31,25 +31,25 @@ class Outputs {
   /// Creates an archive, if the scene has outputs, globals, samples or checkpoints. A restarted run, which has read its
   /// checkpoint, continues the archive of the run before. Throws FileError.
   void open();
-  /// Saves the globals and, if the scene requests it, an output at the start.
+  /// Saves the globals and, if requested, an output at the start.
   void saveStart();
-  /// Saves the globals, and the samples that are due, after a step.
+  /// Saves the globals, and samples that are due, after a step.
   void saveGlobals();
-  /// Writes an output after a step, if one is due; finishes the one before if it is written.
+  /// Begins an output after a step, if one is due; completes the previous one if it has been written.
   void saveIfDue();
-  /// Begins to write an output, if the scene has any and this step has none yet: steps may go on.
+  /// Begins to write an output, if the scene has any and this step has none yet; steps may continue meanwhile.
   void save();
-  /// If something has failed on rank 0 alone since the ranks last agreed by the clock of the run, throws that there,
-  /// and FailedElsewhere on the others.
+  /// If something has failed on rank 0 only, since the ranks last agreed by the run's clock, throws its exception
+  /// there, and FailedElsewhere on the others.
   void throwIfFailed();
-  /// Waits for the output on its way.
+  /// Waits for the output in progress.
   void finishOutput();
-  /// The same; brings the lists of the archive up to date, and the files of analysis modules.
+  /// The same; also updates the lists of the archive and the files of analysis modules.
   void flush();
-  /// As above for a checkpoint; if there is an archive, with its current extent.
+  /// The same for a checkpoint; returns the current extent of the archive.
   output::ArchivePoint sync();
 
-  /// Skips the output times up to now.
+  /// Skips the output times up to the current time.
   void passMilestones() { times_.pass(run_.time.time()); }
   /// The next output time, s; infinity if the scene gives no interval.
   double nextTime() const { return times_.next(); }
@@ -57,9 +57,9 @@ class Outputs {
   const std::string& folder() const { return folder_; }
   /// The archive; null if there is none, and on all ranks but rank 0.
   output::Archive* archive() const { return archive_.get(); }
-  /// Wall time spent collecting and writing, s, without what was written while steps went on.
+  /// Wall time spent collecting and writing, s, apart from writing during steps.
   double seconds() const { return seconds_; }
-  /// How much of it was spent waiting for an output on its way, s.
+  /// The part of it spent waiting for the output in progress, s.
   double waited() const { return behind_.waited(); }
   /// The time and the bytes of compression on this rank.
   const output::PackingUse& packing() const { return packing_; }
@@ -72,10 +72,10 @@ class Outputs {
     output::SnapshotInFlight file;
     output::Snapshot listed;  ///< without values
   };
-  /// Gives the output on its way its name when it is written, and lists it; `ranks` as for SnapshotInFlight::finish().
+  /// Gives the output in progress its name when it is written, and lists it; `ranks` as for SnapshotInFlight::finish().
   void finish(const mpi::Communicator& ranks);
   void finishIfWritten();
-  /// Does something with the archive on rank 0. throwIfFailed() throws its failure later, on all ranks.
+  /// Calls a function with the archive on rank 0. If it fails, throwIfFailed() throws later, on all ranks.
   void onArchive(const std::function<void(output::Archive&)>& action);
   std::size_t mostBehind(std::uint64_t bytes) const;
   void makeArchive(const output::ArchiveOptions& how);
@@ -88,9 +88,9 @@ class Outputs {
   void appendGlobals(output::Archive& archive) const;
 
   RunState& run_;
-  mpi::Communicator meeting_;  ///< the ranks of the run, for its end
+  mpi::Communicator meeting_;  ///< the ranks of the run, for meeting at its end
   std::filesystem::path parent_;
-  std::optional<output::FolderLock> lock_;    ///< on the archive's folder
+  std::optional<output::FolderLock> lock_;    ///< lock on the archive's folder
   std::unique_ptr<output::Archive> archive_;  ///< on rank 0
   std::string folder_;
   Milestones times_;

@@ -34,7 +34,7 @@ Names united(Names a, const Names& b) {
   return a;
 }
 
-/// The totals of what is conserved, of those that are diagnosed.
+/// The totals of conserved quantities, among those that are diagnosed.
 std::vector<ConservedTotal> totalsAmong(const Names& diagnosed) {
   std::vector<ConservedTotal> totals;
   for (const auto& [quantity, label] : {std::pair{Conserved::mass, total::mass.name},
@@ -54,10 +54,10 @@ Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
   return names;
 }
 
-/// Whether a variable is of fluxes, which live for a step.
+/// Whether a variable contains fluxes, which exist only during a step.
 bool isOfRims(const std::string& name) { return name.starts_with("rim."); }
 
-/// The variables of a step that the next one needs, without what is computed anew before each, and with the ids of
+/// The variables of a step that the next one needs, except those computed anew before each step, and with the ids of
 /// particles if there are any.
 std::vector<std::string> namesOfState(Names needed, const Names& decided, const Names& computed) {
   std::erase_if(needed, [&](const std::string& name) {
@@ -82,7 +82,7 @@ Names requiredByAll(std::initializer_list<const Pruned*> lists) {
   return names;
 }
 
-/// The tasks that mark cells, by criteria and by what a component itself finds.
+/// The tasks that mark cells: by criteria, and those of the component itself.
 tasks::TaskList estimating(const tasks::TaskList& diagnostics, std::vector<BoundCriterion> criteria,
                            const tasks::TaskList& estimate) {
   tasks::TaskList list;
@@ -92,7 +92,7 @@ tasks::TaskList estimating(const tasks::TaskList& diagnostics, std::vector<Bound
   return list;
 }
 
-/// The time step, which every step has, and what tasks compute along with it.
+/// The time step, and further variables that the same tasks compute.
 Names decidedBefore(const std::vector<tasks::Task>& stableTimeStep) {
   return united(producedBy(stableTimeStep), {std::string(data::delT.name), std::string(tasks::partOfStep.name)});
 }
@@ -132,7 +132,7 @@ void Phases::noteMaterials() {
 
 namespace {
 
-/// The numbers that `0`, `0,2` or `1-3` name; none if the text is something else.
+/// The numbers in a text such as `0`, `0,2` or `1-3`; none for any other text.
 std::vector<int> numbersIn(const std::string& text) {
   std::vector<int> numbers;
   std::istringstream parts(text);
@@ -190,7 +190,7 @@ std::vector<std::string> Phases::remarksOn(const SaveRequest& save) const {
           fmt::format("in Uintah material {} means all materials together; here '{}' is saved for each of them", number,
                       save.label));
     else if (number > count)
-      remarks.push_back(fmt::format("does nothing for {}: materials are counted from 0 to {}", number, count - 1));
+      remarks.push_back(fmt::format("does nothing for {}: materials are numbered from 0 to {}", number, count - 1));
   return remarks;
 }
 
@@ -276,7 +276,7 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
 
 namespace {
 
-/// Variables of cells are interpolated from the cells around, those of materials too.
+/// Notes that regridding interpolates cell variables, including those of materials, from the cells around.
 void widenForRegridding(const std::vector<std::string>& lasting, int materials, data::VariableTable& table) {
   for (const std::string& name : lasting)
     for (int material = -1; material < materials; ++material)
@@ -295,7 +295,7 @@ Names namesOf(const std::vector<ConservedTotal>& totals) {
   return names;
 }
 
-/// Adds problems that are not among those found before.
+/// Adds problems that have not been found before.
 void addOthers(const std::vector<InputProblem>& found, std::vector<InputProblem>& problems) {
   for (const InputProblem& problem : found)
     if (std::none_of(problems.begin(), problems.end(),

@@ -14,7 +14,7 @@
 
 namespace tushar::simulation {
 
-/// The task lists of a run, compiled against each other: an earlier one must provide what a later one reads.
+/// The compiled task lists of a run: an earlier list must provide the variables that a later one reads.
 ///
 /// The diagnostics are compiled four times from one list, each time for another purpose: the totals at the start, the
 /// globals saved in every step, the derived fields of an output, the totals and errors of the report.
@@ -23,14 +23,14 @@ class Phases {
   /// Collects the task lists. Throws TaskError for one that reads what no task writes.
   Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses);
 
-  /// The problems of the labels and materials that a scene saves.
+  /// Problems with the labels and materials that a scene saves.
   std::vector<InputProblem> problemsOf(const std::vector<SaveRequest>& saves,
                                        const std::string& path = "DataArchiver/save") const;
-  /// The problems of the labels and materials that analysis modules sample.
+  /// Problems with the labels and materials that analysis modules sample.
   std::vector<InputProblem> problemsOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
   /// Whether tasks compute a variable for each material.
   bool isOfMaterials(const std::string& label) const;
-  /// Notes on saved material numbers that are not those of a material.
+  /// Notes on saved numbers of materials that do not exist.
   std::vector<std::string> remarksOn(const SaveRequest& save) const;
   /// Compiles the lists. Throws InputError for a saved or sampled label that no task computes, and for a task that
   /// cannot run on the levels of the grid; TaskError for lists that do not fit together. `smallerSteps`: the tag that
@@ -41,16 +41,16 @@ class Phases {
 
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
   tasks::TaskGraph refinement;  ///< where criteria require finer cells
-  tasks::TaskGraph refined;     ///< what a component computes in cells that have become finer
-  tasks::TaskGraph refluxing;   ///< on a level after the smaller steps of the next finer one, where it takes some
+  tasks::TaskGraph refined;     ///< tasks of the component for cells that have become finer
+  tasks::TaskGraph refluxing;   ///< refluxing on a level after the smaller steps of the next finer one
 
-  /// Names of the variables that a step and the totals need of the step before, sorted: the state of a run, whatever
-  /// is saved and measured besides.
+  /// Sorted names of the variables from the previous step that a step and the totals need: the state of a run, whatever
+  /// else is saved and measured.
   const std::vector<std::string>& state() const { return state_; }
-  /// Names of the variables that the fingerprint covers: the state or, where no step needs anything of the one before,
-  /// what is saved and measured.
+  /// Names of the variables in the fingerprint: the state or, if no step needs variables of the previous one, the saved
+  /// and measured variables.
   const std::vector<std::string>& fingerprinted() const { return state_.empty() ? lasting_ : state_; }
-  /// Names of the variables that outlive a step, sorted: the state, and what is saved besides.
+  /// Sorted names of the variables that outlive a step: the state, and other saved variables.
   const std::vector<std::string>& lasting() const { return lasting_; }
   /// Saved variables of particles, nodes and cells.
   const std::vector<SaveRequest>& savedFields() const { return saved_fields_; }
@@ -62,7 +62,7 @@ class Phases {
 
   void printSchedule(std::ostream& out) const;
   void printDot(std::ostream& out) const;
-  /// Names of what can be saved.
+  /// Names of the variables that can be saved.
   tasks::Names saveable() const;
 
  private:
@@ -74,8 +74,8 @@ class Phases {
   void validateAll() const;
   void noteMaterials();
   bool isMaterial(const std::string& name) const;
-  /// The requests with the names of materials in place of their numbers; the number after the last means all, as in
-  /// Uintah, and higher ones mean none.
+  /// The requests with names of materials instead of numbers; as in Uintah, the number after the last means all, and
+  /// higher ones mean none.
   std::vector<SaveRequest> named(const std::vector<SaveRequest>& saves) const;
   /// The diagnostics, followed by the task that marks cells to refine; nothing if the grid does not change. Throws
   /// InputError for a criterion whose variable is not one of cells.

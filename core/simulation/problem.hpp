@@ -18,17 +18,17 @@ namespace tushar::simulation {
 struct Problem {
   std::string scenePath, title, componentName;
   std::string inputXml;             ///< the scene with its overrides, for the archive
-  std::vector<InputProblem> notes;  ///< on parts of the scene that have no effect
+  std::vector<InputProblem> notes;  ///< notes on parts of the scene that have no effect
   TimeSettings time;
   ArchiveSettings archive;
   RegridSettings regrid;
-  std::optional<Location> smallerSteps;  ///< the tag that has finer levels take smaller steps, if they do
+  std::optional<Location> smallerSteps;  ///< the tag by which finer levels take smaller steps, if they do
   std::unique_ptr<grid::Grid> grid;
   int threads = 1;         ///< at most
-  int cellsPerThread = 0;  ///< cells of a rank for each of its threads; 0: however few
+  int cellsPerThread = 0;  ///< smallest number of cells per thread; 0: no limit
   std::unique_ptr<Component> component;
   std::vector<std::unique_ptr<Analysis>> analyses;
-  std::optional<Restart> restart;  ///< where the run goes on; none if it starts
+  std::optional<Restart> restart;  ///< the checkpoint from which the run continues, if any
 };
 
 }  // namespace tushar::simulation

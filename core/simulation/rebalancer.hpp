@@ -14,13 +14,13 @@ class Rebalancer {
 
   /// By the cells and particles of each patch, and the steps of its level, before the first step.
   void balanceAtStart();
-  /// By the time that tasks have taken on each patch, after a step.
+  /// Balances by the time that tasks have taken on each patch, after a step.
   void balanceIfDue();
 
   const Rebalancing& report() const { return balance_.report(); }
 
  private:
-  /// `costs`: of the patches of this rank.
+  /// `costs` are those of the patches of this rank.
   void balance(const std::vector<double>& costs);
 
   RunState& run_;

@@ -33,7 +33,7 @@ double halfJump(const Neighbours& near, int components) {
   return 0.5 * std::sqrt(sum);
 }
 
-/// Half the difference of the outer two over the least size of the three: infinite beside 0.
+/// Half the difference of the outer two, over the smallest magnitude of the three; infinite if that is 0.
 double relativeJump(double below, double middle, double above) {
   const double jump = 0.5 * std::abs(above - below);
   return jump == 0 ? 0 : jump / std::min(std::min(std::abs(below), std::abs(middle)), std::abs(above));
@@ -149,7 +149,7 @@ void raiseMarks(const grid::Patch& patch, const BoundCriterion& bound, const dat
   });
 }
 
-/// The last access is that of the marks.
+/// Computes the marks of a patch; the last access is that of the marks.
 void findMarks(const tasks::TaskContext& context, const std::vector<BoundCriterion>& criteria) {
   const data::Variable marks = context.variable(static_cast<int>(criteria.size()));
   std::fill_n(reinterpret_cast<int*>(marks.values), marks.stored.size(), 0);

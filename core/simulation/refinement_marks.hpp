@@ -9,15 +9,15 @@
 
 namespace tushar::simulation {
 
-/// A criterion with its variable, and whether that is one of the diagnostics or part of the state.
+/// A criterion with its variable, which is part of the state or one of the diagnostics.
 struct BoundCriterion {
   Criterion criterion;
   const data::Label* label;
   bool isDiagnosed;
-  std::vector<std::string> materials = {};  ///< those that have the variable; none if it belongs to none
+  std::vector<std::string> materials = {};  ///< the materials that have the variable; empty if it belongs to none
 };
 
-/// The materials that have a variable that tasks write; none if it belongs to none.
+/// The materials for which tasks write a variable; empty if it belongs to none.
 std::vector<std::string> materialsOf(const std::vector<tasks::Task>& tasks, const data::Label& label);
 
 /// The numbers of a cell's variable and those of its two neighbours along an axis; null if there is none.
@@ -32,8 +32,8 @@ struct Neighbours {
 double indicatorOf(Criterion::Indicator indicator, std::span<const Neighbours> axes, std::span<const double> spacing,
                    int components);
 
-/// The task that computes tasks::refinementMark by all criteria; 0 if there are none. Those of materials must have
-/// the same.
+/// The task that computes tasks::refinementMark from all criteria; the mark is 0 if there are none. Those of materials
+/// must have the same.
 tasks::Task markTask(std::vector<BoundCriterion> criteria);
 
 }  // namespace tushar::simulation

@@ -186,7 +186,7 @@ void Regridder::addParticles(MarkedBlocks& marked) {
     }
 }
 
-/// Where finer levels take smaller steps, the interval is rounded up to whole steps of the coarsest.
+/// Steps between regriddings; if finer levels take smaller steps, rounded up to whole steps of the coarsest.
 int Regridder::stepsBetween() const {
   const int finer = run_.problem.smallerSteps ? run_.problem.grid->levels() - 1 : 0;
   return ((run_.problem.regrid.interval - 1) >> finer) + 1;

@@ -15,19 +15,19 @@ namespace tushar::simulation {
 /// from the tree and the marks alone.
 class MarkedBlocks {
  public:
-  /// Marks count for all blocks within a distance of their cell: what signals cross in `interval` steps, one cell of
-  /// the finest level each, and `dilation` cells more.
+  /// A mark counts for all blocks within the distance that signals travel in `interval` steps (one cell of the finest
+  /// level per step) plus `dilation` cells.
   MarkedBlocks(const grid::Grid& grid, int interval, int dilation)
       : grid_(grid), interval_(std::min(interval, farthest)), dilation_(std::min(dilation, farthest)) {}
 
-  /// `mark`: see refinementMark.
+  /// Adds a mark of a cell; see refinementMark.
   void add(const grid::Level& level, const Index3& cell, int mark);
   /// Adds the marks of all cells of a patch.
   void add(const grid::Patch& patch, const int* marks, const grid::Box& stored);
-  /// A cell that holds particles: there, and within `margin` cells of the finest level beyond what they can cross, are
-  /// no coarser cells.
+  /// Adds a cell with particles: no coarser cells are allowed within the distance that they can travel plus `margin`
+  /// cells of the finest level.
   void addParticles(const grid::Level& level, const Index3& cell, int margin);
-  /// Adds those of all ranks, which all call it.
+  /// Unites the marks of all ranks, which must all call this.
   void unite(const mpi::Communicator& ranks);
   /// The tree that the marks require. Of blocks that are refined, only those may be coarsened that have no refined
   /// child.
@@ -60,16 +60,16 @@ class Regridder {
  public:
   explicit Regridder(RunState& run) : run_(run) {}
 
-  /// Whether the state at the start required another grid, which the run now has, without values.
+  /// Refines the grid for the state at the start; true if it changed, and then it has no values yet.
   bool refinedStart();
-  /// Changes the grid between two steps, with its values, if that is due and the state requires it.
+  /// Changes the grid and its values between two steps, if that is due and the state requires it.
   void regridIfDue();
 
   int regrids() const { return regrids_; }
   double seconds() const { return seconds_; }
 
  private:
-  /// Steps from one regridding to the next, and how many of the finest level these are.
+  /// Number of steps from one regridding to the next, and the same in steps of the finest level.
   int stepsBetween() const;
   int finestStepsBetween() const;
   grid::BlockTree wantedTree();

@@ -9,17 +9,17 @@
 
 namespace tushar::simulation {
 
-/// The file of a checkpoint that holds the whole state.
+/// The file of a checkpoint that contains the whole state.
 inline constexpr const char* stateFile = "state.h5";
 
 /// The archive and the checkpoint from which a run continues.
 struct Restart {
-  std::filesystem::path archive;          ///< the folder of the run before, `sod.uda.001`
-  int step = 0;                           ///< of the checkpoint
-  bool isChosen = false;                  ///< by the user; else it is the newest that is whole
-  std::vector<std::string> notes;         ///< sentences on what was found damaged on the way
-  std::vector<std::uint64_t> others;      ///< steps of checkpoints to take if this is damaged, in that order
-  std::vector<output::FilePart> parts{};  ///< of its file, which are checked when they are read
+  std::filesystem::path archive;          ///< the folder of the earlier run, such as `sod.uda.001`
+  int step = 0;                           ///< step of the checkpoint
+  bool isChosen = false;                  ///< whether the user chose it; otherwise it is the newest intact one
+  std::vector<std::string> notes;         ///< sentences about damaged checkpoints found on the way
+  std::vector<std::uint64_t> others;      ///< steps of checkpoints to use if this one is damaged, in that order
+  std::vector<output::FilePart> parts{};  ///< parts of its file that are checked when they are read
 
   /// The scene of the earlier run.
   std::filesystem::path scene() const { return archive / "input.xml"; }
@@ -29,16 +29,16 @@ struct Restart {
 
 // All ranks call these, with the same.
 
-/// Notes a damage of the checkpoint.
+/// Notes damage to the checkpoint.
 void noteDamage(Restart& restart, const std::string& damage);
-/// Selects the next intact one of the others, as far as it is read now, and notes the damage of those before it.
+/// Selects the next of the others that is intact, as far as it is read now, and notes the damage to those skipped.
 /// False if none is. If a newer version wrote one, throws InputError on rank 0, and FailedElsewhere on the others.
 bool takeNext(Restart& restart, const mpi::Communicator& ranks);
-/// Throws InputError on the first rank, with all that was noted, and FailedElsewhere on the others.
+/// Throws InputError on the first rank, with all notes, and FailedElsewhere on the others.
 [[noreturn]] void refuseDamaged(const Restart& restart, const mpi::Communicator& ranks);
-/// `there are those of steps 4, 6`.
+/// The steps in words: `there are those of steps 4, 6`.
 std::string listedSteps(const std::vector<int>& steps);
-/// The sentence that says so, after what was noted.
+/// The notes, followed by the sentence that names the checkpoint in use.
 std::string continuesFrom(const Restart& restart);
 
 }  // namespace tushar::simulation

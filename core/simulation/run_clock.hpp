@@ -17,8 +17,8 @@ inline double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The wall clock of a run, and requests from outside, by signals and files. All ranks share its last reading, so that
-/// they end the run, save the state and write checkpoints after the same step.
+/// The wall clock of a run, and external requests by signals and files. All ranks share its last reading, so that they
+/// end the run, save the state and write checkpoints after the same step.
 class RunClock {
  public:
   /// `startedAt` is when the process started.
@@ -26,21 +26,21 @@ class RunClock {
 
   /// Time since the process started, on this rank, s.
   double now() const { return secondsSince(started_at_); }
-  /// From now on this rank, the first, looks for files in the folder of the archive.
+  /// From now on this rank, which must be the first, looks for request files in the folder of the archive.
   void watch(const std::filesystem::path& folder) { files_.emplace(folder); }
-  /// Reads the clock, and the requests to any rank. All ranks call it.
+  /// Reads the clock and the requests to any rank, together on all ranks. All ranks call it.
   void agree(const mpi::Communicator& ranks);
   /// Time since the process started, at the last reading of all ranks, s.
   double elapsed() const { return elapsed_; }
-  /// Whether an interrupt is to end the run on all ranks.
+  /// Whether an interrupt must end the run on all ranks.
   bool isInterrupted() const { return interrupted_; }
-  /// Whether a file is to end the run.
+  /// Whether a request file must end the run.
   bool isStopped() const { return stopped_; }
   /// Notes a failure on this rank, of which the others are informed.
   void noteFailure() { failed_ = true; }
-  /// Whether something had failed on a rank when they last agreed.
+  /// Whether a rank had noted a failure when they last agreed.
   bool hasFailed() const { return failed_; }
-  /// Whether the state is to be saved now; true once for each request.
+  /// Whether the state must be saved now; true once for each request.
   bool takeSaveRequest() { return std::exchange(save_asked_, false); }
 
  private:

@@ -28,7 +28,7 @@ std::vector<long> RunReport::cellsOfLevels() const {
   return cells;
 }
 
-/// A finest level that has no cells would have taken twice the steps of the next coarser one.
+/// Notes the updates of levels; a finest level without cells would have taken twice the steps of the next coarser one.
 void RunReport::noteLevels(const std::vector<int>& steps) {
   const std::vector<long> cells = cellsOfLevels();
   double finestSteps = 0;
@@ -72,7 +72,7 @@ Report RunReport::make(double fileMemory) {
   return report;
 }
 
-/// The memory that the last step left free is what returning it to the system saves.
+/// Adds the memory; the free memory after the last step is the amount that returning it to the system would save.
 void RunReport::addMemory(Report& report, double fileMemory) {
   const ResidentMemory memory = residentMemory();
   run_.warehouse.releaseFreeMemory();
@@ -133,7 +133,8 @@ void RunReport::addTasks(Report& report) {
 
 namespace {
 
-/// The greatest momentum that the mass could have by the energy, sqrt(2 m E); 0 if one of them is not known.
+/// The largest momentum that the mass can have with the energy, sqrt(2 m E), a scale for drifts; 0 if one of them is
+/// unknown.
 double greatestMomentum(const Totals& totals, const std::vector<ConservedTotal>& kinds) {
   double mass = 0, energy = 0;
   for (std::size_t k = 0; k < totals.size(); ++k) {

@@ -16,7 +16,7 @@ class RunReport {
   /// Notes that the start-up is over. Modules that had to be built first do not count.
   void noteStartUp(double outputSeconds) { start_up_ = run_.clock.now() - outputSeconds - secondsOfBuilds(); }
   void beginLoop(double outputSeconds);
-  /// Notes that a step has been taken, and how many steps of each level are in it; none: one of each.
+  /// Notes a step, and the number of steps of each level in it; empty: one of each.
   void noteStep(const std::vector<int>& stepsOfLevels = {});
   void endLoop(double outputSeconds);
 
@@ -40,9 +40,9 @@ class RunReport {
   double output_before_ = 0;
   double start_up_ = 0, loop_ = 0;  ///< s, without outputs
   report::TimeUse use_;
-  long particle_steps_ = 0;            ///< of this rank
-  double updates_ = 0;                 ///< of cells, of all ranks
-  double uniform_updates_ = 0;         ///< the same, had all cells been as fine as the finest
+  long particle_steps_ = 0;            ///< of this rank's particles
+  double updates_ = 0;                 ///< updates of cells, over all ranks
+  double uniform_updates_ = 0;         ///< what they would be if all cells were as fine as the finest
   std::vector<double> level_updates_;  ///< of the cells of each level, where finer ones take smaller steps
 };
 

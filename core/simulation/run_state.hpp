@@ -28,13 +28,13 @@ struct RunState {
 
   /// Number of materials.
   int materials() const { return static_cast<int>(phases.materials().size()); }
-  /// Gives the analysis modules the time.
+  /// Sets the time of the analysis modules.
   void setTimeOfAnalyses();
-  /// Runs diagnostics on the state as it is now.
+  /// Runs diagnostics on the current state.
   void diagnose(tasks::TaskGraph& graph);
-  /// The numbers of a reduction; empty if it has no value yet, or no task computes it.
+  /// The values of a reduction; empty if it has none yet, or if no task computes it.
   std::vector<double> reduction(std::string_view label) const;
-  /// The totals of the state as it is now, by a graph that computes them.
+  /// The totals of the current state, computed by a graph.
   Totals measureTotals(tasks::TaskGraph& graph);
 
   /// Where finer levels take smaller steps: those of each level that one of the coarsest will have, as many as in the
@@ -45,9 +45,9 @@ struct RunState {
 
   Problem problem;
   const mpi::Communicator& ranks;
-  mpi::Communicator files;                ///< the same ranks: messages about files, apart from those of tasks
+  mpi::Communicator files;                ///< the same ranks, for messages about files, separate from those of tasks
   output::Writers writers;                ///< among these
-  std::optional<std::size_t> mostBehind;  ///< bytes of an output that a writer may keep; else what suits it
+  std::optional<std::size_t> mostBehind;  ///< bytes of an output that a writer may keep; by default a suitable amount
   data::VariableTable table;
   Phases phases;
   data::Warehouse warehouse;

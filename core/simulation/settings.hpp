@@ -11,14 +11,14 @@
 
 namespace tushar::simulation {
 
-/// Pairs of names of a variable: what Uintah calls it, and what it is called here.
+/// Pairs of names of a variable: Uintah's, and the one used here.
 using OtherNames = std::vector<std::pair<std::string, std::string>>;
 
 /// One `<save label= material=>`.
 struct SaveRequest {
   std::string label;
   std::string material;  ///< empty: all
-  Location where;        ///< of the label
+  Location where;        ///< place of the label
   Location whereOfMaterial;
 };
 
@@ -44,22 +44,21 @@ struct ArchiveSettings {
   std::optional<CheckpointSettings> checkpoint;
 };
 
-/// A reason to refine: an indicator of a cell variable, and where it is too great.
+/// A criterion for refinement: an indicator of a cell variable, and thresholds.
 struct Criterion {
   enum class Indicator {
-    jump,              ///< |q(i+1) - q(i-1)| / 2 over the least |q| of the three, infinite if that is 0; the greatest
-                       ///< over axes
+    jump,  ///< |q(i+1) - q(i-1)| / 2 over the smallest |q| of the three, infinite if that is 0; the maximum over axes
     secondDerivative,  ///< Löhner's, between 0 and 1
     gradient,          ///< the magnitude of the gradient, unit of the variable over m
     above,             ///< the value itself
-    below,             ///< the value itself; smaller ones are refined
+    below,             ///< the value itself; cells with smaller values are refined
   };
   std::string variable;
-  std::string material;  ///< empty: of none, or of each
+  std::string material;  ///< empty: no material, or each
   Indicator indicator = Indicator::jump;
-  double refine = 0;   ///< finer cells where the indicator is beyond this,
-  double coarsen = 0;  ///< and no coarser ones where it is beyond this
-  Location where;      ///< in the scene, and the path of its tag there; empty for a component's own
+  double refine = 0;   ///< cells are refined where the indicator is beyond this,
+  double coarsen = 0;  ///< and not coarsened where it is beyond this
+  Location where;      ///< place in the scene and path of the tag; empty for a component's own criteria
   std::string path;
 };
 
@@ -71,16 +70,16 @@ struct RegridSettings {
   int dilation = 1;   ///< cells around those that signals can reach until then
   bool refluxes = true;
   std::vector<Criterion> criteria;
-  Location where;  ///< of what makes several levels, for messages
+  Location where;  ///< the tag that requests several levels, for messages
 };
 
 /// The options of a run on the command line.
 struct RunOptions {
-  std::string jsonPath;         ///< where the report goes; empty: nowhere
+  std::string jsonPath;         ///< file for the report; empty: none
   std::string outputFolder;     ///< instead of the current folder
   bool quiet = false;           ///< no progress
-  int writers = 0;              ///< ranks that put files on the disk; 0: one on each node
-  std::optional<int> behind{};  ///< MB of an output that a writer may keep while steps go on; else what suits it
+  int writers = 0;              ///< number of ranks that write files; 0: one on each node
+  std::optional<int> behind{};  ///< MB of an output that a writer may keep during steps; by default a suitable amount
 };
 
 }  // namespace tushar::simulation

@@ -21,7 +21,7 @@ std::string hostName() {
   return name;
 }
 
-/// Settings that would keep particles in the finest cells, and that the scene lacks.
+/// Settings, missing in the scene, that would keep particles in the finest cells.
 std::string adviceNearCoarser(const RegridSettings& regrid) {
   if (!regrid.adaptive)
     return "<adaptive>true</adaptive> in <AMR>, so that the finest cells follow; or a larger <Level>";
@@ -82,7 +82,8 @@ void Simulation::openLog() {
   run_.ranks.onFirst([&] { log_.emplace(outputs_.folder(), record_); });
 }
 
-/// `mpirun` gives an interrupted run two seconds, so the checkpoint, which a restart needs, comes first.
+/// Saves the state at the end. `mpirun` gives an interrupted run two seconds, so the checkpoint, which a restart needs,
+/// comes first.
 void Simulation::saveEnd() {
   const bool isCut = run_.clock.isInterrupted() || run_.clock.isStopped();
   if (failure_) saveLastGood();
@@ -95,7 +96,7 @@ void Simulation::saveEnd() {
 
 void Simulation::saveNow() {
   if (outputs_.folder().empty())
-    return run_.progress.line("nothing is saved: the scene asks for no outputs, globals or checkpoints");
+    return run_.progress.line("nothing is saved: the scene has no outputs, saved totals or checkpoints");
   outputs_.save();
   checkpoints_.write();
   run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} saved on request; sus --restart {} continues from here",
@@ -119,7 +120,8 @@ void Simulation::resume() {
   run_.setTimeOfAnalyses();  // what was due up to now, the run before has sampled
 }
 
-/// On finer and finer cells, as far as the state requires them: finer cells have the finer state of the scene.
+/// Initialises the state on finer and finer cells, as far as it requires them: finer cells resolve more of the state in
+/// the scene.
 void Simulation::initialize() {
   do {
     initializeOnce();
@@ -152,8 +154,8 @@ void Simulation::refuseCoarseParticles() {
   }
   if (!outside.empty())
     throw InputError({{run_.problem.regrid.where, "",
-                       fmt::format("particles of {} are in coarser cells, or too close to them; particles live on the "
-                                   "finest level only: give a larger <Level>, or <adaptive> in <AMR>",
+                       fmt::format("particles of {} are in coarser cells, or too close to them; particles must be on "
+                                   "the finest level: give a larger <Level>, or <adaptive> in <AMR>",
                                    outside)}});
 }
 

@@ -20,8 +20,8 @@
 
 namespace tushar::simulation {
 
-/// The time loop of a run, which starts from the scene or from a checkpoint, over its outputs, checkpoints and report.
-/// Rank 0 writes and reports for all ranks.
+/// A run: the time loop, from the scene or from a checkpoint, with its outputs, checkpoints and report. Rank 0 writes
+/// and reports for all ranks.
 class Simulation {
  public:
   /// Compiles the task graphs. `startedAt` is when the process started. Throws what Phases throws.
@@ -31,16 +31,16 @@ class Simulation {
 
   const Phases& phases() const { return run_.phases; }
   data::Warehouse& warehouse() { return run_.warehouse; }
-  /// Makes the state at the start (or reads the checkpoint), and nothing else; the number of particles. Throws what a
-  /// run would throw there.
+  /// Only makes the state at the start, or reads the checkpoint; returns the number of particles. Throws what a run
+  /// would throw there.
   long tryStart();
   /// The entry of run.json for the program and its command line.
   void setRecord(output::RunRecord record) { record_ = std::move(record); }
-  /// Gets sentences on checkpoints that are found damaged when the run goes on from one; on the first rank.
+  /// Sets a function that is called on the first rank with messages about damaged checkpoints.
   void setWarning(std::function<void(const std::string&)> warn) { checkpoints_.setWarning(std::move(warn)); }
-  /// Runs to the end of the scene, to an interrupt, to a file `stop_now` in its archive, or to a value that is not
-  /// finite or out of its bounds, which the report then names: the last whole step is saved. Throws TaskError,
-  /// FileError, and NumericalError for such a value at the start.
+  /// Runs until the end of the scene, an interrupt, a file `stop_now` in the archive, or an invalid value, which the
+  /// report then names; the last complete step is saved. Throws TaskError, FileError, and NumericalError for such a
+  /// value at the start.
   report::Report run();
 
  private:
@@ -49,26 +49,26 @@ class Simulation {
   void resume();
   void initialize();
   void initializeOnce();
-  /// Throws InputError if there are particles where no particles can be.
+  /// Throws InputError if there are particles where there must be none.
   void refuseCoarseParticles();
   void loop();
   void step();
   /// Advances the state by a time step, which is repeated with a shorter one if a task requires it.
   void advance();
-  /// The longest step that the state allows, and what limits it.
+  /// The longest stable step for the state, and what limits it.
   data::Minimum stableStep();
   /// Tries the step; the factor for a smaller one, if a task requires it.
   std::optional<data::Minimum> tryStep(double dt);
   bool hasEnded() const;
   std::string whyEnded() const;
   NumericalError advised(const NumericalError& error) const;
-  /// Writes an output and a checkpoint of the old state, that of the last whole step, if the run has an archive.
+  /// Writes an output and a checkpoint of the old state, that of the last complete step, if the run has an archive.
   void saveLastGood();
   /// Wall time of outputs and checkpoints, s.
   double outputSeconds() const { return outputs_.seconds() + checkpoints_.seconds(); }
   /// Writes an output and a checkpoint between steps, as a signal or a file has requested.
   void saveNow();
-  /// Writes what is to be saved at the end.
+  /// Writes the output and the checkpoint at the end.
   void saveEnd();
   report::Report makeReport();
 
@@ -78,10 +78,10 @@ class Simulation {
   Rebalancer rebalancer_;
   Regridder regridder_;
   RunReport report_;
-  std::optional<LevelSteps> level_steps_;  ///< where finer levels take smaller steps
+  std::optional<LevelSteps> level_steps_;  ///< if finer levels take smaller steps
   std::optional<NumericalError> failure_;
   output::RunRecord record_;
-  std::optional<output::RunLog> log_;  ///< on rank 0, of a run that has an archive
+  std::optional<output::RunLog> log_;  ///< on rank 0, if the run has an archive
 };
 
 /// The exit code of sus after a run that has a report.

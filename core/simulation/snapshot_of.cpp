@@ -21,7 +21,7 @@ output::Snapshot emptySnapshot(const RunState& run, output::GridInfo grid) {
   return snapshot;
 }
 
-/// The particles of every material, with p.x alone; of those that are not wanted without it.
+/// An entry for every material with p.x, which holds p.x if the material is wanted.
 template <class IsWanted>
 output::Snapshot positions(const RunState& run, Gather& gather, const IsWanted& isWanted) {
   output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(*run.problem.grid));
@@ -35,7 +35,7 @@ output::Snapshot positions(const RunState& run, Gather& gather, const IsWanted& 
   return snapshot;
 }
 
-/// `stream(generation, number)` gets the values.
+/// Adds a field; `stream(generation, number)` returns its values.
 template <class Stream>
 void addField(RunState& run, const SaveRequest& save, const Stream& stream, output::Snapshot& snapshot) {
   for (int m = -1; m < run.materials(); ++m) {
@@ -60,7 +60,7 @@ void addField(RunState& run, const SaveRequest& save, const Stream& stream, outp
   }
 }
 
-/// The state everywhere, with the particles of the materials that are wanted.
+/// The state on the whole grid, with the particles of the wanted materials.
 template <class IsWanted>
 output::Snapshot snapshotWith(RunState& run, const std::vector<SaveRequest>& requests, const IsWanted& isWanted) {
   Gather gather(run.warehouse);
@@ -88,7 +88,7 @@ output::Snapshot snapshotIn(RunState& run, const std::vector<SaveRequest>& reque
   return snapshot;
 }
 
-/// The least of the values, the greatest and their sum.
+/// Snapshots of the minimum, the maximum and the sum of values.
 std::vector<output::Snapshot> summarySnapshots(RunState& run, const std::vector<SaveRequest>& requests,
                                                collect::SummaryOver over) {
   std::vector<output::Snapshot> parts(3, emptySnapshot(run, collect::gridInfo(*run.problem.grid)));

@@ -8,13 +8,12 @@
 
 namespace tushar::simulation {
 
-/// The state of a run as it is now, from all ranks: the particles of every material with p.x, and the variables that
-/// are asked for. Each rank has its own values; they are not copied, and valid until the state changes. All ranks call
-/// it.
+/// The current state of a run, from all ranks: the particles of every material with p.x, and the requested variables.
+/// Each rank has its own values; they are not copied, and valid until the state changes. All ranks call it.
 output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests);
 
-/// The part of it that an analysis module samples, in the memory of rank 0; particles only of materials of which it
-/// samples particle variables. All ranks call it.
+/// The parts of the state that an analysis module samples, in the memory of rank 0; particles only for materials with
+/// sampled particle variables. All ranks call it.
 std::vector<output::Snapshot> partsOf(RunState& run, const Analysis& analysis);
 
 }  // namespace tushar::simulation

@@ -35,7 +35,7 @@ double TimeControl::next(const data::Minimum& stable, double nextOutput) {
   if (time_ + dt == time_)
     throw NumericalError(fmt::format("the time step of {:.6g} s is too small to advance time from {:.6g} s (step {})",
                                      dt, time_, step_ + 1),
-                         "delt_min, or whatever keeps speeds finite");
+                         "delt_min, or a setting that keeps speeds finite");
   target_ = time_ + dt;
   if (settings_.clampTimeToOutput) lower(target_, nextOutput, "clamp_time_to_output");
   if (settings_.endAtMaxTimeExactly) lower(target_, settings_.maxTime, "end_at_max_time_exactly");
@@ -61,7 +61,7 @@ double TimeControl::repeat(const data::Minimum& asked) {
   const double dt = del_t_ * std::clamp(asked.value, 0.1, 0.9);
   const std::string where = fmt::format("(step {}, time {:.6g} s)", step_ + 1, time_);
   const std::string advice =
-      "whatever keeps " + std::string(asked.reason.text()) + " within its bound, or a lower delt_min";
+      "a setting that keeps " + std::string(asked.reason.text()) + " within its bound, or a lower delt_min";
   if (repeats_ == most_repeats_)
     throw NumericalError(
         fmt::format("{} would still violate its bound with a time step of {:.6g} s, after {} repeats {}",
@@ -71,7 +71,7 @@ double TimeControl::repeat(const data::Minimum& asked) {
     throw NumericalError(fmt::format("{} would violate its bound unless the time step fell to {:.6g} s, below {} {}",
                                      asked.reason.text(), dt,
                                      dt < settings_.deltMin ? fmt::format("delt_min = {:.6g} s", settings_.deltMin)
-                                                            : "the least that advances time",
+                                                            : "the smallest step that advances time",
                                      where),
                          advice);
   ++retries_;

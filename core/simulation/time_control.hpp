@@ -13,52 +13,52 @@ struct TimeSettings {
   double initTime = 0;                                   ///< s
   double deltMin = 0;                                    ///< s
   double deltMax = std::numeric_limits<double>::max();   ///< s
-  double deltInit = std::numeric_limits<double>::max();  ///< greatest first time step, s
-  double initialDeltRange = 0;  ///< time up to which deltInit holds, the first step at least, s
-  double maxDeltIncrease = std::numeric_limits<double>::max();  ///< longest step is 1 + this times the one before; no
-                                                                ///< limit where not positive
+  double deltInit = std::numeric_limits<double>::max();  ///< largest first time step, s
+  double initialDeltRange = 0;  ///< time until which deltInit limits the steps, s; it always limits the first
+  double maxDeltIncrease = std::numeric_limits<double>::max();  ///< a step is at most 1 + this times the previous one;
+                                                                ///< no limit if not positive
   double timestepMultiplier = 1;
   int maxTimesteps = std::numeric_limits<int>::max();
   double maxWallTime = std::numeric_limits<double>::max();  ///< s
   bool endAtMaxTimeExactly = false;
   bool clampTimeToOutput = false;
-  bool recomputeTimeStep = false;  ///< whether the step is repeated if a value breaks its bound
+  bool recomputeTimeStep = false;  ///< whether the step is repeated if a value violates its bound
 };
 
-/// Where a run is in time, and how far the next step may go.
+/// The current time of a run, and the length of its next step.
 class TimeControl {
  public:
   explicit TimeControl(const TimeSettings& settings) : settings_(settings), time_(settings.initTime) {}
 
   double time() const { return time_; }   ///< s
-  double delT() const { return del_t_; }  ///< of the last step, s
+  double delT() const { return del_t_; }  ///< The length of the last step, s.
   int step() const { return step_; }
   /// Whether maxTime or max_Timesteps has been reached.
   bool done() const;
 
-  /// The next time step [s] from what the physics allows: timestep_multiplier times `stable`, within max_delt_increase,
-  /// delt_min and delt_max; at the start no longer than delt_init, even if that is below delt_min; and (where the scene
-  /// requests it) up to maxTime or the next output exactly. A rest up to maxTime that rounding alone would leave is
-  /// part of the step. Throws NumericalError for a step that is not positive or too small to move time on.
+  /// The next time step [s]: timestep_multiplier times `stable`, limited by max_delt_increase, delt_min and delt_max;
+  /// at the start no longer than delt_init, even if that is below delt_min; and, if the scene requests it, exactly up
+  /// to maxTime or the next output. A rest up to maxTime that rounding alone would leave is part of the step. Throws
+  /// NumericalError for a step that is not positive or too small to move time on.
   double next(const data::Minimum& stable, double nextOutput);
-  /// A shorter time step [s] from where `next` started: times the factor `asked`, but at least 0.1 and at most 0.9.
-  /// Throws NumericalError for the 21st time in a step, for less than delt_min, and for a step too small to move time
-  /// on.
+  /// A shorter time step [s] from the same time: the previous one times the factor `asked`, which is limited to 0.1 to
+  /// 0.9. Throws NumericalError for the 21st time in a step, for less than delt_min, and for a step too small to move
+  /// time on.
   double repeat(const data::Minimum& asked);
-  /// Goes on from where another run was: after `step` steps, the last of `delT` [s], at `time` [s].
+  /// Continues another run after `step` steps, the last of length `delT` [s], at `time` [s].
   void resume(int step, double time, double delT);
-  /// Moves time on by the step that `next` or `repeat` gave.
+  /// Advances time by the step of `next` or `repeat`.
   void advance();
 
-  /// Whether a value that breaks its bound may have the step repeated with half the time step: where the scene requests
-  /// it, and `repeat` would not throw.
+  /// Whether a step may be repeated with half the time step because of an invalid value: if the scene requests it, and
+  /// `repeat` would not throw.
   bool mayHalve() const;
   /// How often the step in progress was repeated.
   int repeats() const { return repeats_; }
   /// Steps that were undone and repeated so far.
   int retries() const { return retries_; }
-  /// How many steps each limit has determined: the reason of the stable step, a tag of the Time section, or the bound
-  /// that made the step be repeated.
+  /// Number of steps determined by each limit: the reason of the stable step, a tag of the Time section, or the bound
+  /// because of which the step was repeated.
   const std::map<data::Reason, int>& limits() const { return limits_; }
 
  private:
@@ -69,31 +69,31 @@ class TimeControl {
   TimeSettings settings_;
   double time_;
   double del_t_ = 0;
-  double target_ = 0;  ///< where the step ends
+  double target_ = 0;  ///< end of the step
   int step_ = 0;
   int retries_ = 0, repeats_ = 0;
-  data::Reason limit_;  ///< that rules the step
+  data::Reason limit_;  ///< limit that determines the step
   std::map<data::Reason, int> limits_;
 };
 
 /// Times that differ by less than this, relative to their size, count as the same.
 inline constexpr double timeResolution = 1e-12;
 
-/// The times start + k interval, k = 1, 2, …, that a run passes one after the other.
+/// The times start + k interval, k = 1, 2, …, which a run passes in turn.
 class Milestones {
  public:
   /// An interval of 0 [s] means none.
   Milestones(double start, double interval) : start_(start), interval_(interval) {}
 
-  /// The first that has not been passed, s; infinity if there are none.
+  /// The next such time, s; infinity if there are none.
   double next() const;
   bool isReached(double time) const;
-  /// Passes those up to `time` [s].
+  /// Passes the times up to `time` [s].
   void pass(double time);
 
  private:
   double start_, interval_;
-  double passed_ = 0;  ///< how many: a whole number
+  double passed_ = 0;  ///< number of times passed, a whole number
 };
 
 }  // namespace tushar::simulation

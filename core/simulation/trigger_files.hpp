@@ -4,7 +4,7 @@
 
 namespace tushar::simulation {
 
-/// Files by which requests reach a run from outside: `output_now` or `stop_now` in the folder of its archive.
+/// Files by which a user can send requests to a run: `output_now` or `stop_now` in the folder of its archive.
 class TriggerFiles {
  public:
   /// Removes files that an earlier run has left.
@@ -14,14 +14,14 @@ class TriggerFiles {
   struct Found {
     bool output = false, stop = false;
   };
-  /// Looks for the files, at most ten times in a second, and takes away what it finds. `now` is the wall time, s.
+  /// Looks for the files, at most ten times per second, and removes those that it finds. `now` is the wall time, s.
   Found look(double now);
 
  private:
   bool take(const char* name) const;
 
   std::filesystem::path folder_;
-  double next_ = 0;  ///< when to look again, s
+  double next_ = 0;  ///< time of the next look, s
 };
 
 }  // namespace tushar::simulation

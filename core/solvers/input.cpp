@@ -10,8 +10,8 @@ input::Schema<LinearSettings> schemaOf(const LinearSettings& defaults) {
       .choice("solver", &LinearSettings::solver,
               {{"cg", "cg"}, {"gmres", "gmres"}, {"fgmres", "fgmres"}, {"bicgstab", "bcgs"}, {"direct", "preonly"}},
               defaults.solver,
-              "Krylov method; direct: none, the preconditioner lu or cholesky solves; where a grid has several levels, "
-              "gmres and lu take the places of cg and cholesky")
+              "Krylov method; direct: the preconditioner, lu or cholesky, solves the system; on several levels, gmres "
+              "and lu replace cg and cholesky")
       .ours()
       .choice("preconditioner", &LinearSettings::preconditioner,
               {{"gamg", "gamg"},
@@ -21,20 +21,22 @@ input::Schema<LinearSettings> schemaOf(const LinearSettings& defaults) {
                {"lu", "lu"},
                {"cholesky", "cholesky"},
                {"none", "none"}},
-              defaults.preconditioner, "algebraic multigrid of PETSc or of hypre, or one for small systems")
+              defaults.preconditioner,
+              "gamg, hypre: algebraic multigrid of PETSc or hypre; the others are for small systems")
       .ours()
-      .value("tolerance", &LinearSettings::tolerance, defaults.tolerance, "1", "residual over right-hand side",
-             input::positive(), input::atMost(0.1))
+      .value("tolerance", &LinearSettings::tolerance, defaults.tolerance, "1",
+             "largest residual, relative to the right-hand side", input::positive(), input::atMost(0.1))
       .ours()
       .value("maxiterations", &LinearSettings::maxIterations, defaults.maxIterations, "1",
-             "the solve fails if it needs more", input::atLeast(1))
+             "largest number of iterations; the solve fails if it needs more", input::atLeast(1))
       .ours()
-      .value("petsc", &LinearSettings::petsc, "", "1", "options in PETSc's language; sus --petsc wins")
+      .value("petsc", &LinearSettings::petsc, "", "1", "PETSc options; those of sus --petsc take precedence")
       .ours()
       .check([](const LinearSettings& read, const input::Element& element, input::Diagnostics& diagnostics) {
         if (read.solver == "preonly" && read.preconditioner != "lu" && read.preconditioner != "cholesky")
-          diagnostics.error(element, "preconditioner: found '" + read.preconditioner +
-                                         "', but with <solver> direct it solves the system: use lu or cholesky");
+          diagnostics.error(element,
+                            "preconditioner: found '" + read.preconditioner +
+                                "', but with <solver> direct the preconditioner solves the system: use lu or cholesky");
       });
 }
 

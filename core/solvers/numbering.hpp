@@ -9,12 +9,12 @@
 
 namespace tushar::solvers {
 
-/// Gives each cell that a rank uses its number in a global system, as Unknowns needs it: its own cells, then those of
-/// other ranks. On one rank the order is lexicographic, and on several levels that of blocks along the curve, so that
-/// the patches do not matter.
+/// Numbers the cells that a rank uses in a global system, as Unknowns requires: its own cells, then those of other
+/// ranks. On one rank the order is lexicographic, and on several levels that of blocks along the curve, so that the
+/// patches do not matter.
 class CellNumbering {
  public:
-  /// On one level, the cells of other ranks that share a face with own ones are included from the start.
+  /// On one level, cells of other ranks that share a face with own ones are included from the start.
   explicit CellNumbering(const grid::Grid& grid);
 
   int owned() const { return owned_; }
@@ -42,7 +42,7 @@ class CellNumbering {
   }
 
  private:
-  /// Cells that are numbered one after the other.
+  /// Cells with consecutive numbers.
   struct Run {
     int level;
     grid::Box cells;
@@ -60,17 +60,17 @@ class CellNumbering {
     const auto found = numbers_.find(key);
     return found == numbers_.end() ? -1 : found->second;
   }
-  /// Patch by patch, so that every rank can compute the numbers of all.
+  /// Numbers the own cells patch by patch, so that every rank can compute the numbers of all.
   void numberOwnPatches();
   void numberGhosts(const grid::Patch& patch, const std::vector<int>& firstOf);
-  /// The number of a cell on several levels: block by block on one rank, else patch by patch. Throws data::AccessError
-  /// for one that is refined or part of a coarser one.
+  /// The global number of a cell on several levels: block by block on one rank, otherwise patch by patch. Throws
+  /// data::AccessError for one that is refined or part of a coarser one.
   std::uint64_t numberAmongAll(int level, const Index3& cell) const;
   Run runAround(int level, const Index3& cell) const;
 
   const grid::Grid* grid_;
   int owned_ = 0;
-  std::uint64_t first_ = 0;  ///< own cell of several levels, among those of all ranks
+  std::uint64_t first_ = 0;  ///< global number of the first own cell, on several levels
   std::vector<int> ghosts_;
   /// Numbers, by the cell's place; on several levels only those of other ranks' cells, by their global number.
   std::unordered_map<std::uint64_t, int> numbers_;

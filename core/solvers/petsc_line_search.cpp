@@ -9,7 +9,7 @@ namespace {
 /// A point u - length step along a Newton step.
 struct Trial {
   double length = 1;
-  double slope = 0;  ///< r . step there, the derivative of the energy against the way
+  double slope = 0;  ///< r . step at this point, the derivative of the energy along the step
   bool isFinite = false;
 };
 
@@ -26,8 +26,8 @@ Trial tryStep(SNESLineSearch search, double length) {
   return trial;
 }
 
-/// Halves the length until the residual is finite and the slope is smaller than at the start: a perfectly plastic solid
-/// has steps that lead far out. (The point where the secant of the slope is 0 would be too far back.)
+/// Halves the length until the residual is finite and the slope is smaller than at the start, as steps in a perfectly
+/// plastic solid can be far too long. (The point where the secant of the slope is 0 would be too far back.)
 Trial chooseStep(SNESLineSearch search, double slopeAtStart) {
   Trial trial = tryStep(search, 1);
   while (!(trial.isFinite && std::abs(trial.slope) <= 0.8 * std::abs(slopeAtStart)) && trial.length > 1e-3)

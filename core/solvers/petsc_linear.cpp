@@ -9,7 +9,7 @@ namespace {
 
 constexpr double leastTolerance = 1e-15;
 
-/// Seconds that `work` takes.
+/// The duration of `work`, s.
 template <class Work>
 double timed(Work&& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -17,7 +17,7 @@ double timed(Work&& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// |b - A x| at the end, to find where it is largest.
+/// The row with the largest |b - A x| at the end.
 int worstRow(Mat matrix, Vec b, Vec x) {
   OwnedVec residual;
   check(VecDuplicate(b, residual.address()));

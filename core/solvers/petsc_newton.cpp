@@ -36,7 +36,7 @@ PetscErrorCode evaluateResidual(SNES, Vec u, Vec r, void* context) {
   });
 }
 
-/// Makes the preconditioner at once, so that its time can be measured.
+/// Evaluates the tangent, and makes the preconditioner at once, so that its time can be measured.
 PetscErrorCode evaluateTangent(SNES snes, Vec, Mat, Mat, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
   return guarded(newton.thrown, [&] {

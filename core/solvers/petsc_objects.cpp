@@ -11,7 +11,7 @@ namespace tushar::solvers {
 
 namespace {
 
-/// PETSc's message about the error that it is about to return.
+/// The message of the error that PETSc is about to return.
 std::string& lastMessage() {
   static std::string message;
   return message;
@@ -23,9 +23,8 @@ PetscErrorCode keepMessage(MPI_Comm, int, const char*, const char*, PetscErrorCo
   return code;
 }
 
-/// Preserves the program's reaction to SIGTERM, which is to end the run with its output written: PETSc takes that
-/// signal for
-/// itself when it starts, and leaves the system's default when it gives it back.
+/// Preserves the program's reaction to SIGTERM, which is to end the run with written output: PETSc takes that signal
+/// for itself when it starts, and leaves the system's default when it gives it back.
 class KeptTermination {
  public:
   KeptTermination() { sigaction(SIGTERM, nullptr, &before_); }
@@ -37,7 +36,7 @@ class KeptTermination {
   struct sigaction before_ {};
 };
 
-/// PETSc from the first solve to the end of the program.
+/// The PETSc session, from the first solve to the end of the program.
 class Session {
  public:
   Session() {

@@ -16,7 +16,7 @@ namespace tushar::solvers {
 /// Throws std::runtime_error with PETSc's message if a call has failed.
 void check(PetscErrorCode code);
 
-/// Starts PETSc at the first call.
+/// Initialises PETSc at the first call.
 void startPetsc();
 
 /// Owns a PETSc object.
@@ -41,17 +41,17 @@ using OwnedSnes = Owned<SNES, SNESDestroy>;
 using OwnedNumbering = Owned<ISLocalToGlobalMapping, ISLocalToGlobalMappingDestroy>;
 using OwnedNullSpace = Owned<MatNullSpace, MatNullSpaceDestroy>;
 
-/// The options of one solve, for as long as this lives: those of its settings, then those of PETSC_OPTIONS, which win.
-/// Other solves do not see them.
+/// The options of one solve, during the lifetime of this object: those of its settings, then those of PETSC_OPTIONS,
+/// which take precedence. Other solves do not see them.
 class PetscOptionsOfSolve {
  public:
-  /// Starts PETSc, unless it has been started.
+  /// Initialises PETSc, if necessary.
   explicit PetscOptionsOfSolve(const std::string& options);
   PetscOptionsOfSolve(const PetscOptionsOfSolve&) = delete;
   PetscOptionsOfSolve& operator=(const PetscOptionsOfSolve&) = delete;
   ~PetscOptionsOfSolve();
 
-  /// Options of all solves so far that neither a solve nor the start of PETSc has used.
+  /// Options so far that neither a solve nor the initialisation of PETSc has used.
   static std::vector<std::string> unused();
 
  private:
@@ -76,7 +76,7 @@ class PetscMatrix : public Matrix {
     check(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
   }
-  /// Scales A to S A S with the diagonal S, and the near-null space of multigrid with it.
+  /// Scales A to S A S with the diagonal S, and the near-null space of multigrid accordingly.
   void scale(Vec s);
   operator Mat() const { return matrix_; }
 
@@ -98,7 +98,7 @@ class Balance {
   explicit Balance(Vec b);
   /// Chooses S and scales the matrix.
   void scale(PetscMatrix& matrix);
-  /// Makes solves of `krylov`, whose matrix has been scaled, take the unscaled b and return the unscaled x.
+  /// Lets `krylov`, whose matrix has been scaled, take the unscaled b and return the unscaled x.
   void attach(KSP krylov);
 
  private:
@@ -108,7 +108,7 @@ class Balance {
   OwnedVec s_, b_;
 };
 
-/// A vector over numbers in memory that it does not own: those of the owned unknowns.
+/// A PETSc vector over existing memory: the numbers of the owned unknowns.
 class PetscVector {
  public:
   PetscVector(const Unknowns& unknowns, std::span<double> values);
@@ -118,16 +118,16 @@ class PetscVector {
   OwnedVec vector_;
 };
 
-/// The part of a vector over all ranks that a rank sees: its own, then the ghosts.
+/// The part of a global vector that a rank uses: its own entries, then the ghosts.
 class GhostedVector {
  public:
   explicit GhostedVector(const Unknowns& unknowns);
   std::span<double> values() { return values_; }
-  /// The values of `all`, on this rank and of the ghosts.
+  /// Copies the values of `all` for own entries and ghosts.
   void take(Vec all);
-  /// Adds to `all` the values of every rank for its own entries and its ghosts.
+  /// Adds the values of own entries and ghosts of every rank to `all`.
   void addUp(Vec all);
-  /// Adds up the values of own and ghost entries, in place.
+  /// Sums the values of own and ghost entries over the ranks, in place.
   void addUp(std::span<double> values);
 
  private:
@@ -160,7 +160,7 @@ std::string reasonOf(SNES snes);
 /// The residual norms that a Krylov method has recorded.
 std::vector<double> residualsOf(KSP krylov);
 
-/// Number of the unknown with the largest residual; -1 if it is on another rank.
+/// Number of the unknown with the largest residual; -1 if another rank owns it.
 int worstOf(Vec residual);
 
 Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,

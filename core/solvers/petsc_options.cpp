@@ -8,7 +8,7 @@ namespace tushar::solvers {
 
 namespace {
 
-/// Every option given to a solve, and whether any solve used it.
+/// Every option given to a solve, and whether a solve has used it.
 std::map<std::string, bool>& useOfOptions() {
   static std::map<std::string, bool> use;
   return use;

@@ -20,7 +20,7 @@ constexpr const char* library = "libtushar_petsc.so";
 
 std::atomic<bool> wasLoaded = false;
 
-/// Lazily bound, so that symbols of PETSc's dependencies are resolved only when they are used.
+/// Loads the solver with lazy binding, so that symbols of PETSc's dependencies are resolved only when they are used.
 const Solver& load() {
   void* handle = dlopen(library, RTLD_LAZY | RTLD_LOCAL);
   if (!handle) {
@@ -43,7 +43,7 @@ const Solver& solver() {
 }
 
 std::string petscVersion() try { return load().version(); } catch (const std::runtime_error& error) {
-  return fmt::format("not there: {}", error.what());
+  return fmt::format("not available: {}", error.what());
 }
 
 bool isLoaded() { return wasLoaded; }
@@ -56,7 +56,7 @@ void addUp(const Unknowns& unknowns, std::span<double> values) {
 
 namespace {
 
-/// `k iterations; residuals a, b, …`: the first and the last ones.
+/// The history of a solve: `k iterations; residuals a, b, …`, with the first and the last ones.
 std::string historyOf(const std::vector<double>& residuals) {
   constexpr std::size_t shown = 8;
   std::string history;

@@ -4,7 +4,7 @@
 
 namespace tushar::solvers {
 
-/// The settings for a nonsymmetric system: gmres takes the place of cg, and lu that of cholesky.
+/// The settings for a nonsymmetric system: gmres replaces cg, and lu replaces cholesky.
 inline LinearSettings withoutSymmetry(LinearSettings settings) {
   if (settings.solver == "cg") settings.solver = "gmres";
   if (settings.preconditioner == "cholesky") settings.preconditioner = "lu";

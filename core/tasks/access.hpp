@@ -22,8 +22,8 @@ struct FieldAccess<data::FieldLabel<C, T>, Kind> {
   int ghost = 0;
   bool own = false;
   bool offered = false;
-  AccessKind kind = Kind;  ///< may be requiresNew if Kind is requiresOld: both have the same type of view
-  int index = -1;          ///< place among the task's accesses
+  AccessKind kind = Kind;  ///< may be requiresNew although Kind is requiresOld, as both have the same type of view
+  int index = -1;          ///< index among the task's accesses
 
   void declare(std::vector<Access>& accesses) { index = append(accesses, {label, kind, ghost, own, offered}); }
 
@@ -62,14 +62,14 @@ struct PlainArgument {
   const T& bind(const TaskContext&) const { return value; }
 };
 
-/// For a task that sees the whole rank: passes the ranks that run it together, all that have patches.
+/// For a task that runs once per rank: passes the ranks that run it together, that is, all with patches.
 struct RanksArgument {
   void declare(std::vector<Access>&) {}
   const mpi::Communicator& bind(const TaskContext& context) const { return context.ranks(); }
 };
 inline RanksArgument togetherOnRanks() { return {}; }
 
-/// The patches of a task that sees the whole rank.
+/// The patches of a task that runs once per rank.
 RankPatches patchesOf(const TaskContext& context);
 
 /// Reads the state at the start of the step: a view of const T over the patch and `ghost` cells or nodes beyond it.
@@ -94,7 +94,7 @@ template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::computes> computes(const data::FieldLabel<C, T>& label) {
   return {&label};
 }
-/// Writes every node that is the patch's own (Grid::ownNodes): no node is written by two patches of a rank. The
+/// Writes every node that the patch owns (Grid::ownNodes), so that no two patches of a rank write the same node. The
 /// framework fills in the other nodes of the patch after the task, from the patches that own them.
 template <class T>
 FieldAccess<data::NodeLabel<T>, AccessKind::computes> computesOwn(const data::NodeLabel<T>& label) {
@@ -145,8 +145,8 @@ struct OfferedAccess {
     return context.isWanted(access.index) ? std::optional(access.bind(context)) : std::nullopt;
   }
 };
-/// An output that is costly and that only some scenes need: as `computes` where a later task, another list or the
-/// scene's outputs read it, else not allocated. The body gets a std::optional view.
+/// A costly output that only some scenes need: like `computes` if a later task, another list or the scene's outputs
+/// read it, otherwise not allocated. The body gets a std::optional view.
 template <data::Centring C, class T>
 OfferedAccess<FieldAccess<data::FieldLabel<C, T>, AccessKind::computes>> offers(const data::FieldLabel<C, T>& label) {
   return {{&label, 0, false, true}};
@@ -165,13 +165,13 @@ struct FluxAccess {
     return context.isWanted(index) ? context.flux<T>(index) : data::RimFlux<T>();
   }
 };
-/// Keeps the fluxes of a variable where its level ends, so that the framework can make both levels agree on what flows
-/// between them: a RimFlux<T>, to which the body adds the amount of the variable per area and time through each face,
-/// along the axis. Where there is one level it is empty. For `computes` or `modifies` tasks of scheduleTimeAdvance
-/// whose change of a cell is dt times the difference of such fluxes over h.
+/// Keeps the fluxes of a variable at faces where the patch's level ends, so that the framework can make the fluxes of
+/// both levels equal: a RimFlux<T>, to which the body adds the amount of the variable per area and time through each
+/// face, along the axis. Where there is one level it is empty. For `computes` or `modifies` tasks of
+/// scheduleTimeAdvance whose change of a cell is dt times the difference of such fluxes over h.
 template <class T>
 FluxAccess<T> keepsFlux(const data::CellLabel<T>& label) {
-  static_assert(data::Stored<T>::number == data::Number::real, "only real numbers flow");
+  static_assert(data::Stored<T>::number == data::Number::real, "keepsFlux(...) takes labels of real numbers");
   return {&label};
 }
 
@@ -187,8 +187,8 @@ PlainArgument<T> with(T value) {
   return {std::move(value)};
 }
 
-/// Whether an argument represents variables of a material on a patch, so that a task over several of them gets one view
-/// of each.
+/// Whether an argument represents variables of a material on a patch, so that a task over several materials or patches
+/// gets one view for each.
 template <class Argument>
 inline constexpr bool isOfMaterialAndPatch = false;
 template <data::Centring C, class T, AccessKind Kind>
@@ -234,7 +234,7 @@ inline constexpr bool isWithoutMaterial = false;
 template <class Argument>
 inline constexpr bool isWithoutMaterial<WithoutMaterial<Argument>> = true;
 
-/// Whether an argument only makes sense where a task makes particles, or runs once on a rank.
+/// Whether an argument is allowed only in tasks that make particles, or that run once per rank.
 template <class Argument>
 inline constexpr bool isCreation = false;
 template <class Label>
@@ -251,7 +251,7 @@ auto bindEach(const Contexts& contexts, Bind bind) {
   return views;
 }
 
-/// The value of an argument in a task over all materials: for labels a view of each material.
+/// The value of an argument in a task over all materials: for labels, one view per material.
 template <class Argument>
 decltype(auto) bindAll(const Argument& argument, const TaskContext& context) {
   if constexpr (isOfMaterialAndPatch<Argument>)
@@ -260,7 +260,7 @@ decltype(auto) bindAll(const Argument& argument, const TaskContext& context) {
     return argument.bind(context);
 }
 
-/// The value of an argument in a task over the whole rank: for labels a view of each patch.
+/// The value of an argument in a task over the whole rank: for labels, one view per patch.
 template <class Argument>
 decltype(auto) bindRank(const Argument& argument, const TaskContext& context) {
   if constexpr (isOfMaterialAndPatch<Argument>)

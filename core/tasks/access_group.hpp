@@ -8,7 +8,7 @@
 
 namespace tushar::tasks {
 
-/// Takes the place of a view while a group only declares its accesses.
+/// Stands for a view while a group only declares its accesses.
 template <class View>
 struct Blank {
   static View make() { return View{}; }
@@ -32,7 +32,7 @@ struct Blank<data::GridView<C, T>> {
   static data::GridView<C, T> make() { return {nullptr, grid::Box{}}; }
 };
 
-/// Declares the accesses that a group names, in their order. `makesParticles`: for a task of `newParticles`.
+/// Declares the accesses of a group, in their order. `makesParticles`: for a task of `newParticles`.
 template <bool makesParticles>
 class DeclareEach {
  public:
@@ -89,7 +89,7 @@ class BindEach {
 template <class Group, class... Settings>
 struct GroupArgument {
   std::tuple<Settings...> settings;
-  int first = 0;  ///< place of its first access among those of the task
+  int first = 0;  ///< index of its first access among those of the task
 
   template <bool makesParticles>
   void declareFor(std::vector<Access>& accesses) {
@@ -109,12 +109,11 @@ inline constexpr bool isOfMaterialAndPatch<GroupArgument<Group, Settings...>> = 
 template <class Group, class... Settings>
 struct TotalsArgument : GroupArgument<Group, Settings...> {};
 
-/// Accesses that the body gets as one `Group`: an aggregate of views whose
-/// `static Group from(auto& take, const Settings&... settings)` says by designated initialisers which access each
-/// member is, `.mass = take(requiresOld(p::mass))`. For bodies that touch more than about eight variables. Groups nest:
-/// `.particles = Placed<Shape>::from(take, settings)`. A task that sees several materials or patches gets a
-/// std::vector<Group>.
-/// An access keeps the address of its label, so a label among the settings is passed by pointer.
+/// Accesses that the body gets as one `Group`: an aggregate of views whose `static Group from(auto& take, const
+/// Settings&... settings)` gives each member its access by designated initialisers, `.mass =
+/// take(requiresOld(p::mass))`. For bodies that touch more than about eight variables. Groups nest: `.particles =
+/// Placed<Shape>::from(take, settings)`. A task that sees several materials or patches gets a std::vector<Group>. An
+/// access keeps the address of its label, so a label among the settings is passed by pointer.
 template <class Group, class... Settings>
 GroupArgument<Group, Settings...> all(Settings... settings) {
   static_assert(!(std::is_base_of_v<data::Label, Settings> || ...), "pass a label to all<Group>(...) by pointer");

@@ -53,13 +53,13 @@ std::string textOf(const double* numbers, int count) {
   return count == 1 ? text : "(" + text + ")";
 }
 
-/// The place of a value among all: number of cell or node, and id.
+/// The order of values: by number of cell or node, and by id.
 using Order = std::array<std::uint64_t, 2>;
 
 /// The result of a search through all values of a variable.
 struct Found {
   long seen = 0, broken = 0;
-  Order first{};  ///< of the first broken value
+  Order first{};  ///< place of the first invalid value
   int patch = 0;
   Index3 at;
 
@@ -72,7 +72,7 @@ struct Found {
   }
 };
 
-/// Looks through a variable for broken values, on all patches of all ranks.
+/// Searches a variable for invalid values, on all patches of all ranks.
 class Search {
  public:
   Search(Warehouse& warehouse, const Bounded& written, Bound bound, int ofLevel)
@@ -122,10 +122,10 @@ class Search {
   }
   bool isNode() const { return label_.centring == Centring::node; }
   Box boxOf(const Level& level) const { return isNode() ? level.nodes() : level.cells(); }
-  /// The level of what was found.
+  /// The level of the invalid value.
   const Level& level() const { return grid_.patch(found_.patch).level(); }
 
-  /// Counts a value, and remembers it if it is broken and comes before those seen so far.
+  /// Checks the values at one place; counts the invalid ones, and keeps the first.
   void look(const double* values, const Order& order, int patch, const Index3& at, std::size_t place) {
     ++found_.seen;
     if (holds(bound_, values, static_cast<std::size_t>(label_.components))) return;
@@ -155,7 +155,7 @@ class Search {
     });
   }
 
-  /// The text of the one rank that has one; the others give an empty one. Collective.
+  /// Broadcasts the text of the one rank that passes a text; the others pass an empty one. Collective.
   std::string said(const std::string& mine) const {
     if (warehouse_.ranks().isAlone()) return mine;
     for (const std::string& text : warehouse_.ranks().gather(mine))
@@ -179,7 +179,7 @@ class Search {
                        found_.broken == 1 ? "is" : "are");
   }
 
-  /// The value that the particle had at the start of the step, where it was then; none for one that is new.
+  /// The value of the particle at the start of the step, and its position then; empty for a new particle.
   std::string particleBefore(ParticleId id) const {
     if (!wasHeld()) return "";
     for (const Patch& patch : grid_.patches())
@@ -195,7 +195,7 @@ class Search {
                       place_ * static_cast<std::size_t>(grid_.dimension());
     return fmt::format(" at x = {} m", textOf(x, grid_.dimension()));
   }
-  /// The values in a cell except that of the particle itself, at most four.
+  /// Up to four values in a cell, without that of the particle itself.
   std::string valuesIn(const Index3& cell) const {
     const int patch = grid_.patchOf(cell, level().number()).id();
     if (!grid_.isMine(patch)) return "";
@@ -258,11 +258,11 @@ class Search {
   const Grid& grid_;
   Bounded written_;
   Bound bound_;
-  int of_level_;  ///< -1: any
+  int of_level_;  ///< -1: any level
   const Label& label_;
   int material_;
   Found found_;
-  std::size_t place_ = 0;  ///< in memory, on the rank that has it
+  std::size_t place_ = 0;  ///< place in memory, on the rank that has it
 };
 
 }  // namespace

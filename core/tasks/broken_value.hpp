@@ -8,31 +8,32 @@
 
 namespace tushar::tasks {
 
-/// A variable that a task writes and whose numbers must keep the bound of its label.
+/// A variable that a task writes, and whose numbers must satisfy the bound of its label.
 struct Bounded {
   int variable;
-  data::Generation set;  ///< the particle set that the values follow once the task is done
+  data::Generation set;  ///< the particle set to which the values belong after the task
 };
 
-/// Whether all that a task has written on a patch keeps its bounds.
+/// Whether all values that a task has written on a patch satisfy their bounds.
 bool keepsBounds(data::Warehouse& warehouse, const std::vector<Bounded>& written, const grid::Patch& patch);
 
-/// The place in `written` of the first variable that breaks its bound on some patch of this rank; their number if none
-/// does. With a level only its patches count.
+/// The index in `written` of the first variable that violates its bound on some patch of this rank; the size of
+/// `written` if none does. With a level only its patches count.
 std::size_t firstThatBreaks(data::Warehouse& warehouse, const std::vector<Bounded>& written, int level = -1);
 
-/// A value that breaks its bound, in words.
+/// A value that violates its bound, in words.
 struct BrokenValue {
   std::string label;
   int patch;
-  std::string sentence;  ///< value, bound, particle, cell, position, the value before, those around it, how many broke
+  std::string
+      sentence;  ///< value, bound, particle, cell, position, previous value, values around it, number of invalid values
 };
 
-/// The first value that a task wrote and that breaks its bound, in the order of variables, cells and ids: the same for
-/// any patches and ranks. None if all bounds hold. With a level only its patches count. Collective.
+/// The first value written by a task that violates its bound, in the order of variables, cells and ids, which does not
+/// depend on the layout. None if all bounds hold. With a level only its patches count. Collective.
 std::optional<BrokenValue> firstBroken(data::Warehouse& warehouse, const std::vector<Bounded>& written, int level = -1);
 
-/// The first value of one variable that breaks `bound`, which need not be that of its label.
+/// The first value of one variable that violates `bound`, which need not be the bound of its label.
 std::optional<BrokenValue> firstBroken(data::Warehouse& warehouse, const Bounded& written, data::Bound bound,
                                        int level = -1);
 

@@ -24,7 +24,7 @@ class Connector {
   std::vector<Dependency> take() { return std::move(dependencies_); }
 
  private:
-  /// A change of the particle set moves every particle variable.
+  /// Notes that a task moves every particle variable, as it changes the particle set.
   void touchAllParticles(int task) {
     for (auto& [label, usage] : usages_)
       if (label.starts_with("p.")) write(task, label);

@@ -13,16 +13,16 @@
 
 namespace tushar::tasks {
 
-/// A declared access of a placed task: which variable, and in which slots its particles are.
+/// A declared access of a placed task: its variable, and the set whose slots its particles are in.
 struct BoundAccess {
-  int variable = -1;  ///< -1: an offered output that is left out
+  int variable = -1;  ///< -1 for an offered output that is left out
   data::Generation generation = data::Generation::fresh;
-  data::Generation set = data::Generation::old;  ///< the particle set that the values follow
+  data::Generation set = data::Generation::old;  ///< the particle set to which the values belong
   int ghost = 0;
-  bool own = false;  ///< of nodes: whether only those are used that are the patch's own
+  bool own = false;  ///< for nodes: whether only those owned by the patch are used
 };
 
-/// Everything that a task's body may access on one patch, for one material.
+/// Everything that a task body may access on one patch, for one material.
 class TaskContext {
  public:
   TaskContext(data::Warehouse& warehouse, const grid::Patch& patch, int material,
@@ -34,10 +34,10 @@ class TaskContext {
   double time() const { return time_; }
   int material() const { return material_; }
   ParticleMaker& maker() const { return *maker_; }
-  /// For a task that sees all materials: the same patch for each of them.
+  /// For a task over all materials: the contexts of each material on the patch.
   std::span<const TaskContext> ofMaterials() const { return of_materials_; }
   void setMaterials(std::span<const TaskContext> contexts) { of_materials_ = contexts; }
-  /// For a task that sees the whole rank: each of its patches, in the order of their ids.
+  /// For a task that runs once per rank: the contexts of its patches, in the order of their ids.
   std::span<const TaskContext> ofPatches() const { return of_patches_; }
   void setPatches(std::span<const TaskContext> contexts) { of_patches_ = contexts; }
   /// The ranks that run such a task together.
@@ -55,7 +55,7 @@ class TaskContext {
 
   /// The address of an access's values, of any type.
   data::Variable variable(int access) const;
-  /// Where the patch meets other levels.
+  /// The faces at which the patch meets other levels.
   const std::vector<grid::RimPiece>& rims() const { return warehouse_->grid().rims(patch_->id()); }
   /// The cells of the patch that regridding has just made from coarser ones.
   const std::vector<grid::Box>& newCells() const { return warehouse_->grid().newCells(patch_->id()); }
@@ -70,12 +70,12 @@ class TaskContext {
     return {reinterpret_cast<T*>(place.values), place.stored, place.used, &label};
   }
 
-  /// The values of a reduction so far.
+  /// The current value of a reduction.
   template <class R>
   const R& reduction(int access) const {
     return warehouse_->reduction<R>((*accesses_)[access].variable);
   }
-  /// The part that the patch adds to the reduction.
+  /// The contribution of the patch to the reduction.
   template <class R>
   R& partOfReduction(int access) const {
     return warehouse_->partOfReduction<R>((*accesses_)[access].variable, patch_->id());
@@ -87,7 +87,7 @@ class TaskContext {
   }
 
  private:
-  /// The parts of a view of particles, and of nodes or cells, which do not depend on the type of the values.
+  /// The parts of a view that do not depend on the type of its values, for particles and for nodes or cells.
   struct ParticlePlace {
     std::byte* values;
     const data::ParticleSet* set;

@@ -15,7 +15,7 @@ using mpi::Bytes;
 
 namespace {
 
-/// Moves positions to the image where they are ghosts.
+/// Shifts positions of ghosts to their periodic image.
 void shiftPositions(const grid::Level& level, const Index3& shift, double* x, int count) {
   const int dimension = level.dimension();
   for (int d = 0; d < dimension; ++d) {
@@ -56,7 +56,7 @@ void Exchange::begin(bool hasStopped) {
   fillFromHere();
 }
 
-/// Runs before the exchange settles ghosts, as the nodes were computed without these ghosts.
+/// Finds the nodes near particles. Runs before the exchange resolves ghosts, as the nodes were computed without these.
 void Exchange::settleNear() {
   for (const BoundGhostFill& fill : fills_)
     if (isNear(fill)) near_.settle(fill.set, warehouse_->table()[fill.variable].material);
@@ -97,7 +97,7 @@ void Exchange::forEach(const Work& work) {
   threads_->forEach(static_cast<int>(patches.size()), workOn, trace::Kind::message);
 }
 
-/// Ghosts of patches of this rank are settled by all patches at once; copies then get their places one after the other.
+/// Fills ghosts from this rank. All patches resolve theirs at once; copies then get their places one after the other.
 void Exchange::fillFromHere() {
   for (std::size_t k = 0; k < fills_.size(); ++k)
     if (resolves_[k]) linkLocalGhosts(fills_[k]);
@@ -117,7 +117,8 @@ void Exchange::fillFromHere() {
   });
 }
 
-/// All patches of all ranks have settled a set, or none: sets that a stopped graph has settled are discarded.
+/// Notes which sets are unresolved. A set is resolved on all patches of all ranks or on none, so sets resolved by a
+/// stopped graph are discarded.
 void Exchange::noteUnresolved() {
   resolves_.assign(fills_.size(), false);
   std::set<std::pair<Generation, int>> settled;
@@ -173,7 +174,7 @@ void Exchange::copyNear(const BoundGhostFill& fill, const GhostCopy& copy) {
   });
 }
 
-/// Where a copy goes: to the patch, or to the faces of its rim for the values behind them.
+/// The destination of a copy: the patch, or the faces of its rim, for the values behind them.
 CellValues Exchange::valuesAt(const BoundGhostFill& fill, const GhostCopy& copy) {
   const Variable to = warehouse_->variable(fill.generation, fill.variable, copy.to);
   if (copy.rim < 0) return {to.values, to.stored};
@@ -200,8 +201,8 @@ void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, con
   });
 }
 
-/// Ghosts in coarser cells, once these are complete. If there are messages, all ghosts that the patch gets from other
-/// ranks.
+/// Fills ghosts in coarser cells, once these are complete. If there are messages, all ghosts that the patch gets from
+/// other ranks.
 void Exchange::fillFromCoarser(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages) {
   const GhostPlan& plan = planOf(fill);
   const data::Label& label = *warehouse_->table()[fill.variable].label;
@@ -248,7 +249,7 @@ void Exchange::shareFaces(int variable, Generation set) {
   });
 }
 
-/// The sets of all patches have the particles around them that other patches of this rank have.
+/// Links the sets of all patches to the particles around them that other patches of this rank have.
 void Exchange::linkLocalGhosts(const BoundGhostFill& fill) {
   const int material = warehouse_->table()[fill.variable].material;
   const std::vector<Patch>& patches = warehouse_->grid().patches();
@@ -270,7 +271,7 @@ void Exchange::linkLocalGhosts(const BoundGhostFill& fill) {
   threads_->forEach(static_cast<int>(patches.size()), link, trace::Kind::message);
 }
 
-/// Copies of ghosts have their places: of periodic images on this rank, or of what other ranks have sent.
+/// Gives places to copies of ghosts: of periodic images on this rank, and of particles from other ranks.
 void Exchange::placeGhostCopies(const BoundGhostFill& fill, ReceivedMessages* messages) {
   if (!messages && !warehouse_->grid().level().isPeriodic()) return;
   const int material = warehouse_->table()[fill.variable].material;
@@ -297,7 +298,7 @@ void Exchange::reserveCopies(const BoundGhostFill& fill) {
   warehouse_->reserveCopies(fill.generation, fill.variable, fill.set);
 }
 
-/// The copies that a patch has of particles of this rank, or of others from their messages.
+/// Fills a patch's copies of particles: from this rank, or from the messages of others.
 void Exchange::fillCopies(const BoundGhostFill& fill, const Patch& patch, ReceivedMessages* messages) {
   const auto [label, material] = warehouse_->table()[fill.variable];
   const std::vector<data::GhostRun>& runs = warehouse_->particles(fill.set, material, patch.id()).ghostRuns();

@@ -25,9 +25,8 @@ class Exchange {
   Exchange(data::Warehouse& warehouse, Threads& threads)
       : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()), near_(warehouse, threads) {}
 
-  /// Fills the ghosts of node and cell variables, and of particle variables, in three parts; which particles are ghosts
-  /// is determined on first use of their set. All ranks run them for the same fills in the same order, all three of one
-  /// before the next.
+  /// Fills the ghosts of variables in three parts; which particles are ghosts is determined on first use of their set.
+  /// All ranks run them for the same fills in the same order, all three of one before the next.
   ///
   /// From now on only patches of a level get ghosts, from coarser cells as they are at a part of their step; -1: those
   /// of all levels, from old values.
@@ -37,19 +36,19 @@ class Exchange {
   }
   /// Posts messages. A rank on which a task failed says so in place of its values (`hasStopped`).
   void send(std::span<const BoundGhostFill> fills, bool hasStopped);
-  /// Fills the ghosts that need no message from other ranks, unless a task has failed.
+  /// Sends messages, and fills the ghosts that need none from other ranks, unless a task has failed.
   void begin(bool hasStopped);
-  /// Waits for the messages of others and fills the rest. False if another rank has stopped; then
+  /// Waits for the messages of other ranks, and fills the remaining ghosts. False if another rank has stopped; then
   /// nothing more is filled, and this rank must stop too, before it reads values that are missing.
   bool finish();
-  /// Whether no patch has ghosts at all: then there is nothing to send, to begin or to finish.
+  /// Whether no patch has ghosts at all, so that there is nothing to exchange.
   bool movesNothing() const;
-  /// Between the two calls above: whether there are messages to wait for.
+  /// Between begin and finish: whether there are messages to wait for.
   bool isUnderWay() const { return !senders_.empty(); }
-  /// Between the two calls above: whether the patch at this place of the rank has all its ghosts.
+  /// Between begin and finish: whether the patch with this index on the rank has all its ghosts.
   bool isReady(std::size_t place);
-  /// Copies the new values of a node variable between patches of this rank, from owners to those that share the node;
-  /// `set` are the particles near which they count, if so.
+  /// Copies the new values of a node variable between patches of this rank, from owners to patches that share the node;
+  /// `set` contains the particles near which the values are defined, if this matters.
   void shareFaces(int variable, data::Generation set);
   /// To be called when a list begins, and after tasks that change particles.
   void forgetParticles() { near_.forget(); }
@@ -70,7 +69,7 @@ class Exchange {
   CellValues valuesAt(const BoundGhostFill& fill, const GhostCopy& copy);
   void copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, const CellValues& to);
   void fillFromCoarser(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages);
-  /// Whether patches give one another only rows of nodes near particles.
+  /// Whether patches exchange only rows of nodes near particles.
   bool isNear(const BoundGhostFill& fill) const {
     return fill.generation == data::Generation::fresh && near_.concern(fill.variable);
   }
@@ -84,7 +83,7 @@ class Exchange {
   void fillCopies(const BoundGhostFill& fill, const grid::Patch& patch, ReceivedMessages* messages);
   bool isHere(const GhostCopy& copy) const { return copy.rank == warehouse_->ranks().rank(); }
   void noteUnresolved();
-  /// Calls `work(fill, patch, its place)` on several threads at once.
+  /// Calls `work(fill, patch, its index)` on several threads at once.
   template <class Work>
   void forEach(const Work& work);
   const GhostPlan& planOf(const BoundGhostFill& fill) {
@@ -98,14 +97,14 @@ class Exchange {
   mpi::Outbox outbox_;
   NearRows near_;
   GhostPlans plans_;
-  std::vector<std::vector<GhostCopy>> faces_;  ///< by place of the patch on this rank; settled on first use
+  std::vector<std::vector<GhostCopy>> faces_;  ///< by index of the patch on this rank; planned on first use
   int level_ = -1;
   double part_ = 0;
   // The exchange that was sent:
   std::span<const BoundGhostFill> fills_;
   bool has_stopped_ = false;
   std::set<int> senders_;       ///< ranks whose messages are awaited
-  std::vector<bool> resolves_;  ///< by fill: whether it resolves which particles are ghosts
+  std::vector<bool> resolves_;  ///< by fill: whether it determines which particles are ghosts
 };
 
 }  // namespace tushar::tasks

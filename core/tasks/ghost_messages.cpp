@@ -12,7 +12,7 @@ using data::Variable;
 
 namespace {
 
-/// A row of nodes or the particles of a cell in a message: where they are, and how many.
+/// A row of nodes, or the particles of a cell, in a message: their place and number.
 struct PackedRun {
   Index3 first;
   std::int32_t count;
@@ -27,7 +27,7 @@ void writeMeans(const grid::Grid& grid, const data::Label& label, const GhostCop
   restrictTo(label, grid.dimension(), box, {from.values, from.stored}, {to, box});
 }
 
-/// Writes old + part (new - old) of the cells of a copy; both generations have the same ghosts.
+/// Writes old + part (new - old) for the cells of a copy; both generations have the same ghosts.
 void writeBetween(const data::Label& label, const GhostCopy& copy, const Variable& before, const Variable& after,
                   double part, double* to) {
   const std::size_t components = label.components;

@@ -16,7 +16,7 @@ namespace tushar::tasks {
 struct BoundGhostFill {
   int variable;
   data::Generation generation;
-  data::Generation set;  ///< the particles that values follow, or that nodes are near to
+  data::Generation set;  ///< the particle set to which the values belong, or near which nodes are
   bool particles;
 };
 
@@ -33,8 +33,8 @@ std::byte* valueAt(const Values& values, const Index3& place, std::size_t bytes)
   return values.values + values.stored.offset(place) * bytes;
 }
 
-/// Computes the values of a copy, one after the other, if they differ from those that `copy.from` has: means of finer
-/// ones; or coarser ones at a part of their step, old + part (new - old), which real numbers are between old and new.
+/// Computes the values of a copy, one after the other, unless they are those of `copy.from`: means of finer cells, or
+/// values of coarser cells within their step, old + part (new - old), which lie between old and new for real numbers.
 /// Whether they are.
 bool computeValues(data::Warehouse& warehouse, const BoundGhostFill& fill, const GhostCopy& copy, double part,
                    mpi::Bytes& values);
@@ -42,14 +42,14 @@ bool computeValues(data::Warehouse& warehouse, const BoundGhostFill& fill, const
 /// Appends to a message the values that another rank receives for one ghost fill.
 class Packer {
  public:
-  /// `part` of the step of coarser cells that is over.
+  /// `part` is the elapsed fraction of the step of coarser cells.
   Packer(data::Warehouse& warehouse, const BoundGhostFill& fill, double part, mpi::Bytes& message)
       : warehouse_(warehouse), fill_(fill), name_(warehouse.table()[fill.variable]), part_(part), message_(message) {}
 
   void addGrid(const GhostCopy& copy);
-  /// For nodes, only rows near particles: how many, and the place, length and values of each.
+  /// Packs only rows of nodes near particles: their number, and the place, length and values of each.
   void addNear(const GhostCopy& copy, const data::TouchedRows& rows);
-  /// The number of particles of each cell that has any: how many cells, and the place and number of each.
+  /// Packs the numbers of particles: how many cells have any, and the place and number for each.
   void addCounts(const GhostCopy& copy);
   void addParticles(const GhostCopy& copy);
 
@@ -65,17 +65,17 @@ class Packer {
   mpi::Bytes& message_;
 };
 
-/// The messages of the other ranks, read from front to back.
+/// The messages of other ranks, which are read from front to back.
 class ReceivedMessages {
  public:
   void add(int from, mpi::Bytes bytes) { messages_[from] = {std::move(bytes), 0}; }
   /// The next `length` bytes of the message from a rank.
   const std::byte* next(int from, std::size_t length);
-  /// The cells that addCounts has packed, with the places of their particles among those of the copy.
+  /// The cells packed by addCounts, with the places of their particles among those of the copy.
   std::vector<std::pair<Index3, data::ParticleRange>> takeCounts(const GhostCopy& copy);
-  /// Whether a rank says that it has stopped.
+  /// Whether a rank has stopped, according to its message.
   bool readStopped(int from) { return *next(from, 1) != std::byte{0}; }
-  /// Copies the values that addGrid or addNear has packed, of `bytes` bytes each, to their places.
+  /// Copies the values packed by addGrid or addNear, of `bytes` bytes each, to their places.
   void takeGrid(const GhostCopy& copy, std::size_t bytes, const CellValues& to);
   void takeNear(const GhostCopy& copy, std::size_t bytes, const CellValues& to);
 

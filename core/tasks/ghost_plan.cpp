@@ -23,8 +23,8 @@ void forEachPartOutside(Box box, const Box& hole, Visit&& visit) {
   }
 }
 
-/// The nodes that others take from a patch: a node between patches from the one above. On an image the last node of a
-/// periodic axis is left to the next image.
+/// The nodes that other patches take from a patch: a node between patches comes from the upper one. On an image the
+/// last node of a periodic axis is left to the next image.
 Box nodesGiven(const Patch& patch, const Index3& shift) {
   const Level& level = patch.level();
   Box nodes = patch.nodes();
@@ -35,7 +35,7 @@ Box nodesGiven(const Patch& patch, const Index3& shift) {
   return nodes;
 }
 
-/// How far from a patch, in its cells, the values lie that it exchanges with others for ghosts of a width. Where there
+/// The largest distance from a patch, in its cells, of the values that it exchanges for ghosts of a width. Where there
 /// are levels: twice the width for a coarser neighbour, and two coarse cells for slopes.
 int neighbourhoodOf(const Grid& grid, const GhostReach& reach) {
   if (grid.levels() > 1) return 2 * reach.width + 4;
@@ -68,7 +68,7 @@ class PlannerOfPatch {
     copies.push_back({from.id(), patch_.id(), grid_.ownerOf(from.id()), box, shift, isMean, coarseCells});
   }
 
-  /// Means of the fluxes of finer patches.
+  /// Adds copies of the mean fluxes of finer patches.
   void addFinerFluxes() {
     const std::vector<grid::RimPiece> pieces = grid::rimsOf(grid_, patch_);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -97,7 +97,7 @@ class PlannerOfPatch {
         });
   }
 
-  /// Cells of a box of a level, except for those of a hole, that are refined.
+  /// Adds copies of means, for the refined cells in a box of a level, except for those in a hole.
   void addMeans(const Level& level, const Box& wanted, const Box& hole, int coarseCells) {
     if (level.number() + 1 == grid_.levels()) return;
     const int dimension = level.dimension();
@@ -110,7 +110,7 @@ class PlannerOfPatch {
         });
   }
 
-  /// Ghosts in coarser cells, and what these and their neighbours are made from.
+  /// Adds ghosts in coarser cells, and copies of these cells and their neighbours.
   void addCoarse() {
     if (level_.number() == 0) return;
     const Level& below = grid_.level(level_.number() - 1);
@@ -170,7 +170,7 @@ class Planner {
 
  private:
   bool needs(const Patch& patch) const { return reach_.level < 0 || reach_.level == patch.level().number(); }
-  /// Patches of other ranks that may need something of this one.
+  /// Notes the patches of other ranks that may need values from this patch.
   void noteReaders(const Patch& patch, std::set<int>& readers) const {
     const Level& level = patch.level();
     const Box near = patch.cellsWithin(neighbourhoodOf(grid_, reach_));

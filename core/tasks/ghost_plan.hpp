@@ -11,22 +11,22 @@
 
 namespace tushar::tasks {
 
-/// Ghosts of a patch that one other patch has, or the patch itself at its periodic image.
+/// Ghosts of a patch that come from one other patch, or from the patch itself at its periodic image.
 struct GhostCopy {
   int from, to;            ///< patches
-  int rank;                ///< that has `from`
+  int rank;                ///< rank that has `from`
   grid::Box box;           ///< cells or nodes around `to`
-  Index3 shift;            ///< in cells: the values of `box` are at `box` - shift on `from`
-  bool isMean = false;     ///< each cell is the mean of the finer ones that `from` has in it
-  int coarse = -1;         ///< the coarse cells that it fills, among those of `to`; -1: the ghosts themselves
-  int rim = -1;            ///< of fluxes: the piece of the rim of `to` that it fills
-  int axis = 0, side = 0;  ///< of that piece
+  Index3 shift;            ///< shift in cells: the values for `box` are at `box` - shift on `from`
+  bool isMean = false;     ///< whether each value is the mean of finer cells on `from`
+  int coarse = -1;         ///< index of the coarse cells that it fills, among those of `to`; -1: it fills ghosts
+  int rim = -1;            ///< for fluxes: the piece of the rim of `to` that it fills
+  int axis = 0, side = 0;  ///< axis and side of that piece
 };
 
-/// Ghosts of a patch that lie in coarser cells: they are interpolated from these and those around them.
+/// Ghosts of a patch that lie in coarser cells: they are interpolated from these and their neighbours.
 struct CoarseGhosts {
-  grid::Box ghosts;  ///< cells of the patch's level
-  grid::Box cells;   ///< of the coarser level
+  grid::Box ghosts;  ///< the ghosts, as cells of the patch's level
+  grid::Box cells;   ///< cells of the coarser level
 };
 
 /// The copies and messages between patches that fill ghosts, planned once for a layout. Every rank works out its part
@@ -37,28 +37,28 @@ struct GhostPlan {
   std::vector<std::vector<GhostCopy>> into;        ///< by patch of this rank
   std::vector<std::vector<CoarseGhosts>> coarse;   ///< by patch of this rank
   std::vector<bool> isLocal;                       ///< by patch of this rank: whether it needs no other rank
-  std::map<int, std::vector<GhostCopy>> outgoing;  ///< by rank that they go to
-  std::set<int> incoming;                          ///< ranks that others come from
+  std::map<int, std::vector<GhostCopy>> outgoing;  ///< by destination rank
+  std::set<int> incoming;                          ///< ranks from which copies come
 };
 
 /// The ghosts that a patch needs. Particles and nodes come from patches of the same level only.
 struct GhostReach {
   data::Centring centring;
   int width;
-  int level = -1;  ///< only patches of this level need them; -1: those of all levels
+  int level = -1;  ///< the only level whose patches need them; -1: all levels
 
   friend auto operator<=>(const GhostReach&, const GhostReach&) = default;
 };
 
-/// How many cells a block of a grid of several levels must have along each axis, so that ghosts of a width lie in
-/// blocks of the next levels: those in finer cells within half a block of this level, those in coarser ones and the
-/// cells that their slopes are taken from within half a block of the coarser level.
+/// The number of cells that a block needs along each axis on several levels, so that ghosts of a width lie in blocks of
+/// the next levels: ghosts in finer cells within half a block of this level; ghosts in coarser cells, and the cells for
+/// their slopes, within half a block of the coarser level.
 constexpr int fewestCellsOfBlock(int width) { return 2 * std::max(width, (width + 1) / 2 + 1); }
 
 /// Each ghost comes from one patch, or from the coarser cells around it.
 GhostPlan planGhosts(const grid::Grid& grid, const GhostReach& reach);
 
-/// Nodes that patches of this rank have and do not own, by patch: each from one that does.
+/// By patch of this rank, copies of the nodes that it has but does not own, from their owners.
 std::vector<std::vector<GhostCopy>> planFaces(const grid::Grid& grid);
 
 /// The plans of a layout, each made when it is first needed.

@@ -6,20 +6,20 @@
 
 namespace tushar::tasks {
 
-/// Marks of cells: 0 for nothing, 1 for no coarser cells, 2 for finer ones.
+/// Marks of cells: 0: none, 1: do not coarsen, 2: refine.
 inline constexpr data::CellLabel<int> refinementMark{"c.refinementMark", "1", "marks of the refinement criteria"};
 
-/// Marks where the cells of a patch must be finer. If several criteria mark a cell, the finest counts.
+/// Sets the refinement marks of a patch. If several criteria mark a cell, the finest counts.
 class Marks {
  public:
   explicit Marks(const data::CellView<int>& marks) : marks_(marks) {}
 
-  /// Finer cells are needed here.
+  /// Marks a cell to be refined.
   template <int D>
   void refine(const Index<D>& cell) const {
     marks_[cell] = 2;
   }
-  /// No coarser cells here.
+  /// Marks a cell that must not be coarsened.
   template <int D>
   void keep(const Index<D>& cell) const {
     marks_[cell] = std::max(marks_[cell], 1);

@@ -20,7 +20,8 @@ void NearRows::settle(data::Generation set, int material) {
       trace::Kind::message);
 }
 
-/// Whatever reads particles `reach` cells beyond the patch touches nodes reach - 1 beyond those of their cells.
+/// Rows of nodes near particles. A task that reads particles `reach` cells beyond the patch touches nodes up to reach -
+/// 1 beyond those of their cells.
 const data::TouchedRows& NearRows::rowsOf(data::Generation set, int material, const grid::Patch& patch,
                                           data::TouchedRows& whole) const {
   const data::ParticleSet& particles = warehouse_->particles(set, material, patch.id());

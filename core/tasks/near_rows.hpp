@@ -10,8 +10,8 @@
 
 namespace tushar::tasks {
 
-/// Which nodes of the patches of this rank are near particles: of variables that count only there
-/// (data::Counts::nearParticles), patches exchange no others.
+/// The nodes of this rank's patches that are near particles: patches exchange no others of variables that are defined
+/// only there (data::Counts::nearParticles).
 ///
 /// A patch that computes a node sees all particles that touch it, so it alone can decide whether any does. Where ghosts
 /// of particles are not settled, all nodes count as near.
@@ -19,32 +19,32 @@ class NearRows {
  public:
   NearRows(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}
 
-  /// Whether patches give one another only some nodes of a new variable.
+  /// Whether patches exchange only some nodes of a new variable.
   bool concern(int variable) const {
     const auto [label, material] = warehouse_->table()[variable];
     return label->counts == data::Counts::nearParticles && material >= 0;
   }
   /// Finds the rows of all patches for the particles of a material, unless that has been done.
   void settle(data::Generation set, int material);
-  /// The rows of a patch, once they are settled.
+  /// The rows of a patch, once they have been found.
   const data::TouchedRows& of(data::Generation set, int material, int patch) const {
     return *rows_.at({set, material})[patch - warehouse_->grid().firstPatch()];
   }
-  /// To be called when there are other particles, or when they have moved.
+  /// To be called when particles have been replaced or have moved.
   void forget() {
     rows_.clear();
     whole_.clear();
   }
 
  private:
-  /// Those that the set of particles has, or `whole`.
+  /// The rows of the particle set, or `whole`.
   const data::TouchedRows& rowsOf(data::Generation set, int material, const grid::Patch& patch,
                                   data::TouchedRows& whole) const;
 
   data::Warehouse* warehouse_;
   Threads* threads_;
-  std::map<std::pair<data::Generation, int>, std::vector<const data::TouchedRows*>> rows_;  ///< by place of the patch
-  std::vector<data::TouchedRows> whole_;  ///< all nodes of a patch, by its place, where that was needed
+  std::map<std::pair<data::Generation, int>, std::vector<const data::TouchedRows*>> rows_;  ///< by index of the patch
+  std::vector<data::TouchedRows> whole_;  ///< all nodes of a patch, by its index, if needed
 };
 
 }  // namespace tushar::tasks

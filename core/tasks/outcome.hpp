@@ -20,13 +20,13 @@ struct Outcome {
   enum class Kind { shortensStep, throws, breaks };
   static constexpr int none = std::numeric_limits<int>::max();
 
-  int task = none;  ///< place in the graph
+  int task = none;  ///< index of the task in the graph
   Kind kind = Kind::shortensStep;
   int material = 0;
-  std::uint64_t place = 0;  ///< cell, or place of the variable
+  std::uint64_t place = 0;  ///< cell, or index of the variable
   int rank = 0;
-  data::Minimum factor{};  ///< of the time step, where it is to be shortened
-  data::Reason value{};    ///< the offending value, or the task
+  data::Minimum factor{};  ///< factor by which to shorten the time step
+  data::Reason value{};    ///< the invalid value, or the task
 
   bool isNone() const { return task == none; }
   void merge(const Outcome& other);

@@ -8,23 +8,23 @@
 
 namespace tushar::tasks {
 
-/// Makes what a task has gathered on all patches of a rank the new particles of a material.
+/// Installs the particles that a task has made on all patches of a rank as those of a material.
 class ParticleInstaller {
  public:
   using Work = std::function<void(const grid::Patch&, ParticleMaker&)>;
-  /// Does work on all patches, perhaps several at once.
+  /// Runs work on all patches, possibly on several at once.
   using OnPatches = std::function<void(const Work&)>;
 
   ParticleInstaller(data::Warehouse& warehouse, int material, const std::vector<ParticleMaker>& makers);
 
-  /// First: installs the particle sets, which then have slots.
+  /// First, installs the particle sets, which then have slots.
   void makeSets(const OnPatches& onPatches);
-  /// Next, installs the values of a created label, and drops those of a label that nothing reads.
+  /// Then installs the values of a created label, or drops those of a label that nothing reads.
   void write(int number, std::size_t access, bool isRead, const OnPatches& onPatches);
   void writeIds(const OnPatches& onPatches);
 
  private:
-  /// Calls `writeOne(maker, where its values go)` for the patches that have new particles; the others keep their
+  /// Calls `writeOne(maker, destination of its values)` for the patches with new particles; the others keep their
   /// values.
   template <class WriteOne>
   void writeEach(int number, const OnPatches& onPatches, const WriteOne& writeOne);
@@ -34,7 +34,7 @@ class ParticleInstaller {
 
   data::Warehouse* warehouse_;
   int material_;
-  bool keeps_all_;  ///< on all patches
+  bool keeps_all_;  ///< whether all patches keep their particles
 };
 
 }  // namespace tushar::tasks

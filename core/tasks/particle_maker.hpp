@@ -27,7 +27,7 @@ class ParticleMaker {
  public:
   explicit ParticleMaker(std::size_t accesses) : columns_(accesses) {}
 
-  /// Announces a particle in a cell of the patch; each created label then needs one more value.
+  /// Adds a particle in a cell of the patch; each created label then needs one more value.
   template <int D>
   void add(const Index<D>& cell, ParticleId id) {
     Index3 wide;
@@ -36,7 +36,7 @@ class ParticleMaker {
     ids_.push_back(id);
   }
 
-  /// Leaves the particles of the patch as they are; nothing else may have been added.
+  /// Keeps the particles of the patch unchanged; no particle may have been added.
   void keepAll() { keeps_all_ = true; }
 
   /// The values of a created label.
@@ -53,11 +53,11 @@ class ParticleMaker {
   void makeSet(data::ParticleSet& set, const grid::Patch& patch, int reach);
   /// Whether there are values of a created label.
   bool creates(std::size_t access) const { return columns_[access] != nullptr; }
-  /// Writes the values of a created label in the order of the set, and forgets them.
-  /// Throws data::AccessError for a column of another length.
+  /// Writes the values of a created label in the order of the set, and discards them. Throws data::AccessError for a
+  /// column of another length.
   void write(std::size_t access, const data::Label& label, std::byte* to);
   void writeIds(ParticleId* to) const;
-  /// Discards the values of a label that nothing reads, once they are counted.
+  /// Checks the number of values of a label that nothing reads, and discards them.
   void drop(std::size_t access, const data::Label& label);
 
  private:
@@ -67,7 +67,7 @@ class ParticleMaker {
   bool keeps_all_ = false;
   std::vector<Index3> cells_;
   std::vector<ParticleId> ids_;
-  std::vector<std::size_t> order_;                    ///< by place in the set: place among those that were made
+  std::vector<std::size_t> order_;  ///< for each place in the set, the index among the added particles
   std::vector<std::unique_ptr<ColumnBase>> columns_;  ///< by access
 };
 

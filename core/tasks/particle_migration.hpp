@@ -8,26 +8,26 @@
 
 namespace tushar::tasks {
 
-/// A particle variable that outlives a relocation, and where its values are before.
+/// A particle variable that outlives a relocation, and the generation of its values before it.
 struct Carried {
   int variable;
   data::Generation from;
 };
 
-/// A particle that goes to another rank.
+/// A particle that migrates to another rank.
 struct MigratingParticle {
   ParticleId id;
-  Index3 cell;       ///< where it comes
-  int patch, place;  ///< where it was
+  Index3 cell;       ///< its new cell
+  int patch, place;  ///< its previous patch and place
 };
 
-/// Takes particles from rank to rank with all their values: one message to each neighbour.
+/// Migrates particles between ranks with all their values, in one message to each neighbour.
 ///
 /// A particle may go to any cell of the grid. Ranks expect messages from their neighbours only; where some particle
 /// goes farther, which all ranks agree on before, they expect one from every rank.
 class ParticleMigration {
  public:
-  /// Ranks with patches within this distance, in cells, are neighbours: few particles go farther in a step.
+  /// Ranks with patches within this distance, in cells, are neighbours; few particles travel farther in a step.
   static constexpr int neighbourhood = 2;
 
   explicit ParticleMigration(data::Warehouse& warehouse) : warehouse_(&warehouse), outbox_(warehouse.ranks()) {}
@@ -37,15 +37,15 @@ class ParticleMigration {
   /// Starts a relocation: no particle leaves yet.
   void start();
   void add(int rank, const MigratingParticle& particle) { leaving_[rank].push_back(particle); }
-  /// Whether a particle goes to a rank that is no neighbour.
+  /// Whether a particle migrates to a rank that is not a neighbour.
   bool goesFar();
 
-  /// Sends those that leave and takes in those that come, with all values that are carried; in exchange with all
-  /// ranks or, if `goFar` is false, with the neighbours.
+  /// Exchanges migrating particles and all their carried values with all ranks or, if `goFar` is false, with the
+  /// neighbours only.
   void run(const std::vector<Carried>& carried, bool goFar);
   /// The particles that have arrived.
   const std::vector<MigratingParticle>& arrived() const { return arrived_; }
-  /// Their values of a carried variable, one after the other.
+  /// The values of a carried variable for the arrived particles, one after the other.
   const std::byte* values(std::size_t carried) const { return values_[carried].data(); }
 
  private:

@@ -21,8 +21,8 @@ using mpi::Bytes;
 
 namespace {
 
-/// Writes the values of patches: the particles of all by cell, then each variable, behind a byte that says whether
-/// there is one.
+/// Packs the values of patches: the particles of all patches by cell, then each variable, preceded by a byte that tells
+/// whether it has values.
 class PatchPacker {
  public:
   PatchPacker(data::Warehouse& warehouse, const MigratedVariables& migrated)
@@ -67,7 +67,7 @@ class PatchPacker {
   const MigratedVariables& migrated_;
 };
 
-/// Reads what a PatchPacker has written.
+/// Reads the output of a PatchPacker.
 class Unpacker {
  public:
   Unpacker(data::Warehouse& warehouse, const MigratedVariables& migrated, std::vector<Patch> patches, Bytes message)
@@ -81,7 +81,7 @@ class Unpacker {
     for (const Patch& patch : patches_)
       for (int material = 0; material < migrated_.materials; ++material) takeSet(patch, material);
   }
-  /// Once the particles of all patches of the rank have slots.
+  /// Reads the variables, once the particles of all patches of the rank have slots.
   void takeVariables() {
     for (const Patch& patch : patches_)
       for (const int number : migrated_.variables) takeVariable(patch, number);

@@ -4,8 +4,7 @@
 
 namespace tushar::tasks {
 
-/// The variables that a patch takes along from rank to rank: the particles of the materials, and the old values of
-/// variables.
+/// The variables that migrate with a patch: the particles of the materials, and the old values of variables.
 struct MigratedVariables {
   int materials = 0;
   std::vector<int> variables;

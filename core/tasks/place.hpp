@@ -16,7 +16,7 @@ struct Placement {
   friend bool operator==(const Placement&, const Placement&) = default;
 };
 
-/// Step 4 of compiling: which task runs where, in the order in which they run: task by task, material by material,
+/// Step 4 of compiling: the placements of all tasks in the order in which they run: task by task, material by material,
 /// patch by patch.
 std::vector<Placement> place(const std::vector<Task>& tasks, const grid::Grid& grid);
 

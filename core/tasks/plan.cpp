@@ -19,7 +19,7 @@ std::vector<Generation> particleSetsBefore(const std::vector<Task>& tasks) {
 
 namespace {
 
-/// A need for ghosts: they are complete once task `ready` is done (-1: from the start), and first read by `reader`.
+/// Required ghosts: their values are complete after task `ready` (-1: from the start), and first read by `reader`.
 struct Need {
   GhostFill fill;
   int ready;
@@ -62,7 +62,7 @@ class Needs {
 
   std::vector<Generation> sets_;
   std::map<std::string, int, std::less<>> last_write_;
-  std::map<std::string, Generation, std::less<>> made_near_;  ///< the particles that nodes were computed from
+  std::map<std::string, Generation, std::less<>> made_near_;  ///< the particle set from which nodes were computed
   int last_change_of_set_ = -1;
   std::vector<Need> needs_;
 };

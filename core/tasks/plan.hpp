@@ -8,23 +8,24 @@
 
 namespace tushar::tasks {
 
-/// The ghosts of a variable are to be filled: on every patch, from the patches that own them.
+/// A ghost exchange for one variable: its ghosts on every patch are filled from the patches that own them.
 struct GhostFill {
   const data::Label* label;
-  data::Generation generation;  ///< of the values
-  data::Generation set;         ///< of the particle set that the values follow, or that nodes were computed from
+  data::Generation generation;  ///< generation of the values
+  data::Generation
+      set;  ///< generation of the particle set to which the values belong, or from which nodes were computed
   bool perMaterial;
 
   friend bool operator==(const GhostFill&, const GhostFill&) = default;
 };
 
-/// The transfers between patches before a task runs. All of it goes in one message per pair of patches' owners.
+/// The ghost exchanges before a task. All of it goes in one message per pair of patches' owners.
 struct Stage {
   std::vector<GhostFill> fills;
-  int ready = -1;  ///< the task after which all of it may be sent, which no earlier stage is read after; -1: at once
+  int ready = -1;  ///< the task after which it may be sent: all values exist, and earlier stages are read; -1: at once
 };
 
-/// The slots of the particles of an access: the old set until the list relocates or makes particles, then the new.
+/// The particle set of each access: the old one until the list relocates or makes particles, then the new one.
 std::vector<data::Generation> particleSetsBefore(const std::vector<Task>& tasks);
 
 /// Step 5 of compiling: `plan[t]` is what is exchanged before task t.

@@ -18,8 +18,8 @@ bool isNeeded(const Task& task, const Names& live) {
                      [&](const Access& access) { return access.writes() && live.contains(access.label->name); });
 }
 
-/// The variables that are live before a kept task, from those that are live after it. Every task adds its part to a
-/// reduction.
+/// Turns the variables that are live after a kept task into those that are live before it. Every task adds its part to
+/// a reduction.
 void stepBack(const Task& task, Names& live) {
   for (const Access& access : task.accesses)
     if ((access.kind == AccessKind::computes || access.kind == AccessKind::creates) &&
@@ -31,7 +31,7 @@ void stepBack(const Task& task, Names& live) {
 
 struct Sweep {
   std::vector<bool> kept;
-  std::vector<Names> liveAfter;  ///< of every task
+  std::vector<Names> liveAfter;  ///< for every task
 };
 
 Sweep sweep(const std::vector<Task>& tasks, Names live) {
@@ -64,7 +64,7 @@ void leaveOutOffers(Task& task, const Names& liveAfter) {
     if (access.offered && !liveAfter.contains(access.label->name)) access.kind = AccessKind::leftOut;
 }
 
-/// Particle variables that the list itself does not compute before it relocates, but needs afterwards.
+/// Particle variables that the list does not compute before it relocates, but needs afterwards.
 Names carriedFromState(const std::vector<Task>& tasks, const Sweep& swept) {
   Names carried, produced;
   for (std::size_t t = 0; t < tasks.size(); ++t) {

@@ -13,25 +13,26 @@ struct LeftOut {
   std::string reason;
 };
 
-/// The tasks that are left of a list, and the variables that they need.
+/// The kept tasks of a list, and the variables that they need.
 struct Pruned {
   std::vector<Task> kept;
   std::vector<LeftOut> leftOut;
-  /// Variables that must exist at the end: what was wanted, and (where the list is repeated) what it reads first.
+  /// Variables that must exist at the end: the wanted ones and, if the list is repeated, those that it reads from the
+  /// previous run.
   Names needed;
-  /// `liveAfter[t]`: variables of the step in progress that are still to be read after kept task t.
+  /// `liveAfter[t]`: variables of the current step that are read after kept task t.
   std::vector<Names> liveAfter;
 };
 
-/// Step 2 of compiling: leaves out each task none of whose results reaches a wanted variable, and of the tasks that are
-/// kept each offered output that nothing reads (AccessKind::leftOut).
+/// Step 2 of compiling: leaves out each task whose results do not contribute to a wanted variable, and each offered
+/// output of kept tasks that nothing reads (AccessKind::leftOut).
 ///
 /// `wanted` names what others read at the end of the list: saved variables, the state that other lists require,
 /// reductions. `repeated` lists are run step after step, so what their own tasks require of the old state is wanted
 /// as well.
 Pruned prune(const std::vector<Task>& tasks, const Names& wanted, bool repeated);
 
-/// Names of the old state that the tasks read.
+/// Names of the variables of the old state that the tasks read.
 Names requiredOfState(const std::vector<Task>& tasks);
 
 }  // namespace tushar::tasks

@@ -28,7 +28,7 @@ void reflux(const TaskContext& context, int components, double dt) {
   }
 }
 
-/// A variable, and the materials that have it: none if it belongs to none.
+/// A variable with kept fluxes, and its materials, which are empty if it belongs to none.
 struct Flowing {
   const data::Label* label;
   std::vector<std::string> materials;
@@ -49,13 +49,15 @@ Task refluxTask(const Flowing& flowing) {
   return task;
 }
 
-/// The label of the sums of dt F through the rims of patches, `rim.sum.` and the name of the variable.
+/// The label of the register of a variable: the sums of dt F through the rims of patches, called `rim.sum.` and the
+/// name of the variable.
 const data::Label& registerOf(const data::Label& label) { return data::rimLabelOf(data::rimLabelOf(label)); }
 
 /// Accesses of the task that adds to a register.
 enum { rim, sums, step, part };
 
-/// To coarser cells sums begin anew with each step of theirs; to finer ones there is one step at a time.
+/// Adds to the register. At coarser cells, sums start anew with each of their steps; at finer cells, there is one step
+/// at a time.
 void addToRegister(const TaskContext& context, int components) {
   const double dt = context.reduction<data::Minimum>(step).value;
   const bool isFirst = context.reduction<data::Minimum>(part).value == 0;
@@ -92,7 +94,7 @@ Task refluxTaskOfSteps(const Flowing& flowing) {
   return task;
 }
 
-/// The list in which all but the first of the tasks that keep the fluxes of a variable add to them. Calls
+/// The list in which the first task that keeps the fluxes of a variable sets them, and the others add to them. Calls
 /// `behind(list, flowing)` after the last one.
 template <class Behind>
 TaskList withTasksBehindFluxes(const TaskList& list, const Behind& behind) {

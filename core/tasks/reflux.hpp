@@ -15,16 +15,16 @@ namespace tushar::tasks {
 /// Source: M. J. Berger and P. Colella, J. Comput. Phys. 82 (1989) 64.
 TaskList withRefluxing(const TaskList& list);
 
-/// The part of the step of the next coarser level that is over when a level's step begins.
-inline constexpr data::ReductionLabel<data::Minimum> partOfStep{"partOfStep", "1",
-                                                                "part of the next coarser level's step that is over"};
+/// The fraction of the next coarser level's step that has elapsed when a level's step begins.
+inline constexpr data::ReductionLabel<data::Minimum> partOfStep{
+    "partOfStep", "1", "fraction of the next coarser level's step that has elapsed"};
 
-/// The lists of a step in which finer levels make several smaller steps.
+/// The lists of a step in which finer levels take several smaller steps.
 struct SteppedByLevel {
-  /// After the last task that keeps the fluxes of a variable comes one that adds fluxes times the step to a register,
-  /// over all steps of a level within one of the next coarser level.
+  /// The step of a level: after the last task that keeps the fluxes of a variable, a task adds the fluxes times the
+  /// step to a register, which sums over all steps within one of the next coarser level.
   TaskList advance;
-  /// After those steps, on the coarser level: U += ± 1 / h (dt F - mean of the sums of dt F of the finer level).
+  /// Runs on the coarser level after those steps: U += ± 1 / h (dt F - mean of the sums of dt F of the finer level).
   TaskList reflux;
 };
 SteppedByLevel withRegisters(const TaskList& list);

@@ -21,15 +21,15 @@ using mpi::Bytes;
 
 namespace {
 
-/// Cells of a new patch that one old patch has.
+/// Cells of a new patch that come from one old patch.
 struct Piece {
   int from, to;
   Box box;        ///< in cells of the new patch
-  int coarser;    ///< how many levels coarser the new cells are; -1: finer by one
+  int coarser;    ///< number of levels by which the new cells are coarser; -1: one level finer
   bool isFinest;  ///< whether the new patch is of the finest level
 };
 
-/// The pieces that new patches are made of.
+/// The pieces of which new patches consist.
 class Pieces {
  public:
   Pieces(const grid::Tiling& before, const grid::Tiling& after, int dimension, int levels)
@@ -59,7 +59,7 @@ class Pieces {
       }
   }
 
-  /// New patches that have cells of an old one.
+  /// Finds the new patches that need cells of an old one.
   void findReaders(const grid::Patch& old, std::set<int>& readers) const {
     const int level = old.level().number();
     Box cells = old.cells();
@@ -114,7 +114,7 @@ void unpack(const data::Label& label, const Piece& piece, const Variable& to, co
   });
 }
 
-/// The variables that move, and how they are written and read; particles are on the finest level only, and stay there.
+/// The variables that move, and their packing; particles are on the finest level only, and stay there.
 class Luggage {
  public:
   Luggage(data::Warehouse& warehouse, const MigratedVariables& variables)
@@ -127,18 +127,18 @@ class Luggage {
     if (particles_.empty()) materials_ = 0;  // such as gases that share cells: none has sets of particles
   }
 
-  /// Room for the values of cells on all patches.
+  /// Allocates the values of cells on all patches.
   void allocate() const {
     for (const int number : cells_) warehouse_.allocateGrid(Generation::old, number);
   }
-  /// Room for those of particles, once the sets are there.
+  /// Allocates the values of particles, once their sets exist.
   void allocateParticles() const {
     for (int material = 0; material < materials_; ++material)
       warehouse_.layOut(Generation::old, material, Generation::old);
     for (const int number : particles_) warehouse_.allocateParticles(Generation::old, number, Generation::old);
   }
 
-  /// How many particles each cell of a piece has.
+  /// Packs the number of particles in each cell of a piece.
   void packCounts(const Piece& piece, Bytes& to) const {
     forEachSet(piece, piece.from, [&](const ParticleSet& set) {
       grid::forEach<3>(piece.box, [&](const Index3& cell) {
@@ -155,7 +155,7 @@ class Luggage {
       forEachRange(piece, piece.from, number,
                    [&](std::byte* values, std::size_t length) { mpi::append(to, values, length); });
   }
-  /// Sets have all counts before they get their places.
+  /// Reads the counts; sets need all counts before particles get their places.
   void unpackCounts(const Piece& piece, const std::byte*& from) const {
     forEachSet(piece, piece.to, [&](ParticleSet& set) {
       grid::forEach<3>(piece.box, [&](const Index3& cell) {
@@ -176,7 +176,7 @@ class Luggage {
       });
   }
 
-  /// How many particles a piece has.
+  /// Number of particles in a piece.
   int particlesOf(const Piece& piece) const {
     int count = 0;
     forEachSet(piece, piece.from, [&](const ParticleSet& set) {
@@ -239,7 +239,7 @@ class Luggage {
   std::vector<int> cells_, particles_;
 };
 
-/// The messages between ranks: the counts of all pieces, then the values of all.
+/// The messages to other ranks: the counts of all pieces, then the values of all.
 std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, const grid::Partition& owners,
                             const Luggage& luggage) {
   const Pieces pieces(grid.tiling(), next, grid.dimension(), grid.levels());

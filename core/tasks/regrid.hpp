@@ -13,11 +13,11 @@ struct PatchCosts {
   std::vector<int> steps = {};  ///< of each level in one of the coarsest; none if all levels take the same
 };
 
-/// Gives a grid of several levels another tree, and its new patches the old values of variables of cells: as they are
-/// where the level stays, means where cells become coarser, interpolated (see prolong) where they become finer. Their
-/// ghosts, one layer at least, must be there. No cell becomes more than one level finer, and k levels coarser only in
-/// blocks of a multiple of 2^k cells; all other values of patches are lost. The shares of ranks are as equal in
-/// costs as whole patches allow. All ranks that share the grid call it, between two steps.
+/// Gives a grid of several levels another tree, and its new patches the old values of cell variables: copied where the
+/// level stays, averaged where cells become coarser, interpolated (see prolong) where they become finer. Their ghosts,
+/// one layer at least, must be there. No cell becomes more than one level finer, and k levels coarser only in blocks of
+/// a multiple of 2^k cells; all other values of patches are lost. The shares of ranks are as equal in costs as whole
+/// patches allow. All ranks that share the grid call it, between two steps.
 void regrid(grid::Grid& grid, grid::BlockTree tree, data::Warehouse& warehouse, const MigratedVariables& variables,
             const PatchCosts& costs = {});
 

@@ -15,7 +15,7 @@
 
 namespace tushar::tasks {
 
-/// Brings particles to the cell and patch where they are now, in the order (cell, id), and their variables with them.
+/// Assigns particles and their variables to the cells and patches of their new positions, in the order (cell, id).
 ///
 /// Keeps its working memory from step to step. Finding the moves, which may fail, is separate from making them: if
 /// nothing reads particles in between, they are made when the step is accepted, in the existing memory.
@@ -31,42 +31,42 @@ class Relocation {
   /// Throws NumericalError, on all ranks, for a position that is not finite, lies behind a symmetry plane, or in
   /// coarser cells than the finest or too near to them.
   bool find(int material, int position, bool hasStopped);
-  /// Builds the new particle set of a material as found, from the old one; every carried variable then follows it in
-  /// generation `to`. What is in that generation already moves within its memory. All ranks run it together.
+  /// Builds the new particle set of a material from the old one and the moves found, and moves every carried variable
+  /// to it, in generation `to`. What is in that generation already moves within its memory. All ranks run it together.
   void apply(int material, const std::vector<Carried>& carried, data::Generation to);
 
   /// To be called when the distribution of patches has changed.
   void forgetLayout();
 
-  /// Starts a step, perhaps for the second time.
+  /// Starts a step, possibly again.
   void start() { leaving_ = 0; }
-  /// Accepts the step.
+  /// Accepts the moves of the step.
   void commit() { dropped_ += std::exchange(leaving_, 0); }
-  /// Particles that have left the grid from this rank since the start.
+  /// Number of particles that have left the grid from this rank since the start.
   long dropped() const { return dropped_; }
-  /// Continues the count from that of another run.
+  /// Continues the count of another run.
   void setDropped(long dropped) { dropped_ = dropped; }
   /// Advice for a particle that comes too close to coarser cells.
   void setAdviceNearCoarser(std::string advice) { advice_near_coarser_ = std::move(advice); }
 
  private:
-  /// A particle that comes into a cell, from this patch or another.
+  /// A particle that enters a cell, from this patch or another.
   struct Incoming {
     ParticleId id;
-    int from;  ///< place among the departed of the patch; or -1 - its place among the arrivals
-    int next;  ///< the incoming particle of the same cell with the next greater id, or -1
+    int from;  ///< index among the departed of the patch, or -1 - its index among the arrivals
+    int next;  ///< the incoming particle of the same cell with the next larger id, or -1
   };
-  /// Where a particle from another patch was.
+  /// The origin of a particle from another patch.
   struct Arrival {
-    int patch, place;  ///< place among the departed of that patch; patch -1: among those that came from other ranks
+    int patch, place;  ///< patch, and index among its departed; patch -1: index among those from other ranks
   };
-  /// A particle that goes to a cell of another patch.
+  /// A particle that moves to a cell of another patch.
   struct Outgoing {
     ParticleId id;
     Index3 cell;
-    int from, departed;  ///< place before, and among the departed
+    int from, departed;  ///< previous place, and index among the departed
   };
-  /// A particle that went where none can be; if there are several, the first by cell and id.
+  /// A particle at an invalid place; if there are several, the first by cell and id.
   struct Escape {
     std::uint64_t cell;
     ParticleId id;
@@ -74,10 +74,10 @@ class Relocation {
 
     friend auto operator<=>(const Escape&, const Escape&) = default;
   };
-  /// The outcome that all ranks need before any continues.
+  /// The result that all ranks need before any continues.
   struct Verdict {
     bool hasStopped, hasEscape, goFar;
-    int rank;  ///< of the escape
+    int rank;  ///< rank of the escaped particle
     Escape escape;
 
     void merge(const Verdict& other);
@@ -86,30 +86,30 @@ class Relocation {
   struct Run {
     int to, from, count;
   };
-  /// An incoming particle that comes to `to`.
+  /// An incoming particle, and its new place.
   struct Entry {
     int to, incoming;
   };
   struct PatchMoves {
     std::vector<int> departed;       ///< places of the patch's particles that leave their cell, ascending
-    std::vector<Outgoing> outgoing;  ///< of these, the ones that go to other patches
-    std::vector<Incoming> incoming;  ///< particles that come into a cell of the patch
+    std::vector<Outgoing> outgoing;  ///< those of them that move to other patches
+    std::vector<Incoming> incoming;  ///< particles that enter a cell of the patch
     std::vector<Arrival> arrivals;
     std::vector<int> firstIncoming;  ///< by cell, or -1
-    std::vector<char> isEntered;     ///< by row of cells along the first axis: whether particles come in
+    std::vector<char> isEntered;     ///< by row of cells along the first axis: whether particles enter it
     std::vector<Run> runs;           ///< ascending
     std::vector<Entry> entries;      ///< ascending
-    std::size_t packed = 0;          ///< place of the first of the departed among those of all patches
-    int count = 0;                   ///< particles of the new set
+    std::size_t packed = 0;          ///< index of the first departed particle among those of all patches
+    int count = 0;                   ///< number of particles in the new set
     std::optional<Escape> escape;
-    long leaving = 0;  ///< through free faces of the grid
+    long leaving = 0;  ///< number that leave through free faces of the grid
 
     /// Whether the patch keeps all its particles where they are.
     bool staysAsItIs(data::Generation to) const {
       return to == data::Generation::old && departed.empty() && incoming.empty();
     }
   };
-  /// How the particles of a material move.
+  /// The moves of the particles of a material.
   struct Moves {
     explicit Moves(data::Warehouse& warehouse) : migration(warehouse) {}
 
@@ -117,7 +117,7 @@ class Relocation {
     ParticleMigration migration;
     bool goFar = false;
     int id = -1;               ///< number of the variable of ids, once it is known
-    std::size_t departed = 0;  ///< from their cells, on all patches
+    std::size_t departed = 0;  ///< number of particles that leave their cells, on all patches
   };
   /// A variable in transit: its memory before and after on each patch, and the values of departed particles.
   struct Move {
@@ -148,23 +148,23 @@ class Relocation {
   template <int D>
   void findMoves(const grid::Patch& patch, const data::ParticleSet& set, Vec<D>* x, const ParticleId* ids,
                  PatchMoves& moves);
-  /// Notes the move of the particle at place `departed` among those that leave their cells.
+  /// Notes the destination of the particle with index `departed` among those that leave their cells.
   template <int D>
   void move(const grid::Patch& from, const Index<D>& cell, Vec<D>& x, ParticleId id, int departed, PatchMoves& moves);
-  /// Sorts the particles that left their patch: which escaped first, how many left the grid, which go to another rank.
+  /// Sorts the particles that left their patch into those that escaped, left the grid, or migrate to another rank.
   Verdict gather(Moves& moves, bool hasStopped);
   [[noreturn]] void refuseEscape(int position, const Verdict& verdict) const;
-  /// The error for a particle that went where none can be.
+  /// The error for a particle at an invalid place.
   template <int D>
   NumericalError refusal(int position, const Escape& escape) const;
-  /// Hands particles over to the patches that they enter.
+  /// Passes particles to the patches that they enter.
   void receiveAll(Moves& moves);
   static void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves);
   void rebuild(const grid::Patch& patch, int material, PatchMoves& moves);
   static void keepAll(PatchMoves& moves, int count);
   static void keep(PatchMoves& moves, int first, int count);
-  /// Appends the cells from `from` to `end` as long as none of their particles leave and none come in, and notes the
-  /// places in `to`; how many cells.
+  /// Appends the cells from `from` to `end` up to the first that particles leave or enter, notes the places in `to`,
+  /// and returns the number of cells.
   static int keepCells(PatchMoves& moves, std::span<const data::ParticleRange> from, const int* firstIncoming,
                        std::size_t nextDeparted, data::ParticleRange* to);
   static void mergeCell(PatchMoves& moves, const data::ParticleRange& before, int firstIncoming, const ParticleId* ids,
@@ -179,10 +179,10 @@ class Relocation {
   bool isNearCoarser(const grid::Patch& from, const Index3& cell) const;
 
   data::Warehouse* warehouse_;
-  int margin_ = 0;  ///< cells of the finest level around particles
+  int margin_ = 0;  ///< number of cells of the finest level required around particles
   Threads* threads_;
   std::deque<Moves> moves_;  ///< by material
-  long leaving_ = 0;         ///< in the step in progress
+  long leaving_ = 0;         ///< in the current step
   long dropped_ = 0;
   std::string advice_near_coarser_;
 };

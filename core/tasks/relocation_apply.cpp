@@ -92,7 +92,7 @@ void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
   after.setOwnedOfClosedRows(moves.count);
 }
 
-/// All particles of a patch stay in their places.
+/// Keeps all particles of a patch in their places.
 void Relocation::keepAll(PatchMoves& moves, int count) {
   moves.runs.clear();
   moves.entries.clear();
@@ -100,7 +100,7 @@ void Relocation::keepAll(PatchMoves& moves, int count) {
   keep(moves, 0, count);
 }
 
-/// Appends particles that were consecutive and stay so.
+/// Appends particles that were consecutive and remain so.
 void Relocation::keep(PatchMoves& moves, int first, int count) {
   if (count == 0) return;
   Run* last = moves.runs.empty() ? nullptr : &moves.runs.back();
@@ -126,7 +126,7 @@ int Relocation::keepCells(PatchMoves& moves, std::span<const ParticleRange> from
   return k;
 }
 
-/// Appends the particles of one cell: those that stay, in their order, and those that come in between by id.
+/// Appends the particles of one cell, in the order of their ids: those that stay, and those that enter.
 void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int firstIncoming, const ParticleId* ids,
                            std::size_t& nextDeparted) {
   int waiting = firstIncoming;
@@ -145,7 +145,7 @@ void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int f
   while (waiting >= 0) letInOne();
 }
 
-/// A variable that is in its generation already moves within its memory, if the slots allow it.
+/// Moves a variable; within its memory if it is already in its generation and the slots allow it.
 void Relocation::carry(const Carried& carried, std::size_t place, Generation to, int material, Moves& moves) {
   const data::SharedSlots before = warehouse_->slots(carried.from, carried.variable);
   const data::SharedSlots after = warehouse_->slotsOfSets(Generation::fresh, material);

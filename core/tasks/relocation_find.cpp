@@ -130,7 +130,7 @@ void Relocation::findMoves(int material, int position, int id) {
   });
 }
 
-/// Whether or not the moves found last have been made.
+/// Discards the entries of the last moves, whether or not they have been made.
 void Relocation::forgetIncoming(const Patch& patch, PatchMoves& moves) {
   const grid::Box& cells = patch.cells();
   moves.firstIncoming.resize(cells.size(), -1);

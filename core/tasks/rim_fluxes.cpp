@@ -17,7 +17,7 @@ Index3 firstBehind(Index3 cell, const GhostCopy& copy, int dimension) {
   return cell;
 }
 
-/// The rim of a fine patch that a copy is made from, all of which one coarser patch is behind.
+/// The piece of the rim of a fine patch from which a copy is made, which has a single coarser patch behind it.
 const grid::RimPiece& pieceOf(const std::vector<grid::RimPiece>& pieces, const GhostCopy& copy, const Index3& behind) {
   return *std::find_if(pieces.begin(), pieces.end(), [&](const grid::RimPiece& one) {
     return !one.isFiner && one.axis == copy.axis && one.side != copy.side && one.cells.contains(behind);

@@ -21,7 +21,7 @@ double seconds(std::chrono::steady_clock::duration duration) { return std::chron
 
 int firstMaterial(const CompiledTask& task) { return task.task.perMaterial() ? 0 : -1; }
 
-/// Runs `work`; what it throws comes out again with the place added.
+/// Runs `work`; adds the place to what it throws.
 template <class Work>
 void located(const CompiledTask& task, int patch, int material, const StepInfo& at, Work&& work) {
   try {
@@ -38,8 +38,7 @@ void located(const CompiledTask& task, int patch, int material, const StepInfo& 
   }
 }
 
-/// Of the invalid values on all patches, keeps the one in the first cell; if one cell has several, that of the first
-/// patch.
+/// Keeps the first of the invalid values on all patches, by cell, then by patch.
 class FirstRefusal {
  public:
   void note(const NumericalError& error, int patch) {
@@ -78,7 +77,7 @@ void Scheduler::workOn(std::size_t place, const CompiledTask& task, const Work& 
   costs_[place] += seconds(Clock::now() - started);
 }
 
-/// Patches that have their ghosts come first, the others when their messages have arrived.
+/// Runs work on patches; first on those that have their ghosts, then on the others, when their messages have arrived.
 template <class Work>
 void Scheduler::forEachPatch(CompiledTask& task, const Work& work) {
   const int patches = warehouse_->patches();
@@ -95,7 +94,7 @@ void Scheduler::forEachPatch(CompiledTask& task, const Work& work) {
   if (isUnderWay && finishExchange(task)) workOnAll(late);
 }
 
-/// False if a rank from which this one receives messages has stopped.
+/// Completes the exchange; false if a rank from which this one receives messages has stopped.
 bool Scheduler::finishExchange(CompiledTask& task) {
   const auto started = Clock::now();
   heard_stop_ = !exchange_.finish() || heard_stop_;
@@ -199,7 +198,7 @@ std::optional<data::Minimum> Scheduler::factorOf(const CompiledTask& task) {
   return factor.value < 1 ? std::optional(factor) : std::nullopt;
 }
 
-/// No rank begins a collective task if a rank has stopped, or if it has no patches itself.
+/// Whether this rank runs a collective task: not if any rank has stopped, nor if it has no patches.
 bool Scheduler::mayRunTogether() {
   heard_stop_ = warehouse_->ranks().any(hasStopped());
   ranksWithPatches();
@@ -214,7 +213,8 @@ const mpi::Communicator& Scheduler::ranksWithPatches() {
   return *with_patches_;
 }
 
-/// A task that may request a repetition runs for all materials, whatever happens on this rank: every request counts.
+/// Runs a task. If it may request a repetition of the step, it runs for all materials, whatever happens on this rank,
+/// as every request counts.
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   divideReductions(task);
   const bool mayAsk = task.recomputeTimeStep >= 0, isOnce = task.task.acrossMaterials || task.task.perRank;
@@ -236,7 +236,8 @@ void Scheduler::shareFaces(const CompiledTask& task) {
       if (!hasStopped()) exchange_.shareFaces(shared.variable, shared.set);
 }
 
-/// All ranks relocate together, or none. If no task follows a relocation, its moves are made when the step is accepted.
+/// Relocates particles, on all ranks or on none. If no task follows a relocation, its moves are made when the step is
+/// accepted.
 void Scheduler::relocate(const CompiledTask& task, const StepInfo& at) {
   for (int m = 0; m < static_cast<int>(task.materials.size()) && (m == 0 || !hasStopped()); ++m) {
     const MaterialBinding& binding = task.of(m);
@@ -349,7 +350,7 @@ void Scheduler::install(const CompiledTask& task, int material, const StepInfo& 
   makers_.clear();
 }
 
-/// What a level has computed stays where others are computed.
+/// Allocates outputs; keeps values that another level has already computed.
 void Scheduler::allocateOutputs(const MaterialBinding& binding) {
   for (const Output& output : binding.outputs) {
     if (level_ >= 0 && isHeld(*warehouse_, Generation::fresh, output.variable)) continue;

@@ -10,18 +10,18 @@
 
 namespace tushar::tasks {
 
-/// Where in a run a graph is executed; named in errors.
+/// The position in a run at which a graph is executed; used in errors.
 struct StepInfo {
   int step = 0;
   double time = 0;         ///< s
   double delT = 0;         ///< s; 0 if it has no meaning
-  int repeats = 0;         ///< of this step so far
+  int repeats = 0;         ///< repeats of this step so far
   bool mayRepeat = false;  ///< whether a NumericalError repeats the step instead of being thrown
-  int level = -1;          ///< whose patches the graph runs on; -1: those of all levels
-  double part = 0;         ///< completed part of the next coarser level's step; if `level` is given
+  int level = -1;          ///< the level whose patches the graph runs on; -1: all levels
+  double part = 0;         ///< elapsed fraction of the next coarser level's step, if `level` is given
 };
 
-/// Names where an error happened: task, patch (-1: on all at once), material (-1: none), step, time.
+/// The place of an error in words: task, patch (-1: all at once), material (-1: none), step, time.
 std::string placeOf(const CompiledTask& task, int patch, int material, const StepInfo& at);
 
 /// Runs compiled task graphs on the warehouse of this rank.
@@ -37,8 +37,8 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 /// step: what it computes stays on all levels until forgetNew(), and commitLevel() makes it the old state of one.
 class Scheduler {
  public:
-  /// Uses up to `threads` threads, but no more than this rank has patches, and one for each `cellsPerThread` cells of a
-  /// rank (if that is not 0): their number changes on a refined grid.
+  /// Uses up to `threads` threads, but no more than this rank has patches, and no more than one per `cellsPerThread`
+  /// cells of a rank (if that is not 0), a number that changes on a refined grid.
   explicit Scheduler(data::Warehouse& warehouse, int threads = 1, int cellsPerThread = 0)
       : warehouse_(&warehouse),
         most_threads_(threads),
@@ -47,26 +47,26 @@ class Scheduler {
         exchange_(warehouse, threads_),
         relocation_(warehouse, threads_) {}
 
-  /// Runs every task on every patch, and checks the bounds of what it wrote. The old generation is never touched. A
-  /// body that throws and a broken bound end the run of the graph: a NumericalError comes out with task, patch,
-  /// material, step and time added, the same on all ranks; anything else as TaskError on the rank where it
-  /// happened. A failing task still runs on all patches; of several errors, that of the first cell, or patch,
-  /// is thrown.
+  /// Runs every task on every patch, and checks the bounds of the values that it wrote. The old generation is never
+  /// touched. A body that throws and a broken bound end the run of the graph: a NumericalError comes out with task,
+  /// patch, material, step and time added, the same on all ranks; anything else as TaskError on the rank where it
+  /// happened. A failing task still runs on all patches; of several errors, that of the first cell, or patch, is
+  /// thrown.
   ///
   /// If a task requests a smaller time step by recomputeTimeStep, the graph ends with that task and the factor and
   /// reason come back; running the graph once more repeats the step. Otherwise returns nothing.
   std::optional<data::Minimum> run(TaskGraph& graph, const StepInfo& at);
-  /// Fills the ghosts of old values of variables of cells; all ranks call it.
+  /// Fills the ghosts of old values of cell variables; all ranks must call it.
   void fillGhosts(const std::vector<int>& variables);
   /// Makes the results of a graph the old state.
   void commit(TaskGraph& graph);
-  /// Makes the results of a graph the old state of a level: copies them.
+  /// Copies the results of a graph to the old state of a level.
   void commitLevel(const TaskGraph& graph, int level);
-  /// Discards what a graph that has been run level by level has computed.
+  /// Discards the results of a graph that was run level by level.
   void forgetNew(const TaskGraph& graph);
 
-  /// Cost of each patch of this rank since the last call, in seconds of the clock if all threads worked all the time;
-  /// zeros on a single rank.
+  /// Cost of each patch of this rank since the last call, in seconds of wall time with all threads busy; zeros on a
+  /// single rank.
   std::vector<double> takeCosts();
   /// To be called when the distribution of patches has changed.
   void forgetLayout();
@@ -77,7 +77,7 @@ class Scheduler {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// While it lives, a rank that is alone and has one thread reads the clock once per task, not in each loop.
+  /// During its lifetime, a single rank with one thread reads the clock once per task, not in each loop.
   class OneClock {
    public:
     OneClock(Threads& threads, const mpi::Communicator& ranks) : threads_(threads) {
@@ -90,11 +90,11 @@ class Scheduler {
    private:
     Threads& threads_;
   };
-  /// Time since the call before, or since the start of the graph, s.
+  /// Time since the previous call, or since the start of the graph, s.
   double lap(trace::Kind kind);
   int usefulThreads() const;
   bool hasStopped() const { return !outcome_.isNone() || heard_stop_; }
-  /// Whether the graph runs on a patch, the one at this place of the rank.
+  /// Whether the graph runs on the patch with this index on the rank.
   bool isOfLevel(std::size_t place) const;
   bool mayRunTogether();
   const mpi::Communicator& ranksWithPatches();
@@ -102,7 +102,7 @@ class Scheduler {
   void start(const TaskGraph& graph, int end, const StepInfo& at);
   void runTask(TaskGraph& graph, int number, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
-  /// Completes node variables of which each patch has written its own nodes.
+  /// Completes node variables of which each patch has written only its own nodes.
   void shareFaces(const CompiledTask& task);
   void relocate(const CompiledTask& task, const StepInfo& at);
   template <class Work>
@@ -125,7 +125,7 @@ class Scheduler {
 
   std::optional<data::Minimum> factorOf(const CompiledTask& task);
   void note(const CompiledTask& task, int material, const NumericalError& error);
-  /// Notes the first bound that is broken for the materials `first` up to `end`, if one is.
+  /// Notes the first violated bound for the materials `first` up to `end`, if any.
   void noteBroken(const CompiledTask& task, int first, int end);
   void agree(const TaskGraph& graph);
   NumericalError whatBroke(TaskGraph& graph, const StepInfo& at);
@@ -136,13 +136,13 @@ class Scheduler {
   Exchange exchange_;
   Relocation relocation_;
   std::vector<ParticleMaker> makers_;    ///< by patch, while a task makes particles
-  Outcome outcome_;                      ///< of the run of a graph
-  std::optional<NumericalError> error_;  ///< behind it, on the rank where a body threw it
+  Outcome outcome_;                      ///< outcome of the current run
+  std::optional<NumericalError> error_;  ///< the error behind it, on the rank on which a body threw it
   std::vector<double> costs_;            ///< by patch: time of the threads that worked on it, s
-  bool heard_stop_ = false;              ///< a rank whose values this one needs has stopped
-  int level_ = -1;                       ///< whose patches the graph runs on; -1: all
-  int running_ = 0;                      ///< place of the task in its graph
-  int end_ = 0;                          ///< place behind the last task that is to run
+  bool heard_stop_ = false;              ///< whether a rank whose values this one needs has stopped
+  int level_ = -1;                       ///< the level whose patches the graph runs on; -1: all
+  int running_ = 0;                      ///< index of the task in its graph
+  int end_ = 0;                          ///< end of the tasks to run
   Clock::time_point lap_started_;
   std::optional<mpi::Communicator> with_patches_;
 };

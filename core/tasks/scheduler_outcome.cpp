@@ -8,7 +8,7 @@ namespace tushar::tasks {
 
 namespace {
 
-/// Calls `visit(slot, place of its bytes)` for each reduction of a graph; the number of bytes.
+/// Calls `visit(slot, place of its bytes)` for each reduction of a graph; returns the total number of bytes.
 template <class Visit>
 std::size_t forEachReduction(data::Warehouse& warehouse, const TaskGraph& graph, Visit&& visit) {
   std::size_t place = sizeof(Outcome);
@@ -40,10 +40,10 @@ void Scheduler::noteBroken(const CompiledTask& task, int first, int end) {
   }
 }
 
-/// Merges the outcome and the reductions of all ranks, in one message to each.
+/// Merges the outcome and the reductions of all ranks, in one message to each rank.
 void Scheduler::agree(const TaskGraph& graph) {
   if (warehouse_->ranks().isAlone()) return;
-  const trace::Span span(trace::Kind::wait, "agree on how it went");
+  const trace::Span span(trace::Kind::wait, "agree on the outcome");
   mpi::Bytes mine(forEachReduction(*warehouse_, graph, [](auto&, std::size_t) {}));
   std::memcpy(mine.data(), &outcome_, sizeof(Outcome));
   forEachReduction(*warehouse_, graph, [&](data::ReductionSlot& slot, std::size_t place) {
@@ -60,8 +60,8 @@ void Scheduler::agree(const TaskGraph& graph) {
   });
 }
 
-/// The sentence about a broken bound gives values of all ranks, as they were after the task. Where other ranks have
-/// gone on since, the graph is run once more up to there.
+/// The error for a violated bound, with values from all ranks, as they were after the task. Where other ranks have gone
+/// on since, the graph is run once more up to there.
 NumericalError Scheduler::whatBroke(TaskGraph& graph, const StepInfo& at) {
   const Outcome outcome = outcome_;
   if (!warehouse_->ranks().isAlone()) {

@@ -4,8 +4,8 @@
 
 namespace tushar::tasks {
 
-/// A list that changes the state in place: before the first task that modifies a variable of cells that no
-/// earlier one computes comes a task that copies its old values, `take over c.density`.
+/// The list for tasks that modify old cell variables: before the first task that modifies a variable which no earlier
+/// one computes, a task copies the old values, `take over c.density`.
 TaskList takingOver(const TaskList& list);
 
 }  // namespace tushar::tasks

@@ -22,11 +22,11 @@ enum class AccessKind {
 struct Access {
   const data::Label* label;
   AccessKind kind;
-  int ghost = 0;                       ///< cells or nodes beyond the patch that are read
-  bool own = false;                    ///< of nodes: whether it writes only those that are the patch's own
+  int ghost = 0;                       ///< number of layers of cells or nodes read beyond the patch
+  bool own = false;                    ///< for nodes: whether it writes only those that the patch owns
   bool offered = false;                ///< whether a kept task can do without it
-  const data::Label* keeps = nullptr;  ///< of fluxes: the variable that flows
-  bool ofNone = false;                 ///< whether the variable belongs to no material, whichever the task sees
+  const data::Label* keeps = nullptr;  ///< for fluxes: the variable that flows
+  bool ofNone = false;                 ///< whether the variable belongs to no material, although the task does
 
   bool reads() const {
     return kind == AccessKind::requiresOld || kind == AccessKind::requiresNew || kind == AccessKind::modifies;
@@ -37,12 +37,12 @@ struct Access {
   bool isNew() const { return kind != AccessKind::requiresOld; }
 };
 
-/// Appends an access of a task; returns its place.
+/// Appends an access of a task; returns its index.
 int append(std::vector<Access>& accesses, const Access& access);
 
 enum class TaskKind {
   work,          ///< runs a body
-  relocate,      ///< the framework's own: every particle goes to the patch and cell where it now is
+  relocate,      ///< a built-in task: assigns particles to their new patches and cells
   newParticles,  ///< runs a body that replaces the particles of its patch by others
 };
 
@@ -53,8 +53,8 @@ struct Task {
   std::vector<std::string> materials;  ///< names; empty for a task that belongs to no material
   std::vector<Access> accesses;
   TaskBody body;
-  bool acrossMaterials = false;  ///< the body sees all materials of a patch at once
-  bool perRank = false;          ///< the body sees all materials of all patches of the rank at once
+  bool acrossMaterials = false;  ///< the body gets all materials of a patch at once
+  bool perRank = false;          ///< the body gets all patches of the rank at once
 
   bool perMaterial() const { return !materials.empty(); }
   /// Whether each material has its own variable for an access.

@@ -26,23 +26,23 @@ struct MaterialBinding {
   std::vector<BoundAccess> accesses;
   std::vector<Output> outputs;
   std::vector<Carried> carried;  ///< of a relocation
-  std::vector<Bounded> bounded;  ///< what it writes and must keep a bound
+  std::vector<Bounded> bounded;  ///< variables that it writes, with bounds
   std::vector<int> freed;        ///< variables whose memory is free afterwards
-  std::vector<Output> shared;    ///< of which patches wrote their own nodes and take the others from one another
+  std::vector<Output> shared;  ///< variables of which patches write only their own nodes, and then exchange the others
 };
 
-/// A task that is kept, with everything settled that the time loop would otherwise have to look up.
+/// A kept task, with everything resolved that the time loop would otherwise have to look up.
 struct CompiledTask {
   Task task;
-  std::vector<MaterialBinding> materials;  ///< one for a task that belongs to no material
-  std::vector<BoundGhostFill> fills;       ///< of ghosts, before it runs
-  int sends = -1;  ///< the task whose ghosts are sent to other ranks before this one runs, if one is
-  std::vector<int> reductions, readReductions;  ///< that it computes, and reads
+  std::vector<MaterialBinding> materials;       ///< one for a task that belongs to no material
+  std::vector<BoundGhostFill> fills;            ///< ghost exchanges before it runs
+  int sends = -1;                               ///< the task whose ghosts are sent before this one runs; -1: none
+  std::vector<int> reductions, readReductions;  ///< reductions that it computes, and reads
   bool mayStartEarly = false;  ///< whether patches that have their ghosts may be worked on while others wait for theirs
-  bool isLast = false;         ///< of its graph
-  int recomputeTimeStep = -1;  ///< number of that reduction, for a task that may request to repeat the step
+  bool isLast = false;         ///< whether it is the last of its graph
+  int recomputeTimeStep = -1;  ///< number of that reduction, if the task may request a repetition of the step
   double seconds = 0;          ///< time spent in it so far
-  double exchangeSeconds = 0;  ///< of that, time spent filling ghosts before it
+  double exchangeSeconds = 0;  ///< part of it spent filling ghosts before the task
 
   /// The binding of a material (-1 for a task that belongs to none).
   const MaterialBinding& of(int material) const {
@@ -66,13 +66,13 @@ class TaskGraph {
   const std::vector<LeftOut>& leftOut() const { return pruned_.leftOut; }
   const std::vector<Dependency>& dependencies() const { return dependencies_; }
   const std::vector<Placement>& placements() const { return placements_; }
-  /// Variables that are new at the end and become old with the swap.
+  /// Variables that are new at the end and become old in the swap.
   const std::vector<int>& results() const { return results_; }
   /// Reductions that its tasks compute.
   const std::vector<int>& reductions() const { return reductions_; }
   /// Materials whose particle set is new at the end.
   const std::vector<int>& changedSets() const { return changed_sets_; }
-  /// Most materials of any task.
+  /// Largest number of materials of any task.
   int materials() const { return materials_; }
 
   /// The tasks in order with what each reads and writes.

@@ -52,8 +52,8 @@ class TaskList {
         Sees::allMaterials);
   }
 
-  /// Runs `body(patches, arguments...)` once on a rank, for what takes all patches at once, such as a linear solve: an
-  /// access to a label becomes a std::vector of views, one for each patch.
+  /// Runs `body(patches, arguments...)` once on a rank, for work that needs all patches at once, such as a linear
+  /// solve: an access to a label becomes a std::vector of views, one for each patch.
   template <class Body, class... Arguments>
   void perRank(std::string_view name, Body body, Arguments... arguments) {
     check<false, true, Arguments...>();
@@ -93,8 +93,8 @@ class TaskList {
         });
   }
 
-  /// From here on every particle is where `position` (computed before) says: in its new cell, on its new patch.
-  /// All particle variables that are needed afterwards go with it.
+  /// From here on every particle is in the cell and on the patch of its `position`, which must have been computed
+  /// before. All particle variables that are needed afterwards go with it.
   template <class Material, int D>
   void relocate(const data::ParticleLabel<Vec<D>>& position, const std::vector<Material>& materials) {
     add({"relocate", TaskKind::relocate, names(materials), {{&position, AccessKind::requiresNew, 0}}, {}});

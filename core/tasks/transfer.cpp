@@ -12,7 +12,7 @@ using grid::Box;
 
 namespace {
 
-/// Numbers of cells in memory, and how far apart those of neighbours are.
+/// Values of cells in memory, and the distances between those of neighbours.
 template <class Number>
 class Cells {
  public:

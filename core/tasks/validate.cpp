@@ -62,7 +62,8 @@ class Validator {
       complain(task, access, "is computed a second time; use modifies to change it");
   }
 
-  /// Patches of a rank read one another's particles in place; only new particles wait until all are made.
+  /// Whether an access reads ghosts of particles in place: patches of a rank read one another's particles directly;
+  /// only new particles wait until all are made.
   static bool isGhostsOfParticles(const Access& access) {
     return access.kind == AccessKind::requiresNew && access.ghost > 0 &&
            access.label->centring == data::Centring::particle;
@@ -85,7 +86,7 @@ class Validator {
 
   const Names& state_;
   Names produced_;
-  Names carried_;  ///< what a relocation brought along from the old state
+  Names carried_;  ///< variables that a relocation brought along from the old state
   std::map<std::string, bool> per_material_;
   std::string complaints_;
 };

@@ -53,7 +53,7 @@ TEST(ExactSolution, AsksForTheComponentOfAVector) {
     errorOf("c.velocity", "0");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(error.problems().at(0).sentence, "'c.velocity' is a vector: <component> says which of x, y and z");
+    EXPECT_EQ(error.problems().at(0).sentence, "'c.velocity' is a vector: give its <component>, x, y or z");
   }
 }
 

@@ -56,7 +56,7 @@ TEST(Extents, WhatTheGridCannotShowIsRefused) {
   EXPECT_EQ(problem(extent({0, 0, .2}, {1.5, 0, .2}), 1),
             "found x from 0 to 1.5 m, expected places on the grid, from 0 to 1 m");
   EXPECT_EQ(problem(extent({1, 0, .2}, {0, 0, .2}), 1),
-            "found endingPt at x = 0 m, expected 1 m or more, where it begins");
+            "found endingPt at x = 0 m, expected 1 m or more, the coordinate of startingPt");
   Extent named = extent({0, 0, .2}, {1, 0, .2});
   for (const char* name : {"", "a/b", "..", "checkpoints", "t00001", "index.xml"}) {
     named.name = name;

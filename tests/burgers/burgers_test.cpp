@@ -140,7 +140,7 @@ TEST(BurgersScene, NeedsTheComponentAndOneDimension) {
     }
     return std::string("nothing");
   };
-  const std::string sentence = "measures the component burgers in one dimension; take the module out";
+  const std::string sentence = "measures the component burgers in one dimension; remove the module";
   EXPECT_EQ(problem("ups/mpm/mass_projection.ups", {"DataAnalysis/Module[@name='massProjection']/@name=burgersWave"}),
             sentence);
   EXPECT_EQ(problem("ups/burgers/sine.ups", {"Grid/Level/Box/resolution=[8,8,1]"}), sentence);

@@ -109,8 +109,8 @@ TEST(EulerScene, TakesAStiffenedGas) {
 TEST(EulerScene, RefusesAFluxAtAFace) {
   EXPECT_EQ(problemOf(changedScene("<BCType id=\"all\" label=\"Symmetric\" var=\"symmetry\"/>",
                                    "<BCType label=\"Density\" var=\"Neumann\"><value>1</value></BCType>")),
-            "var: found 'Neumann', expected 'Dirichlet' for Density of inflowing gas; through a face without a "
-            "condition gas flows out");
+            "var: found 'Neumann', expected 'Dirichlet' for Density of inflowing gas; at a face without conditions, "
+            "gas flows out");
 }
 
 TEST(EulerScene, RefusesAnInflowOfNoPressure) {

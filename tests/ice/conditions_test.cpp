@@ -47,7 +47,7 @@ TEST(IceConditions, APressureSwingsAsAFormulaSays) {
   EXPECT_EQ(problemOf(withSide(condition("Density", "Sine"), section)),
             "var: 'Sine' is for a Pressure, a Velocity or a Temperature");
   EXPECT_EQ(problemOf(withSide(condition("Temperature", "Sine"), section)),
-            "var Sine of the Temperature needs that of the Pressure or of the Velocity");
+            "var Sine for the Temperature needs var Sine for the Pressure or the Velocity");
 }
 
 TEST(IceConditions, OnlyComponentsOfVelocitiesThatAreThereSwing) {
@@ -71,18 +71,18 @@ TEST(IceConditions, DoNotContradictOneAnother) {
   const std::string slip = condition("Velocity", "FreeSlipWall", "[0,0,0]"), waves = condition("Pressure", "LODI");
   const std::string section = "<LODI><press_infinity>1</press_infinity></LODI>";
   EXPECT_EQ(problemOf(withSide(slip + condition("Temperature", "Dirichlet", "1"))),
-            "a FreeSlipWall takes no other value: it is a plane of symmetry");
+            "a FreeSlipWall is a plane of symmetry, so it takes no other condition");
   EXPECT_EQ(problemOf(withSide(condition("Density", "LODI"), section)),
-            "var LODI of another variable needs that of the Pressure");
+            "var LODI for another variable needs var LODI for the Pressure");
   EXPECT_EQ(problemOf(withSide(waves + condition("Density", "Dirichlet", "1"), section)),
-            "beside LODI of the Pressure only a Temperature may be given");
+            "with var LODI for the Pressure, only a Temperature may be given as well");
   EXPECT_EQ(problemOf(withSide(waves + condition("Temperature", "Dirichlet", "1"), section)), "");
   EXPECT_EQ(problemOf(withSide(waves + slip, section)),
-            "a FreeSlipWall takes no other value: it is a plane of symmetry");
+            "a FreeSlipWall is a plane of symmetry, so it takes no other condition");
   const std::string sine =
       "<SINE_BC><omega>20</omega><A>0.1</A><reference_velocity>[1,0,0]</reference_velocity></SINE_BC>";
   EXPECT_EQ(problemOf(withSide(waves + condition("Velocity", "Sine", "[0,0,0]"), section + sine)),
-            "beside LODI of the Pressure only a Temperature may be given");
+            "with var LODI for the Pressure, only a Temperature may be given as well");
 }
 
 TEST(IceConditions, WavesLeaveInImplicitSteps) {

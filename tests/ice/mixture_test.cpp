@@ -131,7 +131,7 @@ TEST(IceMixture, RefusesASlowExchange) {
 TEST(IceMixture, RefusesWhatItHasNot) {
   EXPECT_EQ(problemOf(changedScene(tube, "<ICE><advection type=\"SecondOrder\"/>",
                                    "<ICE><advection type=\"SecondOrder\"/><ImplicitSolver/>")),
-            "is not available with several gases: take it out, or run with --set CFD/ICE/explicit=true");
+            "is not available with several gases: remove it, or run with --set CFD/ICE/explicit=true");
   EXPECT_EQ(problemOf(changedScene(tube, "<specific_heat>1.5</specific_heat>",
                                    "<specific_heat>1.5</specific_heat><dynamicViscosityModels><Model "
                                    "name=\"Sutherland\"><a>1</a><b>1</b></Model></dynamicViscosityModels>")),

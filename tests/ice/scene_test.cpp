@@ -110,7 +110,7 @@ TEST(IceScene, TakesNeumannConditionsForAnOpenSide) {
 
 TEST(IceScene, RefusesAGradientAtASide) {
   EXPECT_EQ(problemOf(withSide(R"(<BCType id="0" label="Density" var="Neumann"><value>1</value></BCType>)")),
-            "found '1', expected 0: a Neumann condition only extends Density beyond the grid as it is");
+            "found '1', expected 0: a Neumann condition continues Density unchanged beyond the grid");
 }
 
 TEST(IceScene, RefusesAnInflowOfNoTemperature) {
@@ -148,7 +148,7 @@ TEST(IceScene, RefusesOtherEquationsOfState) {
 TEST(IceScene, TellsWhichNumberOfAnEquationOfStateIsMissing) {
   const std::string numbers = "<B>1</B><R1>4</R1><R2>1</R2><om>.3</om><rho0>1</rho0>";
   EXPECT_EQ(problemOf(changedScene(sod, "<EOS type=\"ideal_gas\"/>", "<EOS type=\"JWL\">" + numbers + "</EOS>")),
-            "missing tag <A> in <EOS> (of exp(-R1 rho0 / rho))");
+            "missing tag <A> in <EOS> (factor of exp(-R1 rho0 / rho))");
 }
 
 TEST(IceScene, HasTheFrontOfAShockInProductsOfExplosives) {
@@ -211,7 +211,7 @@ TEST(IceScene, CarriesSoundThroughWater) {
 TEST(IceScene, RefusesImplicitStepsWhereThePressureDoesNotDependOnTheEnergy) {
   const std::string solver = "<ICE><ImplicitSolver/><advection";
   EXPECT_EQ(problemOf(changedScene(murnaghanShock, "<ICE><advection", solver)),
-            "not with JWLC or Murnaghan, whose pressure does not depend on the energy: take it out, or run with --set "
+            "not with JWLC or Murnaghan, whose pressure does not depend on the energy: remove it, or run with --set "
             "CFD/ICE/explicit=true");
 }
 
@@ -224,7 +224,7 @@ TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
 
 TEST(IceScene, RefusesModels) {
   EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"Steady_Burn\"/></Models>\n  <CFD>")),
-            "of type 'Steady_Burn' is not available; take it out: there are PassiveScalar and Test");
+            "of type 'Steady_Burn' is not available; remove it: there are PassiveScalar and Test");
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {

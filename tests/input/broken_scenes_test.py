@@ -248,7 +248,7 @@ class BrokenScenes(unittest.TestCase):
         method, air = "MPM/conserving_gas_dynamics/", "MaterialProperties/MPM/material[2]/"
         for sets, sentence in (
                 (("MPM/conserving_gas_dynamics/transfer=affine_flip",), "several gases need <transfer> apic"),
-                ((method + "remap/every=4",), "several gases cannot have a <remap>; take it out"),
+                ((method + "remap/every=4",), "several gases cannot have a <remap>; remove it"),
                 ((method + "artificial_heat_conduction=1",), "several gases cannot have <artificial_heat_conduction>"),
                 ((air + "relaxation/rate=1", air + "relaxation/internal_energy=1"),
                  "several gases cannot have <relaxation>"),
@@ -264,7 +264,7 @@ class BrokenScenes(unittest.TestCase):
 
     def test_a_mass_projection_that_cannot_be_measured(self):
         for sets, sentence in (((BOX + "resolution=[20,2,1]",),
-                                "works in one dimension, like its theorem, but this grid has 2"),
+                                "works only in one dimension, like its theorem, but this grid has 2"),
                                ((GAS + "volume_model=tracked",), "volume_model is tracked; use cell_share")):
             self.assert_refused(run("ups/mpm/mass_projection.ups", *sets, outputs=True), sentence)
         self.assert_refused(run("ups/heat/sine.ups", "DataAnalysis/Module[2]/@name=massProjection", outputs=True),
@@ -304,7 +304,7 @@ class BrokenScenes(unittest.TestCase):
         self.assertEqual(run("ups/mpm/sod.ups", options=("-emit_taskgraphs",)).err,
                          "sus: unknown option '-emit_taskgraphs'; sus -h lists the options [T701]\n")
         self.assertEqual(run("ups/mpm/sod.ups", options=("ups/heat/sine.ups",)).err,
-                         "sus: runs one scene at a time: found 'ups/heat/sine.ups' after 'ups/mpm/sod.ups' [T701]\n")
+                         "sus: only one scene can be run: found 'ups/heat/sine.ups' after 'ups/mpm/sod.ups' [T701]\n")
 
     def test_says_what_it_has_checked(self):
         for scene, size in (("ups/mpm/sod.ups", "100 cells and 450 particles at the start"),

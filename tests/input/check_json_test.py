@@ -64,7 +64,7 @@ class CheckJson(unittest.TestCase):
     def test_a_report_needs_a_file(self):
         done = sus(SOD, "-json")
         self.assertEqual((done.returncode, done.stderr),
-                         (2, "sus: --json needs the name of a file for the report [T701]\n"))
+                         (2, "sus: --json needs a file name for the report [T701]\n"))
 
 
 if __name__ == "__main__":

@@ -64,7 +64,7 @@ TEST(Expression, SaysWhyTextIsNoFormula) {
   EXPECT_EQ(Expression::parse("x=2").problem,
             "found 'x=2', expected a formula in x, y, z and t: '=' would assign to a variable");
   EXPECT_EQ(Expression::parse("x,y").problem,
-            "found 'x,y', expected a formula in x, y, z and t: it has several values");
+            "found 'x,y', expected a formula in x, y, z and t: it has several results");
   EXPECT_EQ(Expression::parse("1/0").problem, "found '1/0', which is not a finite number");
   EXPECT_EQ(Expression::parse("nan").problem,
             "found 'nan', expected a formula in x, y, z and t: Unexpected token \"nan\" found at position 0.");

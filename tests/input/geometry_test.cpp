@@ -220,7 +220,7 @@ TEST(Geometry, NotesThatALabelIsTaken) {
   expectBounds(*piece, {0, 0, 0}, {2, 2, 2});
   ASSERT_EQ(diagnostics.notes().size(), 1u);
   EXPECT_EQ(diagnostics.notes()[0].sentence,
-            "the label 'g' is that of the <box> at s.ups:1:30, too, so no tag can refer to it");
+            "the label 'g' is that of the <box> at s.ups:1:30 as well, so no tag can refer to either");
 }
 
 TEST(Geometry, SaysThatALabelIsOfTwoShapes) {

@@ -24,13 +24,13 @@ FACES = {
     'circle="x" origin="0 0 0" radius="1"':
         "attribute 'circle': found 'x', expected 'x-', 'x+', 'y-', 'y+', 'z-' or 'z+'",
     'circle="x-" origin="0 0 0"':
-        "missing attribute 'radius': circle goes with origin, radius",
+        "missing attribute 'radius': circle needs origin, radius",
     'circle="x-" origin="0 0 0" radius="-1"':
         "attribute 'radius': found '-1', expected a value greater than 0 m",
     'circle="x-" origin="0 0 0" radius="1" angle="3"':
-        "unknown attribute 'angle' of a part with circle; it goes with ellipse",
+        "unknown attribute 'angle' of a part with circle; it belongs to ellipse",
     'side="x+" radius="1"':
-        "unknown attribute 'radius' of a whole side; it goes with circle",
+        "unknown attribute 'radius' of a whole side; it belongs to circle",
     'side="x+" circle="x-"':
         "gives both side and circle; keep one",
     'circle="x-" origin="0 0" radius="1"':

@@ -53,12 +53,12 @@ class SilentMistakes(unittest.TestCase):
         self.assert_edited_is_refused("ups/heat/sine.ups", "c.temperature</label>", "p.x</label>",
                                       f"SCENE:49:8: {label}: found 'p.x', expected 'c.temperature'")
         self.assert_edited_is_refused("ups/euler/sod.ups", "</DataAnalysis>", exact_solution("c.momentum"),
-                                      "'c.momentum' is a vector: <component> says which of x, y and z")
+                                      "'c.momentum' is a vector: give its <component>, x, y or z")
         self.assert_edited_is_refused("ups/euler/sod.ups", "</DataAnalysis>", exact_solution("c.speed"),
                                       "found 'c.speed', expected 'c.density', 'c.internalEnergy', 'c.pressure' or "
                                       "'c.totalEnergy'")
         self.assert_edited_is_refused("ups/mpm/sod.ups", "</DataAnalysis>", exact_solution("g.mass"),
-                                      "this component has no scalar variable of cells or nodes without a material")
+                                      "this component has no scalar cell or node variable without a material")
 
     def test_errors_measured_twice(self):
         self.assert_edited_is_refused("ups/heat/sine.ups", "</DataAnalysis>", exact_solution("c.temperature"),
@@ -89,7 +89,7 @@ class SilentMistakes(unittest.TestCase):
                               ("euler/sod", "Euler/geom_object[2]/velocity=[0,0,t]")):
             path, formula = change.split("=")
             self.assert_refused(run(f"ups/{scene}.ups", change, outputs=True),
-                                f"found '{formula}', expected a formula without t: it holds at the start only")
+                                f"found '{formula}', expected a formula without t: it is evaluated only at the start")
 
     def test_boundary_conditions_that_contradict_each_other(self):
         def refused(before, after, *sentences, scene="ups/heat/sine.ups"):
@@ -100,7 +100,7 @@ class SilentMistakes(unittest.TestCase):
                 "SCENE:17:102: Grid/BoundaryConditions/Face/BCType: Temperature already has a condition on this face, "
                 "at SCENE:17:24; keep one")
         refused(plane, plane.replace('symmetry"/>', 'Dirichlet"><value>3</value></BCType>'),
-                "found label 'Symmetric' with var 'Dirichlet'; 'Symmetric' goes with 'symmetry', and with nothing else")
+                "found label 'Symmetric' with var 'Dirichlet'; 'Symmetric' and 'symmetry' are allowed only together")
         refused(plane, plane.replace("Symmetric", "Temperature"), "found label 'Temperature' with var 'symmetry'")
         refused(plane, plane + cold, "this face is a plane of symmetry: the only other condition that it allows is a "
                                      "Neumann condition of 0")

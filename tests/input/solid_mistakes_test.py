@@ -42,9 +42,9 @@ REFUSED = {
          "missing tag <outward_normal>: needed with <use_CBDI_boundary_condition>"),
     "pressures that turn, at the corners of particles":
         (BLOCK, ("<interpolator>", "<keepPressBCNormalToSurface>true</keepPressBCNormalToSurface><interpolator>"),
-         "not with <use_CBDI_boundary_condition>"),
+         "is not available with <use_CBDI_boundary_condition>"),
     "a torque on a box":
-        (BLOCK, ("pressure>", "torque>"), "a torque acts on the side of a <cylinder> only"),
+        (BLOCK, ("pressure>", "torque>"), "a torque acts only on the side of a <cylinder>"),
     "planes between bodies before there are any":
         (BLOCK, ("<interpolator>", "<stress_update>usf</stress_update><interpolator>"),
          "friction_LR, friction_LRVar and specified_friction only with usl and musl"),
@@ -59,10 +59,10 @@ REFUSED = {
          "needs a contact of type rigid, specified or specified_friction and its <filename>"),
     "a flow of heat into implicit steps": (BEAM, heat_flow("Neumann", "5"), "var: Neumann for Temperature only with"),
     "heat on a surface in implicit steps":
-        (BEAM, ("<Grid>", HEAT), "heat_flux: only with <time_integrator> explicit", "MPM/use_load_curves=true"),
+        (BEAM, ("<Grid>", HEAT), "heat_flux: needs <time_integrator> explicit", "MPM/use_load_curves=true"),
     "artificial viscosity in implicit steps":
         (BEAM, ("<dynamic>", "<artificial_viscosity>true</artificial_viscosity><dynamic>"),
-         "artificial_viscosity: is not available; only explicit steps have one"),
+         "artificial_viscosity: is not available; only explicit steps have artificial viscosity"),
     "a condition of one material of several in implicit steps":
         (BILLET, ('id="all" label="Symmetric" var="symmetry"/></Face>\n      <Face side="y-">',
                   'id="1" label="Velocity" var="Dirichlet"><value>[0,0,0]</value></BCType></Face>\n      <Face '
@@ -75,7 +75,8 @@ REFUSED = {
          "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
     "a direct solver that solves nothing":
         (BEAM, ("<preconditioner>lu", "<preconditioner>gamg"),
-         "preconditioner: found 'gamg', but with <solver> direct it solves the system: use lu or cholesky"),
+         "preconditioner: found 'gamg', but with <solver> direct the preconditioner solves the "
+         "system: use lu or cholesky"),
     "steps that Uintah would take again":
         (BILLET, ("<MPM>\n    <time", "<MPM>\n    <restartOnLargeNodalVelocity>true</restartOnLargeNodalVelocity>\n    "
                                       "<time"),
@@ -88,7 +89,8 @@ REFUSED = {
          "volumeFraction: found '0.5', expected 1: a body fills its shape"),
     "a first step after a restart":
         (BILLET, ("</Time>", "<override_restart_delt>1e-3</override_restart_delt></Time>"),
-         "override_restart_delt: found '1e-3', expected 0: a restart continues as the run would have"),
+         "override_restart_delt: found '1e-3', expected 0: a restart continues with the step that the run would "
+         "have taken"),
     "a load curve with the number of another load":
         (BEAM, ("<Grid>", HEAT.replace("heat_flux", "pressure").replace("<time_point>", "<id>2</id><time_point>", 1)),
          "id: found '2', expected 1: loads are numbered in the order of the scene", "MPM/use_load_curves=true"),
@@ -133,7 +135,7 @@ REFUSED = {
          "MPM/DoPressureStabilization=true"),
     "an energy budget of implicit steps":
         (BEAM, ("<dynamic>", " <dynamic>"),
-         "only solids with explicit time steps have an energy budget; take the module out",
+         "only solids with explicit time steps have an energy budget; remove the module",
          "DataAnalysis/Module/@name=energyBudget"),
     "the heat of a viscosity that is not there":
         (SPALL, ("<artificial_viscosity>true", "<artificial_viscosity>false"),
@@ -143,7 +145,7 @@ REFUSED = {
     "a metal without a heat capacity in implicit steps":
         (BEAM, (RUBBER, METAL + HARDENS), "missing tag <specific_heat>: elastic_plastic is heated by plastic work"),
     "obstacles without an energy":
-        (BEAM, (RUBBER, METAL + MTS), "g_0i, edot_0i and q_i must be greater than 0 where p_i is"),
+        (BEAM, (RUBBER, METAL + MTS), "g_0i, edot_0i and q_i must be greater than 0 if p_i is"),
     "friction in implicit steps":
         (BILLET, ("<type>rigid</type>", "<type>friction</type><mu>.1</mu>"),
          "contact: friction only with <time_integrator> "
@@ -152,7 +154,7 @@ REFUSED = {
         (BEAM, ('type="comp_neo_hook"', 'type="TransIsoHypoFrictional"'), "hypo_elastic, without fibres"),
     "affine velocities that stresses would not see":
         (BILLET, ("<interpolator>", "<apic>true</apic><stress_update>usf</stress_update><interpolator>"),
-         "apic: only with stress_update usl"),
+         "apic: is available only with stress_update usl"),
     "volumes per radian in a contact":
         (CYLINDER, ("</MPM>\n  </MaterialProperties>", "<contact><type>friction</type><mu>.1</mu><volume_constraint>.5"
                     "</volume_constraint></contact></MPM>\n  </MaterialProperties>"), "volume_constraint of <contact>"),

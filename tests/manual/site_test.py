@@ -134,7 +134,7 @@ class Tags(unittest.TestCase):
     def test_words_of_uintah(self):
         self.assertEqual(tags.parse_line("<a> — ignored: nothing").status, "ignored")
         self.assertEqual(tags.parse_line("<a>: only false: b does it").status, "limited")
-        self.assertEqual(tags.parse_line("<a>: not there: take b").status, "absent")
+        self.assertEqual(tags.parse_line("<a>: not available: take b").status, "absent")
 
     def test_an_unknown_form_is_an_error(self):
         self.assertRaises(ValueError, tags.parse_line, "something else")

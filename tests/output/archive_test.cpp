@@ -82,8 +82,8 @@ TEST(Archive, RefusesANameThatAFolderHas) {
   const TemporaryFolder here;
   fs::create_directory(here / "sod.uda");
   const auto sentence = sentenceOf([&] { Archive(here / "sod.uda", ""); });
-  EXPECT_EQ(sentence, "cannot make '" + (here / "sod.uda").string() +
-                          "' the link to the newest archive: it is a folder; move it away");
+  EXPECT_EQ(sentence, "cannot create '" + (here / "sod.uda").string() +
+                          "' as a link to the newest archive: there is a folder of that name; move it away");
   EXPECT_FALSE(fs::exists(here / "sod.uda.000"));
 }
 

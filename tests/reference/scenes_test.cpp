@@ -71,7 +71,7 @@ TEST(VortexScene, NeedsThePlaneInWhichItTurns) {
 
 TEST(VortexScene, RefusesAnEmptyMiddle) {
   EXPECT_EQ(problemOf("ups/euler/vortex.ups", {"DataAnalysis/Module/strength=12"}),
-            "A vortex of strength 12 m/s leaves no gas in its middle; the strength must be below 10.0828 m/s.");
+            "A vortex of strength 12 m/s leaves no gas at its centre; the strength must be below 10.0828 m/s.");
 }
 
 TEST(GreshoScene, HasErrorsThatFall) {
@@ -138,7 +138,7 @@ TEST(SedovScene, HasErrorsThatFallInOneTwoAndThreeDimensions) {
 TEST(SedovScene, RefusesAGasThatLeavesAVoid) {
   const std::string space = "Grid/Level/Box/resolution=[4,4,4]";
   EXPECT_EQ(problemOf("ups/euler/sedov.ups", {space, "DataAnalysis/Module/gamma=8"}),
-            "A blast in three dimensions leaves a void in its middle for gamma of 7 and more, such as 8.");
+            "A blast in three dimensions leaves a void at its centre if gamma is 7 or more, but gamma is 8.");
 }
 
 TEST(DiagonalTubeScene, HasErrorsThatFall) {
@@ -153,7 +153,7 @@ TEST(DiagonalTubeScene, RefusesWhatTheGridCannotHold) {
   const std::string scene = "ups/euler/sod_diagonal.ups", normal = "DataAnalysis/Module/normal=";
   EXPECT_EQ(problemOf(scene, {normal + "[1,1,1]"}), "normal: points along z, but this grid has no z");
   EXPECT_EQ(problemOf(scene, {normal + "[1,1.1,0]"}),
-            "normal: along it the grid repeats every 1.34535 m for one axis, but every 1.47988 m for another");
+            "normal: in this direction the grid repeats every 1.34535 m for one axis, but every 1.47988 m for another");
   EXPECT_EQ(problemOf(scene, {normal + "[0,0,0]"}), "normal is [0,0,0], which is no direction");
   EXPECT_EQ(problemOf(scene, {"DataAnalysis/Module/diaphragm=1"}),
             "The diaphragm must lie between two mirrors, which are 0.707107 m apart along the tube, but it is 0.707107 "

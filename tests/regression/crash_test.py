@@ -90,7 +90,7 @@ class Crash(unittest.TestCase):
         (self.here.uda / "input.xml").unlink()
         code, errors, report = self.here.restart(step=200)
         self.assertEqual((code, report["fingerprint"]), (0, fingerprint))
-        self.assertIn("input.xml was lost and is that of the checkpoint now", errors)
+        self.assertIn("input.xml was missing; it was restored from the checkpoint", errors)
         self.assertEqual((self.here.uda / "input.xml").read_text(), text)
 
     def test_what_cannot_be_restarted_is_refused_in_a_sentence(self):

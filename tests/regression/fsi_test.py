@@ -375,7 +375,7 @@ class WrongScenes(SceneTest):
         self.assert_refused(PLUG.replace("<heat>[0]", "<heat>[0,0]"), "found 2 numbers, expected 1")
 
     def test_cells_may_be_half_full(self):
-        self.assert_refused(PLUG.replace("<cfl>0.4", "<cfl>0.6"), "found 0.6, expected at most 0.5 beside bodies")
+        self.assert_refused(PLUG.replace("<cfl>0.4", "<cfl>0.6"), "found 0.6, expected at most 0.5 with bodies")
 
     def test_a_gas_is_not_axisymmetric(self):
         self.assert_refused(PLUG.replace("<MPM>\n", "<MPM>\n    <axisymmetric>true</axisymmetric>\n", 1),

@@ -159,7 +159,7 @@ class LevelSteps(FolderTest):
         """Each with its tag and its first task."""
         for scene, task in (("ups/burgers/levels.ups", "burgers::correct reads the new c.predictedU beyond a patch"),
                             ("ups/solid/penetration_levels.ups", "uses particles (p."),
-                            ("ups/heat/implicit_levels.ups", "sees all patches at once")):
+                            ("ups/heat/implicit_levels.ups", "needs all patches at once")):
             text = (ROOT / scene).read_text()
             changed = re.sub("</Grid>", "</Grid><AMR/>", text) if "<AMR>" not in text else text
             here = self.folder()

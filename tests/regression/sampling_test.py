@@ -179,7 +179,7 @@ class Sampling(ModuleTest):
             module("minMax", "<material>air</material>"):
                 "there is no material 'air': the variables of this component belong to none",
             module("minMax", variables=('label="c.density" matl="2"',)):
-                "there is no material 2; they are counted from 0 to 0",
+                "there is no material 2; materials are numbered from 0 to 0",
             module("minMax", variables=("TotalMass",)):
                 "found 'TotalMass', expected a variable of cells (c.) or nodes (g.)",
             module("minMax", variables=()): "analyze",
@@ -211,7 +211,7 @@ class Sampling(ModuleTest):
         curl = self.scene('<Module name="vorticity"><material>nothing</material></Module>', bodies)
         self.assertIn("material: found 'nothing', expected", sus(curl, "-check").stderr)
         heat = self.scene(VORTICITY, ROOT / "ups/heat/sine.ups")
-        self.assertIn("no velocity of a gas in cells; take the module out", sus(heat, "-check").stderr)
+        self.assertIn("no velocity of a gas in cells; remove the module", sus(heat, "-check").stderr)
 
 
 class Twice(ModuleTest):

@@ -73,7 +73,7 @@ TEST(Levels, ThatCannotBeGetASentence) {
   EXPECT_EQ(
       refused(level(box(".5,.25,0", "1,.5,0", "32,32,1"))),
       (Strings{"Grid/Level/Box: its cells are 2 times as fine along x, but 4 times along y; refine all axes alike, "
-               "and give one more Level where one needs more"}));
+               "and add another Level where one axis needs finer cells"}));
   EXPECT_EQ(refused(level(box(".5,.25,0", "1,.5,0", "16,8,1"))),
             (Strings{"Grid/Level: this Level is not finer than the one before, at s.ups:1:30; Levels go from coarse to "
                      "fine"}));

@@ -97,10 +97,10 @@ TEST(Regridder, NotesWhatOfUintahsDoesNothing) {
   EXPECT_EQ(
       found.notes,
       (Strings{
-          "AMR/Regridder/max_timestep_interval: does nothing: every regrid is due by <min_timestep_interval>",
+          "AMR/Regridder/max_timestep_interval: does nothing: <min_timestep_interval> alone determines when to regrid",
           "AMR/Regridder/min_boundary_cells: does nothing: <cell_stability_dilation> alone widens the refined region, "
           "besides the distance that signals travel",
-          "AMR/ICE/orderOfInterpolation: does nothing: values between levels are of second order"}));
+          "AMR/ICE/orderOfInterpolation: does nothing: interpolation between levels is of second order"}));
   EXPECT_FALSE(found.amr.smallerSteps);
 }
 
@@ -154,9 +154,9 @@ TEST(Criteria, ThatCannotBeGetASentence) {
   EXPECT_EQ(refused("value=\"1\" coarsen=\"-1\""),
             Strings{path + "'coarsen': found '-1', expected a value of at least 0"});
   EXPECT_EQ(refused("value=\"1\" coarsen=\"2\""),
-            Strings{path + "'coarsen': found '2', expected a value not above that of value, 1"});
+            Strings{path + "'coarsen': found '2', expected at most the attribute 'value', 1"});
   EXPECT_EQ(refused("value=\"1\" coarsen=\".5\" type=\"below\""),
-            Strings{path + "'coarsen': found '0.5', expected a value not below that of value, 1"});
+            Strings{path + "'coarsen': found '0.5', expected at least the attribute 'value', 1"});
   EXPECT_EQ(
       refused("value=\"1\" type=\"gradiant\""),
       Strings{path + "'type': found 'gradiant', expected 'jump', 'second_derivative', 'gradient', 'above' or 'below' "

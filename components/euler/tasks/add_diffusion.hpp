@@ -17,7 +17,7 @@ struct DiffusionRims {
   }
 };
 
-/// T [K] in the place of the density, and v, of the cells of `rows` that are on the grid or its images.
+/// Computes T [K], in place of the density, and v, for the cells of `rows` that are on the grid or its images.
 template <int D>
 void findTemperature(const Gas& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& rows);
 
@@ -26,12 +26,12 @@ template <int D>
 void computeDiffusiveFluxes(const Diffusion& diffusion, const Level& level, const Box& faces, int axis, Rows<D>& w,
                             Rows<D>& flux);
 
-/// Adds what flows into the cells of a block across an axis; `ratio` is dt / h [s/m].
+/// Adds the inflow to the cells of a block across an axis; `ratio` is dt / h [s/m].
 template <int D>
 void addDiffused(double ratio, const Box& block, int axis, Rows<D>& flux, CellView<Vec<D>> momentum,
                  CellView<double> energy);
 
-/// Adds what viscosity and heat conduction change in a step, from the state [kg/m³, kg/(m² s), J/m³] and the time at
+/// Adds the changes by viscosity and heat conduction in a step, from the state [kg/m³, kg/(m² s), J/m³] and the time at
 /// its start.
 ///
 /// Through a face across d flow -tau_d of momentum and -(tau_d . v + k dT/dx_d) of energy, tau = mu (grad v +
@@ -44,7 +44,7 @@ void addDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion
                   double dt, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy,
                   const DiffusionRims<D>& rims);
 
-/// dt = cfl / max(sum_d (|v_d| + c) / h_d + 2 nu / h_d²), nu the greatest diffusivity.
+/// dt = cfl / max(sum_d (|v_d| + c) / h_d + 2 nu / h_d²), where nu is the largest diffusivity.
 template <int D>
 void limitDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion, double cfl,
                     CellView<const double> density, CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,

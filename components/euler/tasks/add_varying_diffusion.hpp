@@ -5,7 +5,7 @@
 
 namespace tushar::euler {
 
-/// The cells of a gas as they diffuse.
+/// A function that returns the diffusing gas of each cell.
 template <int D>
 auto diffusingCells(const Level& level, const Gas& gas, const VaryingDiffusion& how,
                     const StateViews<D, const double>& old) {
@@ -22,7 +22,7 @@ auto diffusingCells(const Level& level, const Gas& gas, const VaryingDiffusion& 
   };
 }
 
-/// addDiffusion where viscosity and conduction vary.
+/// Like addDiffusion, for varying viscosity and conduction.
 template <int D>
 void addVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffusion& how, const OldState<D>& old,
                          double time, double dt, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy,
@@ -32,8 +32,8 @@ void addVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffus
   diffuse<D>(patch, diffuser, dt, diffusingCells<D>(patch.level(), gas, how, old), newMomentum, newTotalEnergy, rims);
 }
 
-/// dt = cfl over the greatest rate of crossing cells and of diffusion. `soundSpeedKnob`: how much of the speed of
-/// sound counts.
+/// dt = cfl over the largest combined rate of crossing cells and of diffusion. `soundSpeedKnob`: how much of the speed
+/// of sound counts.
 template <int D>
 void limitVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffusion& how, double cfl,
                            double soundSpeedKnob, const OldState<D>& old, double time, Minimum& dt) {

@@ -44,12 +44,12 @@ template <int D>
 using Advance = void (*)(const Patch& patch, const Gas& gas, const OldState<D>& old, double time, double dt,
                          const NewState<D>& fresh, const RimFluxes<D>& rims);
 
-/// The body for a method and the law of a gas: each is compiled on its own, so that no loop over cells branches on
+/// The body for a method and the law of a gas; each is compiled separately, so that no loop over cells branches on
 /// them. A gas with a law of its own has HLLC's flux, and van Leer's slopes or none.
 template <int D>
 Advance<D> chooseAdvance(const Method& method, const Gas& gas = {});
 
-/// How many cells beyond a patch a step reads.
+/// The number of cells beyond a patch that a step reads.
 inline int reach(const Method& method) { return method.reconstruction == Reconstruction::firstOrder ? 1 : 2; }
 
 }  // namespace tushar::euler

@@ -4,7 +4,7 @@
 
 namespace tushar::euler {
 
-/// What a step reads of each of several gases.
+/// The variables of each of several gases that a step reads.
 struct OldGas {
   CellView<const double> mass, share;
 
@@ -12,7 +12,7 @@ struct OldGas {
     return {.mass = take(requiresOld(c::gasMass, ghost)), .share = take(requiresOld(c::gasShare, ghost))};
   }
 };
-/// What a step computes for each of several gases.
+/// The variables of each of several gases that a step computes.
 struct NewGas {
   CellView<double> mass, share;
 
@@ -52,19 +52,19 @@ using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>&
                                 const std::vector<NewGas>& newGases, const RimFluxes<D>& rims,
                                 const std::vector<GasRims>& gasRims);
 
-/// The greatest number of gases.
+/// The largest number of gases.
 inline constexpr int kMostGases = 3;
 
 /// The body for a method and a number of gases: HLLC's flux, van Leer's slopes or none.
 template <int D>
 AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
 
-/// Where fluxes through the rim of a level were corrected, shares no longer add up to 1, as if the cell had become
-/// wider. Divides them by their sum, the correction of the flux of volume. Other cells stay as they are.
+/// Rescales shares where fluxes through the rim of a level were corrected: there they no longer add up to 1. Divides
+/// them by their sum, the correction of the flux of volume. Other cells stay as they are.
 template <int D>
 void closeShares(const Patch& patch, const std::vector<Settings>& gases, const std::vector<CellView<double>>& shares);
 
-/// What a regridding changes of each of several gases.
+/// The variables of each of several gases that a regridding changes.
 struct ChangedGas {
   CellView<double> mass, share;
 
@@ -72,9 +72,9 @@ struct ChangedGas {
     return {.mass = take(modifies(c::gasMass)), .share = take(modifies(c::gasShare))};
   }
 };
-/// As mendNewCells for several gases: the numbers of new cells are interpolated separately, so the density becomes
-/// the sum of the masses again, and the shares are made to add up to 1. Where that makes no gas, all children of a cell
-/// get their means.
+/// Like mendNewCells, for several gases: as numbers of new cells are interpolated separately, the density is set to the
+/// sum of the masses, and the shares are rescaled to add up to 1. Where that makes no gas, all children of a cell get
+/// their means.
 template <int D>
 void mendNewMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& newCells,
                     const ChangedState<D>& state, const std::vector<ChangedGas>& held);

@@ -36,7 +36,7 @@ void advanceCells(const G& gas, const Level& level, const GhostRules<D>& rules, 
   }
 }
 
-/// Advance<D> of one method and the law of a gas.
+/// The Advance<D> for one method and the law of a gas.
 template <int D, class Flux, class Shape, class Law>
 void advance(const Patch& patch, const Gas& gas, const OldState<D>& old, double time, double dt,
              const NewState<D>& fresh, const RimFluxes<D>& rims) {

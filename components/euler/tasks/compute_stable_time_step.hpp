@@ -4,8 +4,8 @@
 
 namespace tushar::euler {
 
-/// The greatest sum_d (|v_d| + c) / h_d [1/s] in a gas with a law of its own.
-/// Throws NumericalError where a state is impossible.
+/// The largest sum_d (|v_d| + c) / h_d [1/s] in a gas with a law of its own. Throws NumericalError where a state is
+/// impossible.
 template <int D>
 double greatestRate(const Patch& patch, const Gas& gas, const StateViews<D, const double>& state) {
   refuseBroken<D, const double>(patch, gas, state, nullptr);

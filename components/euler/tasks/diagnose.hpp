@@ -50,7 +50,7 @@ double internalEnergyPerVolume(double density, const Vec<D>& momentum, double to
   return totalEnergy - 0.5 * momentum.squaredNorm() / density;
 }
 
-/// Least density [kg/m³] and internal energy [J/kg] of any cell.
+/// Smallest density [kg/m³] and internal energy [J/kg] of any cell.
 template <int D>
 void findLeast(const Patch& patch, CellView<const double> density, CellView<const Vec<D>> momentum,
                CellView<const double> totalEnergy, Minimum& leastDensity, Minimum& leastEnergy) {
@@ -60,8 +60,8 @@ void findLeast(const Patch& patch, CellView<const double> density, CellView<cons
   });
 }
 
-/// Sum of m (ln((p + p_inf) / ((gamma - 1) rho)) - (gamma - 1) ln rho) [kg]: entropy over c_v, but for a constant that
-/// the units decide. Laws have their own.
+/// Sum of m (ln((p + p_inf) / ((gamma - 1) rho)) - (gamma - 1) ln rho) [kg]: entropy over c_v, up to a constant that
+/// depends on the units. Laws have their own.
 template <int D>
 void sumEntropy(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
                 CellView<const double> totalEnergy, Sum& entropy) {

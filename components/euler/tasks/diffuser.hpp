@@ -31,7 +31,7 @@ struct Crossing {
 /// What diffuses in a cell, and how.
 template <int D>
 struct DiffusingCell {
-  State<D> w{};             ///< T in the place of the density, and v
+  State<D> w{};             ///< T, in place of the density, and v
   Diffusion how;            ///< without eddies
   double density = 0;       ///< kg/m³
   double specificHeat = 0;  ///< c_v, J/(kg K)
@@ -141,7 +141,7 @@ class Diffuser {
   Rows<D> w_, coefficients_, flux_;
 };
 
-/// Adds what diffuses in a step in the cells of a patch, as addDiffusion does where nothing varies.
+/// Adds diffusion in a step to the cells of a patch, like addDiffusion for constant coefficients.
 template <int D, class CellAt>
 void diffuse(const Patch& patch, Diffuser<D>& diffuser, double dt, CellAt&& cellAt, CellView<Vec<D>> momentum,
              CellView<double> totalEnergy, const DiffusionRims<D>& rims) {

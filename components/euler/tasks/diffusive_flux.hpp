@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// T takes the place of the density in a State; the place of the pressure is unused.
+/// The place of T in a State, instead of the density; that of the pressure is unused.
 inline constexpr std::size_t kTemperature = kDensity;
 
 /// Distances in memory between neighbours, and 1/h, along each axis.

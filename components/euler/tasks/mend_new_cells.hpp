@@ -22,7 +22,7 @@ class Children {
     forEach([&](const Index<D>& cell) { all = all && test(cell); });
     return all;
   }
-  /// Gives all their mean, which is the value of the parent.
+  /// Sets all children to their mean, which is the value of the parent.
   template <class View>
   void setToMean(const View& values) const {
     auto sum = values[at(0)];
@@ -42,9 +42,9 @@ class Children {
   Index<D> parent_;
 };
 
-/// Density, momentum and energy of new cells are interpolated separately, so that beside a jump the pressure of
-/// one could be below -p_inf, though that of its parent is not. There all children of the parent get their mean, which
-/// is its state: nothing is lost. `newCells`: boxes of whole parents.
+/// Replaces invalid new cells by the mean of their parent: as density, momentum and energy are interpolated separately,
+/// the pressure next to a jump could be below -p_inf. There all children of the parent get their mean, which is its
+/// state: nothing is lost. `newCells`: boxes of whole parents.
 template <int D>
 void mendNewCells(const Patch&, const Gas& gas, const std::vector<Box>& newCells, const ChangedState<D>& state) {
   const auto isFine = [&](const Index<D>& cell) {

@@ -12,8 +12,8 @@ namespace tushar::euler {
 template <int D, int K = 1>
 using Pointers = typename Rows<D, K>::Pointers;
 
-/// rho, v, p of `count` cells whose rho, rho v (D numbers per cell) and E are given; of several gases `w` has the
-/// masses and shares.
+/// Computes rho, v, p of `count` cells from rho, rho v (D numbers per cell) and E; for several gases, `w` already
+/// contains the masses and shares.
 template <int D, class G>
 void recoverRow(const G& gas, const double* density, const double* momentum, const double* energy, int count,
                 const Pointers<D, kGases<G>>& w) {
@@ -68,8 +68,8 @@ void halfStepRow(const G& gas, const Pointers<D, kGases<G>>& lower, const Pointe
   }
 }
 
-/// Changes primitive values by a change of the conserved ones; lowers `least` to the density and p + p_inf that it
-/// finds, or what a law has in its place, and below 0 if one of several gases has a negative amount.
+/// Changes primitive values by a change of the conserved ones; lowers `least` to the density and p + p_inf (or, for a
+/// law, its heat) found, and below 0 if one of several gases has a negative amount.
 template <int D, class G>
 void changeRow(const G& gas, const Pointers<D, kGases<G>>& change, int count, const Pointers<D, kGases<G>>& values,
                double* least) {
@@ -86,8 +86,8 @@ void changeRow(const G& gas, const Pointers<D, kGases<G>>& change, int count, co
   }
 }
 
-/// Of several gases, where limited slopes need not add up: scales masses and shares so that the shares make 1, and the
-/// density the sum of the masses.
+/// For several gases, whose limited slopes need not add up: scales masses and shares so that the shares add up to 1,
+/// and the density is the sum of the masses.
 template <int D, int K>
 void closeRow(int count, const Pointers<D, K>& values) {
 #pragma GCC ivdep
@@ -100,7 +100,7 @@ void closeRow(int count, const Pointers<D, K>& values) {
   }
 }
 
-/// Treats cells whose `least` is not positive as constant: their values at both faces become those of the cell.
+/// Treats cells whose `least` is not positive as constant: sets the values at both faces to those of the cell.
 template <int D, int K = 1>
 void flattenRow(const double* least, const Pointers<D, K>& w, int count, const Pointers<D, K>& lower,
                 const Pointers<D, K>& upper) {
@@ -108,7 +108,7 @@ void flattenRow(const double* least, const Pointers<D, K>& w, int count, const P
     for (std::size_t k = 0; k < w.size() && !(least[i] > 0); ++k) lower[k][i] = upper[k][i] = w[k][i];
 }
 
-/// Fluxes through the lower faces of `count` cells across `Axis`, from the states on both sides.
+/// Computes fluxes through the lower faces of `count` cells across `Axis`, from the states on both sides.
 template <int D, class Flux, int Axis, class G>
 void fluxRow(const G& gas, const Pointers<D, kGases<G>>& below, const Pointers<D, kGases<G>>& above, int count,
              const Pointers<D, kGases<G>>& flux) {

@@ -5,7 +5,7 @@
 
 namespace tushar::ice {
 
-/// How several gases diffuse: each has its viscosity and conductivity, and a cell has their mean by their shares.
+/// Diffusion of several gases: each has its viscosity and conductivity, and a cell has their mean, weighted by shares.
 struct MixtureDiffusion {
   std::vector<euler::Diffusion> of;  ///< each gas
   double smagorinsky = 0;            ///< C of eddies smaller than cells
@@ -15,7 +15,7 @@ struct MixtureDiffusion {
   }
 };
 
-/// The cells of several gases as they diffuse.
+/// A function that returns the diffusing gas of each cell.
 template <int D>
 auto diffusingMixture(const Gases& gases, const MixtureDiffusion& how, const euler::OldState<D>& state,
                       const std::vector<euler::OldGas>& held) {
@@ -37,7 +37,7 @@ auto diffusingMixture(const Gases& gases, const MixtureDiffusion& how, const eul
   };
 }
 
-/// Adds what viscosity and conduction change in a step in several gases, as euler::addDiffusion does in one. Walls
+/// Adds the changes by viscosity and conduction in a step for several gases, like euler::addDiffusion for one. Walls
 /// have the conditions of all gases.
 template <int D>
 void addMixtureDiffusion(const Patch& patch, const Gases& gases, const MixtureDiffusion& how,
@@ -49,7 +49,7 @@ void addMixtureDiffusion(const Patch& patch, const Gases& gases, const MixtureDi
   euler::diffuse<D>(patch, diffuser, dt, diffusingMixture<D>(gases, how, state, held), momentum, totalEnergy, rims);
 }
 
-/// dt = cfl over the greatest rate of crossing cells and of diffusion.
+/// dt = cfl over the largest combined rate of crossing cells and of diffusion.
 template <int D>
 void limitMixtureDiffusion(const Patch& patch, const Gases& gases, const MixtureDiffusion& how, double cfl,
                            const euler::OldState<D>& state, const std::vector<euler::OldGas>& held, double time,

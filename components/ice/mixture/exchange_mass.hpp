@@ -7,7 +7,7 @@ namespace tushar::ice {
 /// One of several gases becomes another one.
 struct Transfer {
   std::size_t from = 0, to = 0;
-  double rate = 0;       ///< part of it per time, 1/s
+  double rate = 0;       ///< fraction of it per time, 1/s
   double startTime = 0;  ///< s
 };
 

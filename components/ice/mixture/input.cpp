@@ -57,7 +57,7 @@ std::optional<std::string> givenAt(const Element& face, const grid::BoundaryVari
   return {};
 }
 
-/// Whether no gas flows through a face: a velocity in it, and nothing else, is given.
+/// Whether a face is a wall: only a velocity within the face is given.
 bool isWall(const Element& face) {
   const auto given = givenAt(face, euler::boundary::velocity);
   if (!given || givenAt(face, euler::boundary::pressure) || givenAt(face, euler::boundary::density)) return false;
@@ -68,8 +68,8 @@ bool isWall(const Element& face) {
   return false;
 }
 
-/// Reports a condition that does not hold for all gases; that of the pressure may be given for the first material, as
-/// in Uintah.
+/// Reports a condition that does not hold for all gases; as in Uintah, the pressure may be given for the first
+/// material.
 void checkMaterial(const Element& condition, int solids, Diagnostics& diagnostics) {
   const std::string id = condition.attribute("id").value_or("all");
   const bool isPressure = condition.attribute("label") == euler::boundary::pressure.name;
@@ -85,16 +85,17 @@ void checkSide(const Element& face, const Element& condition, int solids, Diagno
       label == euler::boundary::density.name || (label == euler::boundary::temperature.name && !isWall(face));
   if (var == euler::boundary::waves.name)
     diagnostics.error(condition.whereOf("var"), condition.path(),
-                      "LODI is not available where there are several gases: give Neumann, or a Pressure");
+                      "LODI is not available with several gases: give Neumann, or a Pressure");
   else if (isGiven && saysWhat)
     diagnostics.error(condition,
-                      "Dirichlet is not available where there are several gases: what flows in is the gas beside "
-                      "the side; give a Velocity or a Pressure, or Neumann");
+                      "Dirichlet is not available with several gases: the gas that flows in has the composition of the "
+                      "adjacent cells; give a Velocity or a Pressure, or Neumann");
   else if (var != nameOf(BoundaryKind::neumann))
     checkMaterial(condition, solids, diagnostics);
 }
 
-/// Sides have the conditions of all gases: a velocity and a pressure, and walls a temperature, but no composition.
+/// Checks that sides have conditions for all gases together: velocity and pressure, temperatures of walls, but no
+/// composition.
 void checkSides(const Element& root, int solids, Diagnostics& diagnostics) {
   const auto group = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   for (const Element& face : group ? group->children("Face") : std::vector<Element>())
@@ -128,10 +129,10 @@ void checkMixture(const std::vector<GasMaterial>& materials, const Element& root
   }
   if (scene.implicit)
     diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "is not available with several gases: take it out, or run with --set CFD/ICE/explicit=true");
+                      "is not available with several gases: remove it, or run with --set CFD/ICE/explicit=true");
   if (!scene.scalars.empty())
     diagnostics.error(scene.scalars.front().where, "Models/Model",
-                      "is not available with several gases; take it out, or keep one gas");
+                      "is not available with several gases; remove it, or keep one gas");
   checkExchange(scene, root, solids, diagnostics);
   checkExchangesOfMass(scene, diagnostics);
   checkSides(root, solids, diagnostics);

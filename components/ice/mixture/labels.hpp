@@ -4,7 +4,7 @@
 
 namespace tushar::ice {
 
-/// The name of the total of a gas, whose address must not change while tasks have it.
+/// The name of the total of a gas; its address must not change while tasks refer to it.
 class GasTotal {
  public:
   explicit GasTotal(const std::string& gas) : name_("TotalMass-" + gas) {}
@@ -20,9 +20,9 @@ class GasTotal {
 
 namespace c {
 
-/// Variables of each of several gases, derived if a scene saves them.
+/// Variables of each of several gases, computed only if a scene saves them.
 inline constexpr CellLabel<double> ownDensity{"c.ownDensity", "kg/m^3",
-                                              "mass of a gas over the volume that it has; 0 where it has none"};
+                                              "mass of a gas over its own volume; 0 where there is none"};
 
 }  // namespace c
 

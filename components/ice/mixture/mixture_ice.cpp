@@ -8,7 +8,7 @@ namespace tushar::ice {
 
 namespace {
 
-/// The gases that a scene names for exchanges of mass, by their numbers.
+/// The mass exchanges of a scene, with the numbers of the gases.
 std::vector<Transfer> transfersOf(const GasScene& scene) {
   const auto numberOf = [&](const std::string& name) {
     const auto isIt = [&](const euler::Settings& gas) { return gas.name == name; };

@@ -10,7 +10,7 @@
 namespace tushar::ice {
 
 /// Several gases with the input of Uintah's ICE, at one velocity and one pressure in each cell: the state of `euler`
-/// for all together, and of each gas its mass and its share of the volume. See components/euler/mixture.hpp.
+/// for all together, and the mass and the volume fraction of each gas. See components/euler/mixture.hpp.
 template <int D>
 class MixtureIce : public Component, public reference::GasSolution {
  public:

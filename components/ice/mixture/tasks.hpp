@@ -13,12 +13,12 @@ namespace tushar::ice {
 
 using Gases = std::vector<euler::Settings>;
 
-/// The state of several gases at a point at the start: of each that of its last object there, in its share.
+/// The state of several gases at a point at the start: for each gas, that of its last object there, times its share.
 template <int D>
 struct MixtureStart {
-  euler::State<D> sum{};                                  ///< of all together
+  euler::State<D> sum{};                                  ///< state of all together
   std::array<double, euler::kMostGases> mass{}, share{};  ///< of each
-  double filled = 0;                                      ///< the shares together
+  double filled = 0;                                      ///< sum of the shares
 
   static MixtureStart at(const Level& level, const Gases& gases, const Vec3& point) {
     MixtureStart start;
@@ -103,7 +103,7 @@ void computeMixedMach(const Patch& patch, const Gases& gases, const euler::OldSt
   });
 }
 
-/// T [K], the same of all gases of a cell: rho e = sum of m_k c_v,k T + z_k p_inf,k.
+/// T [K], the same for all gases of a cell: rho e = sum of m_k c_v,k T + z_k p_inf,k.
 template <int D>
 double temperatureAt(const Gases& gases, const euler::OldState<D>& state, const std::vector<euler::OldGas>& held,
                      const Index<D>& cell) {

@@ -19,7 +19,7 @@ class ImplicitStep {
         middle_(flow_.old()),
         flux_(flow_.old()) {}
 
-  /// Moves to the cells of `block`, whose pressures change by `change` [Pa].
+  /// Loads the cells of `block`, whose pressures change by `change` [Pa].
   void hold(const Box& block, const euler::StateViews<D, const double>& before, const CellView<const double>& change) {
     flow_.hold(block, before);
     change_ = &change;
@@ -37,7 +37,7 @@ class ImplicitStep {
   double computeFluxes(const Box& faces, int axis) {
     return computeFluxes(faces, axis, [](const Index<D>&) { return 1.0; });
   }
-  /// The same through the share `open(face)` of each face.
+  /// The same through the open fraction `open(face)` of each face.
   template <class Open>
   double computeFluxes(const Box& faces, int axis, Open&& open) {
     double most = 0;
@@ -68,7 +68,7 @@ class ImplicitStep {
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh) {
     addGravity(block, axis, fresh, [](const Index<D>&) { return true; });
   }
-  /// As above, only in the cells for which `takes(cell)` holds.
+  /// The same only in the cells for which `takes(cell)` holds.
   template <class Takes>
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh, Takes&& takes) {
     const double g = flow_.gravity()[axis];

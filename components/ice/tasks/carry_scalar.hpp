@@ -7,8 +7,8 @@
 
 namespace tushar::ice {
 
-/// The scalar at the start, times the density: of the last region that owns the centre of a cell.
-/// Throws InputError where none does.
+/// The scalar at the start, times the density, from the last region that owns the centre of a cell. Throws InputError
+/// where none does.
 template <int D>
 void initializeScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const double> density,
                       CellView<double> held) {
@@ -57,7 +57,7 @@ class ScalarAtFaces {
     values_.resize(box_.size());
     forEach<D>(box_, [&](const Index<D>& cell) { values_[offset(cell)] = facesOf(cell); });
   }
-  /// f of a cell's gas that leaves through its lower (0) or upper (1) face.
+  /// f of the gas that leaves a cell through its lower (0) or upper (1) face.
   double at(const Index<D>& cell, int axis, int side) const { return values_[offset(cell)][axis][side]; }
   bool has(const Index<D>& cell) const { return box_.contains(cell); }
 
@@ -195,7 +195,7 @@ void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::G
   });
 }
 
-/// Where a scalar has interior sources: it rises by their value in each step, up to the greatest of them.
+/// Interior sources of a scalar: it rises by their value in each step, up to their limit.
 template <int D>
 void raiseScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const double> density,
                  CellView<double> held) {
@@ -212,7 +212,7 @@ void raiseScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const
   }
 }
 
-/// dt = cfl / (4 sum_d D / h_d²): then diffusion and flow together make no new greatest value either.
+/// dt = cfl / (4 sum_d D / h_d²), so that diffusion and flow together create no new extrema.
 template <int D>
 void limitScalarDiffusion(const Patch& patch, double diffusivity, double cfl, CellView<const double>, Minimum& dt) {
   double rate = 0;

@@ -31,7 +31,7 @@ struct PressureViews {
 template <int D>
 struct CellFace {
   int axis, side;        ///< side 0: the lower face, 1: the upper one
-  Index<D> index, next;  ///< the face, by the cell above it; the cell behind it
+  Index<D> index, next;  ///< index of the face (that of the cell above it), and the cell behind it
   double ratio, out;     ///< dt / h, s/m; the same with the sign of the outward normal
 };
 
@@ -54,7 +54,7 @@ numerics::CellEquation<D> equationWith(const Index<D>& cell, double weight) {
   return equation;
 }
 
-/// Adds weight (d - d_n) to the left-hand side, where d_n is the change in the cell `next`; 0 beyond the grid.
+/// Adds weight (d - d_n) to the left-hand side, where d_n is the change in the cell `next`, which is 0 beyond the grid.
 template <int D>
 void couple(const FaceFlow<D>& flow, const Index<D>& next, double weight, numerics::Balance<D>& left) {
   left.weights[0] += weight;

@@ -24,7 +24,7 @@ struct MpmSection {
 const Schema<MpmSection>& mpmSchema() {
   static const Schema<MpmSection> schema =
       Schema<MpmSection>("MPM", "The Material Point Method.")
-          .choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0, "how time advances")
+          .choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0, "the time integrator")
           .choice("interpolator", &MpmSection::interpolator, {{"linear", 0}}, 0, "shape functions")
           .section("gas_dynamics", &MpmSection::gas, paper::methodSchema())
           .ours()
@@ -48,7 +48,7 @@ void refusePlacements(const GasProperties& properties, Diagnostics& diagnostics)
             "placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint, or <gas_dynamics>");
 }
 
-/// Refuses several gases where the method does not support them: it takes boxes that are not remapped, and `apic`.
+/// Refuses several gases with settings that do not support them: they need boxes without remapping, and `apic`.
 void refuseMixtures(const MpmSection& method, const GasProperties& properties, Diagnostics& diagnostics) {
   const std::vector<GasSection>& materials = properties.mpm.materials;
   if (materials.size() < 2) return;
@@ -59,7 +59,7 @@ void refuseMixtures(const MpmSection& method, const GasProperties& properties, D
     refuse("<gas_dynamics> takes one material; give it several <geom_object>s, or use <conserving_gas_dynamics>");
   if (!method.conserving) return;
   if (method.conserving->transfer != conserving::Transfer::apic) refuse("several gases need <transfer> apic");
-  if (method.conserving->remap) refuse("several gases cannot have a <remap>; take it out");
+  if (method.conserving->remap) refuse("several gases cannot have a <remap>; remove it");
   if (method.conserving->heatConduction > 0) refuse("several gases cannot have <artificial_heat_conduction>");
   for (std::size_t k = 0; k < materials.size(); ++k) {
     if (materials[k].relaxation) refuse("several gases cannot have <relaxation>");
@@ -69,7 +69,7 @@ void refuseMixtures(const MpmSection& method, const GasProperties& properties, D
   }
 }
 
-/// Refuses stiffened gases: the paper's method is for ideal gases.
+/// Refuses stiffened gases, as the paper's method is for ideal gases.
 void refuseStiffness(const GasProperties& properties, Diagnostics& diagnostics) {
   for (const GasSection& material : properties.mpm.materials)
     if (material.model.type == GasType::stiffened)

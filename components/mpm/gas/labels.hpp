@@ -12,8 +12,8 @@ inline constexpr ParticleLabel<double> density{"p.density", "kg/m^3", "mass dens
 inline constexpr ParticleLabel<double> internalEnergy{"p.internalEnergy", "J/kg", "internal energy per mass",
                                                       Bound::nonNegative};
 inline constexpr ParticleLabel<double> pressure{"p.pressure", "Pa", "pressure, artificial viscosity included"};
-inline constexpr ParticleLabel<double> velocityDivergence{"p.velocityDivergence", "1/s",
-                                                          "divergence of the velocity in the cell of the last step"};
+inline constexpr ParticleLabel<double> velocityDivergence{
+    "p.velocityDivergence", "1/s", "divergence of the velocity in the particle's cell in the last step"};
 }  // namespace p
 
 /// Node variables.

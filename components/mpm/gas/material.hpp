@@ -12,11 +12,11 @@
 
 namespace tushar::mpm::gas {
 
-/// Where in a cell the particles of a body start.
+/// The positions in a cell at which the particles of a body start.
 enum class Placement {
-  midpoint,  ///< in the middle of equal parts of the cell
-  jittered,  ///< one anywhere in each of these parts
-  random,    ///< anywhere in the cell, each on its own
+  midpoint,  ///< at the centres of equal parts of the cell
+  jittered,  ///< at a random point in each of these parts
+  random,    ///< at independent random points of the cell
 };
 
 /// A body of gas at the start: its shape and its state, which may vary in space.
@@ -28,13 +28,13 @@ struct GasObject {
   input::Expression pressure;          ///< Pa
   input::VectorExpression velocity;    ///< m/s
   Placement placement = Placement::midpoint;
-  int seed = 0;  ///< of random positions
+  int seed = 0;  ///< seed of random positions
 };
 
 /// A source of heat, de/dt = -rate (e - internalEnergy): radiation or a wall that keeps a gas near one temperature.
 struct Relaxation {
   double rate = 0;            ///< 1/s
-  double internalEnergy = 0;  ///< J/kg, in the limit
+  double internalEnergy = 0;  ///< internal energy in the limit, J/kg
 };
 
 /// A stiffened gas: p = (gamma - 1) rho epsilon - p_inf; with p_inf = 0 an ideal gas, (3) of Tran, Kim & Berzins.
@@ -48,26 +48,26 @@ struct Gas {
   std::string name;
   double gamma = 1.4;    ///< ratio of specific heats
   double pInfinity = 0;  ///< Pa
-  double carried = 0;    ///< part of p_inf in the energy that particles carry, Pa: 0 or all
+  double carried = 0;    ///< the part of p_inf in the energy that particles carry, Pa: 0 or all
   Location where;        ///< of the constitutive model, in the scene
   std::vector<GasObject> objects;
   std::optional<Relaxation> relaxation;
 
-  /// epsilon [J/kg] of density rho [kg/m³] and the energy that particles carry [J/kg].
+  /// epsilon [J/kg] for a density rho [kg/m³] and the energy that particles carry [J/kg].
   double heat(double rho, double energy) const { return energy - carried / rho; }
-  /// p [Pa] of density rho [kg/m³] and the energy that particles carry [J/kg].
+  /// p [Pa] for a density rho [kg/m³] and the energy that particles carry [J/kg].
   double pressure(double rho, double energy) const { return pressureOf(rho, heat(rho, energy)); }
-  /// p [Pa] of density rho [kg/m³] and epsilon [J/kg].
+  /// p [Pa] for a density rho [kg/m³] and epsilon [J/kg].
   double pressureOf(double rho, double epsilon) const { return (gamma - 1) * rho * epsilon - pInfinity; }
   /// The energy that particles carry [J/kg] at density rho [kg/m³] and p [Pa].
   double internalEnergy(double rho, double p) const { return (p + pInfinity) / ((gamma - 1) * rho) + carried / rho; }
-  /// e [J/kg] of density rho [kg/m³] and the energy that particles carry [J/kg].
+  /// e [J/kg] for a density rho [kg/m³] and the energy that particles carry [J/kg].
   double fullEnergy(double rho, double energy) const { return energy + (pInfinity - carried) / rho; }
   /// Square of the speed of sound [m²/s²].
   double soundSpeedSquared(double epsilon) const { return gamma * (gamma - 1) * epsilon; }
 };
 
-/// The laws that the flow of gases follows; none if a gas has a source of heat.
+/// The laws of the gases for exact solutions; none if a gas has a source of heat.
 inline std::vector<reference::GasLaw> lawsOf(const std::vector<Gas>& gases) {
   std::vector<reference::GasLaw> laws;
   for (const Gas& gas : gases) {

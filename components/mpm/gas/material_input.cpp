@@ -15,12 +15,13 @@ namespace {
 const Schema<GasObjectSection>& objectSchema() {
   static const Schema<GasObjectSection> schema = [] {
     Schema<GasObjectSection> tags("geom_object", "A body of material at the start.");
-    input::addShape(tags, &GasObjectSection::where, &GasObjectSection::shape, "the body's shape; several are united")
+    input::addShape(tags, &GasObjectSection::where, &GasObjectSection::shape,
+                    "shape of the body; several shapes form their union")
         .required("res", &GasObjectSection::res, "1", "particles per cell along x, y, z", input::between(1, 64))
         .value("velocity", &GasObjectSection::velocity, input::VectorExpression(), "m/s", "velocity at the start",
                input::WithoutTime())
         .optional("temperature", &GasObjectSection::temperature, "K",
-                  "temperature at the start, in place of <pressure>: p = (gamma - 1) rho c_v T", input::positive(),
+                  "temperature at the start, instead of <pressure>: p = (gamma - 1) rho c_v T", input::positive(),
                   input::WithoutTime())
         .optional("density", &GasObjectSection::density, "kg/m^3", "density at the start, if not that of the material",
                   input::positive(), input::WithoutTime())
@@ -31,9 +32,10 @@ const Schema<GasObjectSection>& objectSchema() {
         .choice("placement", &GasObjectSection::placement,
                 {{"midpoint", Placement::midpoint}, {"jittered", Placement::jittered}, {"random", Placement::random}},
                 Placement::midpoint,
-                "particles in the middle of equal parts of a cell, anywhere in these parts, or anywhere in the cell")
+                "particles start at the centres of equal parts of a cell, at random points of these parts, or at "
+                "random points of the cell")
         .ours()
-        .value("seed", &GasObjectSection::seed, 0, "1", "a different seed draws different places", input::nonNegative())
+        .value("seed", &GasObjectSection::seed, 0, "1", "seed of the random points", input::nonNegative())
         .ours()
         .check([](const GasObjectSection& object, const Element& element, Diagnostics& diagnostics) {
           if (object.pressure.has_value() == object.temperature.has_value())
@@ -54,7 +56,7 @@ const Schema<GasModelSection>& modelSchema() {
                                    "p = (gamma - 1) rho e, or (gamma - 1) rho e - gamma p_infinity")
           .value("gamma", &GasModelSection::gamma, 1.4, "1", "ratio of specific heats", input::greaterThan(1))
           .value("specific_heat", &GasModelSection::specificHeat, 717.5, "J/(kg K)",
-                 "c_v, for bodies that give a temperature", input::positive())
+                 "c_v, used by bodies with a <temperature>", input::positive())
           .value("p_infinity", &GasModelSection::pInfinity, 0, "Pa", "stiffness: 0 for air, about 6e8 for water",
                  input::nonNegative())
           .ours()
@@ -68,10 +70,10 @@ const Schema<GasModelSection>& modelSchema() {
 const Schema<Relaxation>& relaxationSchema() {
   static const Schema<Relaxation> schema =
       Schema<Relaxation>("relaxation", "A source of heat, de/dt = -rate (e - internal_energy), integrated exactly.")
-          .required("rate", &Relaxation::rate, "1/s", "how fast", input::nonNegative())
+          .required("rate", &Relaxation::rate, "1/s", "rate", input::nonNegative())
           .ours()
-          .required("internal_energy", &Relaxation::internalEnergy, "J/kg", "internal energy that the gas relaxes to",
-                    input::positive())
+          .required("internal_energy", &Relaxation::internalEnergy, "J/kg",
+                    "internal energy towards which the gas relaxes", input::positive())
           .ours();
   return schema;
 }
@@ -87,7 +89,7 @@ const Schema<GasSection>& materialSchema() {
           .value("thermal_conductivity", &GasSection::thermalConductivity, 0, "W/(m K)",
                  "must be 0: the gas method conducts no heat", input::between(0, 0))
           .value("specific_heat", &GasSection::specificHeat, 0, "J/(kg K)",
-                 "accepted for Uintah's sake: the constitutive model has its own", input::nonNegative())
+                 "accepted for compatibility with Uintah: the constitutive model has its own", input::nonNegative())
           .list("geom_object", &GasSection::objects, objectSchema(), "a body of material at the start", 1)
           .check([](const GasSection& material, const Element& element, Diagnostics& diagnostics) {
             const auto bodies = element.children("geom_object");

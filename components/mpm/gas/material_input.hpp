@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::gas {
 
-/// A `geom_object` as it is written.
+/// A `geom_object`, as given in the scene.
 struct GasObjectSection {
   Location where;
   std::shared_ptr<const input::GeometryPiece> shape;
@@ -18,7 +18,7 @@ struct GasObjectSection {
 
 enum class GasType { ideal, stiffened };
 
-/// A `constitutive_model` as it is written.
+/// A `constitutive_model`, as given in the scene.
 struct GasModelSection {
   Location where;
   GasType type = GasType::ideal;
@@ -26,7 +26,7 @@ struct GasModelSection {
   double specificHeat = 717.5;
 };
 
-/// A `material` as it is written.
+/// A `material`, as given in the scene.
 struct GasSection {
   std::string name;
   std::optional<double> density;

@@ -17,20 +17,20 @@ inline double middleOf(const Level& level, int kernelAxis) {
                        : lower + 0.5 * level.cells().upper[kernelAxis] * level.spacing(kernelAxis);
 }
 
-/// How many cells the centre of a cell lies from the middle of the grid; opposite for the mirror image of the cell.
+/// The distance, in cells, of a cell's centre from the middle of the grid; exactly opposite for the mirror image of the
+/// cell.
 template <class Number>
 Number fromMiddle(const Level& level, int kernelAxis, const Number& cell) {
   return cell - 0.5 * (level.cells().upper[kernelAxis] - 1);
 }
 
-/// The position that is `offset` cells from the centre of a cell along a kernel axis, m: counted from the middle of the
-/// grid.
+/// The position `offset` cells from the centre of a cell along a kernel axis, m, computed from the middle of the grid.
 inline double positionInCell(const Level& level, int kernelAxis, int cell, double offset) {
   const double cells = fromMiddle<double>(level, kernelAxis, cell) + offset;
   return middleOf(level, kernelAxis) + cells * level.spacing(kernelAxis);
 }
 
-/// The gradient of the shape function of node k in the centre of a cell, 1/m.
+/// The gradient of the shape function of node k at the centre of a cell, 1/m.
 template <int D>
 Vec<D> centreGradient(const Level& level, int k) {
   Vec<D> gradient;

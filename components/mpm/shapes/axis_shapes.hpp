@@ -13,7 +13,7 @@ namespace tushar::mpm {
 /// Piecewise linear ("tent") functions.
 struct LinearAxis {
   static constexpr int nodes = 2;
-  static constexpr int ghostNodes = 0;  ///< nodes beyond those of the cell that a particle touches
+  static constexpr int ghostNodes = 0;  ///< number of nodes beyond those of its cell that a particle touches
   static constexpr bool hasSize = false;
   static double support(double) { return 1; }
 

@@ -30,14 +30,14 @@ struct ConvectedShape {
   static constexpr bool deforms = true;
   static constexpr bool axisymmetric = Axisymmetric;
 
-  /// How far a particle reaches along each axis, in cells.
+  /// The extent of a particle's support along each axis, in cells.
   static Vec<D> support(const Extent<D>& extent) {
     return (1 + extent.halfEdges.cwiseAbs().rowwise().sum().array().min(1.0)).matrix();
   }
 
   struct Stencil {
     static constexpr int dimension = D;
-    static constexpr int nodes = 4;  ///< along each axis: of the particle's cell and those around
+    static constexpr int nodes = 4;  ///< number along each axis: those of the particle's cell and its neighbours
     static constexpr int corners = 1 << D;
     static constexpr double share = 1.0 / corners;
     static constexpr bool axisymmetric = Axisymmetric;
@@ -47,9 +47,9 @@ struct ConvectedShape {
 
     Index<D> first;
     std::array<Corners, D> cellOf;         ///< the lower node of the cell around each corner, counted from `first`
-    std::array<Corners, corners> weights;  ///< the tent functions of that cell's nodes
-    std::array<Corners, D> slope;          ///< what each corner has in the gradient, 1/m
-    double inverseRadius = 0;              ///< 1/m; 0 if nothing is axisymmetric
+    std::array<Corners, corners> weights;  ///< values of the tent functions of that cell's nodes
+    std::array<Corners, D> slope;          ///< contribution of each corner to the gradient, 1/m
+    double inverseRadius = 0;              ///< 1/m; 0 if the scene is not axisymmetric
 
     Stencil(const Level& level, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent)
         : Stencil(CellFrame<D>(level, cell), cell, x, extent) {}
@@ -111,7 +111,8 @@ struct ConvectedShape {
         number = number * nodes + static_cast<std::size_t>(static_cast<int>(cellOf[d][c]) + ((k >> d) & 1));
       return number;
     }
-    /// Component d of `edges` sigma_c, to the bits of Eigen's product, which adds the last component in another order.
+    /// Component d of `edges` sigma_c, with the same bits as Eigen's product, which adds the last component in another
+    /// order.
     [[gnu::always_inline]] static Corners atCorners(const Eigen::Matrix<double, D, D>& edges, int d) {
       std::array<Corners, D> part;
       for (int j = 0; j < D; ++j) part[j] = edges(d, j) * signs(j);
@@ -146,7 +147,7 @@ using CpdiShape = ConvectedShape<D>;
 template <int D>
 using AxisymmetricCpdiShape = ConvectedShape<D, true>;
 
-/// S_i / r of a node, 1/m; 0 if nothing is axisymmetric.
+/// S_i / r of a node, 1/m; 0 if the scene is not axisymmetric.
 template <class Stencil, int D = Stencil::dimension>
 requires(Stencil::corners > 0) double hoopOf(const Stencil& stencil, const Index<D>& node) {
   return Stencil::axisymmetric ? stencil.inverseRadius * stencil.valueAt(node) : 0.0;

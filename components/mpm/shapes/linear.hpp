@@ -47,14 +47,14 @@ struct Linear {
     return weights([&](int d) { return 1.0 - xi[d]; }, [&](int d) { return xi[d]; });
   }
 
-  /// dS_k/dx_d in the centre of the cell, 1/m.
+  /// dS_k/dx_d at the centre of the cell, 1/m.
   static double centreGradient(const Level& level, int k, int d) {
     constexpr double others = 1.0 / (1 << (D - 1));  // the other axes' factors in the middle, 1/2 each
     return ((k >> d) & 1 ? others : -others) * level.inverseSpacing(d);
   }
 };
 
-/// Where a cell lies, so that its particles find their coordinates within it.
+/// The geometry of a cell, from which its particles get their coordinates in it.
 template <int D>
 struct CellFrame {
   Vec<D> origin;          ///< its lower corner, m

@@ -10,8 +10,8 @@ namespace tushar::mpm {
 /// The data of a particle that a shape function needs besides its position.
 template <int D>
 struct Extent {
-  Vec<D> size = Vec<D>::Ones();  ///< at the start, in cells
-  /// Where `Shape::deforms`: column j is half the edge that lay along axis j at the start, as F has it now, in cells.
+  Vec<D> size = Vec<D>::Ones();  ///< size at the start, in cells
+  /// If `Shape::deforms`: column j is half the edge that lay along axis j at the start, deformed by F, in cells.
   Eigen::Matrix<double, D, D> halfEdges;
 };
 
@@ -24,7 +24,8 @@ using RowFactors = std::array<double, D>;
 template <int D, class Axis, bool Axisymmetric = false>
 struct TensorShape {
   static constexpr int dimension = D;
-  /// Nodes beyond those of a patch that its particles touch, and layers of nodes beyond the sides of the grid.
+  /// Number of nodes beyond those of a patch that its particles touch, and of layers of nodes beyond the sides of the
+  /// grid.
   static constexpr int ghostNodes = Axis::ghostNodes;
   /// Cells beyond a patch whose particles touch its nodes.
   static constexpr int reach = 1 + Axis::ghostNodes;
@@ -32,7 +33,7 @@ struct TensorShape {
   static constexpr bool deforms = false;
   static constexpr bool axisymmetric = Axisymmetric;
 
-  /// How far a particle reaches along each axis, in cells: no node touches it that is as far away.
+  /// The extent of a particle's support along each axis, in cells; nodes at this distance or beyond are not touched.
   static Vec<D> support(const Extent<D>& extent) {
     Vec<D> reaches;
     for (int d = 0; d < D; ++d) reaches[d] = Axis::support(extent.size[d]);
@@ -42,11 +43,11 @@ struct TensorShape {
   /// S_i and its gradient (1/m) at every node i that a particle touches; and, where axisymmetric, S_i / r (1/m).
   struct Stencil {
     static constexpr int dimension = D;
-    static constexpr int nodes = Axis::nodes;  ///< along each axis
+    static constexpr int nodes = Axis::nodes;  ///< number along each axis
     static constexpr bool axisymmetric = Axisymmetric;
 
     Index<D> first;
-    std::array<Quad, Axis::nodes> s, ds;  ///< for each node along an axis, value and slope of every axis
+    std::array<Quad, Axis::nodes> s, ds;  ///< value and slope along every axis, by index of the node along it
     std::array<double, Axis::nodes> hoop;
 
     Stencil(const Level& level, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent)
@@ -103,7 +104,7 @@ struct TensorShape {
       }
       visit(first + k, value, gradient);
     }
-    /// Along the first axis, where that is the radius.
+    /// Fills the first axis if it is the radius.
     void fillRadially(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent) {
       const double inverse = frame.inverseSpacing[0];
       std::array<double, Axis::nodes> value, slope;
@@ -117,14 +118,14 @@ struct TensorShape {
     }
   };
 
-  /// The stencils of several particles of a cell, with the bits of Stencil: computed with a lane for each particle, so
-  /// that a particle that then goes through its nodes only loads what it needs.
+  /// The stencils of several particles of a cell, with the same bits as Stencil, computed with one lane per particle in
+  /// advance, so that loops over nodes only load them.
   class Stencils {
    public:
     static constexpr int dimension = D;
     static constexpr int nodes = Axis::nodes;
 
-    /// One of them, for the loops over rows of nodes.
+    /// One of these stencils, for loops over rows of nodes.
     struct Member {
       static constexpr int dimension = D;
       static constexpr int nodes = Axis::nodes;
@@ -146,7 +147,7 @@ struct TensorShape {
       }
     };
 
-    /// Of particles at x (m) in a cell, of a size at the start (cells); lanes without a particle repeat one.
+    /// For particles at x (m) in a cell, with their sizes at the start (cells); lanes without a particle repeat one.
     Stencils(const CellFrame<D>& frame, const Index<D>& cell, const std::array<Lanes, D>& x,
              const std::array<Lanes, D>& size)
         : cell_(cell) {
@@ -202,7 +203,7 @@ struct TensorShape {
     }
 
     Index<D> cell_;
-    std::array<Real, D> first_;  ///< node of each axis that a particle touches first, counted from that of the cell
+    std::array<Real, D> first_;  ///< first touched node along each axis, from the lower node of the cell
     std::array<std::array<Real, n>, D> s_, ds_;  ///< by axis and node along it
     std::array<Real, Axisymmetric ? n : 0> hoop_;
     std::array<std::array<Real, D>, D == 1 ? 0 : rows> factors_;
@@ -222,7 +223,7 @@ using AxisymmetricLinearShape = TensorShape<D, LinearAxis, true>;
 template <int D>
 using AxisymmetricGimpShape = TensorShape<D, GimpAxis, true>;
 
-/// S_i / r of a node, 1/m; 0 if nothing is axisymmetric.
+/// S_i / r of a node, 1/m; 0 if the scene is not axisymmetric.
 template <class Stencil, int D = Stencil::dimension>
 double hoopOf(const Stencil& stencil, const Index<D>& node) {
   if constexpr (!Stencil::axisymmetric) return 0;

@@ -5,8 +5,8 @@
 
 namespace tushar::mpm::solid {
 
-/// A value that particles have by their p.color: linear between the entries of a table, which are in the order of their
-/// `color`, and beyond them that of the first and the last. Throws nothing; the table must not be empty.
+/// A function of p.color: linear between the entries of a table, which are in order of increasing `color`, and constant
+/// beyond them. Throws nothing; the table must not be empty.
 template <class Table, class Value>
 double valueByColor(const Table& table, double color, Value&& value) {
   const auto upper = std::find_if(table.begin(), table.end(), [&](const auto& entry) { return color <= entry.color; });
@@ -17,7 +17,7 @@ double valueByColor(const Table& table, double color, Value&& value) {
   return (1 - share) * std::invoke(value, *lower) + share * std::invoke(value, *upper);
 }
 
-/// Whether the colors of a table grow from entry to entry.
+/// Whether the colors of a table increase from entry to entry.
 template <class Table>
 bool growsInColor(const Table& table) {
   return std::adjacent_find(table.begin(), table.end(),

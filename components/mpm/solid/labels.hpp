@@ -15,38 +15,38 @@ inline constexpr ParticleLabel<Matrix3> velocityGradient{"p.velGrad", "1/s", "ve
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> displacement{"p.displacement", "m", "displacement since the start"};
 template <int D>
-inline constexpr ParticleLabel<Vec<D>> size{"p.size", "1", "extent at the start, in cells"};
-inline constexpr ParticleLabel<Matrix3> domain{"p.domain", "1", "edges at the start, in cells, one a column"};
+inline constexpr ParticleLabel<Vec<D>> size{"p.size", "1", "edge lengths at the start, in cells"};
+inline constexpr ParticleLabel<Matrix3> domain{"p.domain", "1", "edges at the start, in cells, one per column"};
 inline constexpr ParticleLabel<double> temperature{"p.temperature", "K", "temperature"};
-inline constexpr ParticleLabel<double> temperatureChange{"p.temperatureChange", "K", "by the work of the step"};
+inline constexpr ParticleLabel<double> temperatureChange{"p.temperatureChange", "K",
+                                                         "change of temperature by the work of the step"};
 inline constexpr ParticleLabel<double> damage{"p.damage", "1", "damage, 0 if intact"};
 inline constexpr ParticleLabel<double> failureThreshold{"p.epsf", "Pa, 1 or Pa^(1/2)", "threshold of damage"};
-inline constexpr ParticleLabel<int> localized{"p.localizedMPM", "1", "1 once it has failed"};
-inline constexpr ParticleLabel<double> failureTime{"p.timeofloc", "s", "when it failed"};
+inline constexpr ParticleLabel<int> localized{"p.localizedMPM", "1", "1 if the particle has failed"};
+inline constexpr ParticleLabel<double> failureTime{"p.timeofloc", "s", "time at which the particle failed"};
 inline constexpr ParticleLabel<double> color{"p.color", "1", "number that the scene gives to a body"};
-inline constexpr ParticleLabel<int> surface{"p.surface", "1", "1 where it starts at the surface of its body"};
+inline constexpr ParticleLabel<int> surface{"p.surface", "1", "1 if the particle starts at the surface of its body"};
 inline constexpr ParticleLabel<double> viscosity{"p.q", "Pa", "artificial viscosity"};
 inline constexpr ParticleLabel<double> strainEnergy{
-    "p.strainEnergy", "J", "strain energy of an elastic particle, or what the step added to it"};
+    "p.strainEnergy", "J", "strain energy of an elastic particle; for others, its increase in the step"};
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> smoothVelocity{"p.velocitySSPlus", "m/s",
-                                                      "velocity at the start of a step, by the grid"};
+                                                      "velocity at the start of a step, interpolated from the grid"};
 inline constexpr ParticleLabel<Matrix3> affineMoment{"p.affineMoment", "m^2/s",
-                                                     "velocity times distance, mean over the nodes around (APIC)"};
+                                                     "velocity times distance, weighted over the nearby nodes (APIC)"};
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> externalForce{"p.externalforce", "N", "force of loads"};
 inline constexpr ParticleLabel<Matrix3> scaleFactor{"p.scalefactor", "m",
-                                                    "edges of the particle, one a column, as F has deformed them"};
+                                                    "edges of the particle, deformed by F, one per column"};
 /// The work on a particle since the start, J: one number for each of total::work.
 using Works = Eigen::Matrix<double, 1, 7, Eigen::DontAlign | Eigen::RowMajor>;
 inline constexpr ParticleLabel<Works> work{
     "p.work", "J",
-    "work on it since the start: of loads and gravity, of the grid's faces, "
-    "of contact, lost to viscosity and damping, to strain, to plastic flow; 1/2 m v^2 "
-    "at the start"};
-inline constexpr ParticleLabel<double> heatFlux{"p.externalHeatFlux", "W", "heat that loads bring"};
-inline constexpr ParticleLabel<int> loadCurves{"p.loadCurveID", "1",
-                                               "number of the load on it, or 0; further ones times 256, 65536"};
+    "work on the particle since the start: of loads and gravity, of the grid's faces, of contact; lost to viscosity "
+    "and damping, to strain, to plastic flow; and 1/2 m v^2 at the start"};
+inline constexpr ParticleLabel<double> heatFlux{"p.externalHeatFlux", "W", "heat per time from loads"};
+inline constexpr ParticleLabel<int> loadCurves{
+    "p.loadCurveID", "1", "number of the load on the particle, or 0; plus those of further loads, times 256 and 65536"};
 }  // namespace p
 
 /// Node variables.
@@ -54,79 +54,81 @@ namespace g {
 using namespace mpm::g;
 inline constexpr NodeLabel<double> volume{"g.volume", "m^3", "volume gathered from particles"};
 inline constexpr NodeLabel<Matrix3> stress{"g.stressFS", "Pa",
-                                           "Cauchy stress, mean over the volume of the particles around"};
+                                           "Cauchy stress, averaged over the volume of the nearby particles"};
 inline constexpr NodeLabel<NodeRecord> record{
     "g.record", "SI units", "velocity, mass, force and volume of a step in progress", Counts::nearParticles};
 inline constexpr NodeLabel<NodeRecord> stressRecord{
-    "g.stressRecord", "SI units", "velocity and mass that stresses follow, where it is not that of a step",
-    Counts::nearParticles};
-inline constexpr NodeLabel<NodeRecord> smoothRecord{"g.smoothRecord", "SI units",
-                                                    "velocity of p.velocitySSPlus, and mass", Counts::nearParticles};
+    "g.stressRecord", "SI units",
+    "velocity and mass for the stress update, if it uses another velocity than the motion", Counts::nearParticles};
+inline constexpr NodeLabel<NodeRecord> smoothRecord{
+    "g.smoothRecord", "SI units", "p.velocitySSPlus gathered from particles, and mass", Counts::nearParticles};
 template <int D>
-inline constexpr NodeLabel<Vec<D>> velocityOfForces{"g.velocityOfForces", "m/s", "velocity after the forces of a step"};
+inline constexpr NodeLabel<Vec<D>> velocityOfForces{"g.velocityOfForces", "m/s",
+                                                    "velocity after the forces of a step, before contact"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityOfContact{"g.velocityOfContact", "m/s",
                                                      "velocity after the forces of a step and contact"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> transmittedForce{"g.transmittedForce", "N",
-                                                    "force of contact on a material that transmits force"};
+                                                    "contact force on a force-transmitting material"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> surroundingForce{"g.surroundingForce", "N",
-                                                    "force of what surrounds the body, such as a gas"};
-inline constexpr NodeLabel<NodeRecord> workRecord{
-    "g.workRecord", "SI units", "mean velocity of a step, and work for a unit of mass", Counts::nearParticles};
+                                                    "force of the surroundings, such as a gas, on the body"};
+inline constexpr NodeLabel<NodeRecord> workRecord{"g.workRecord", "SI units",
+                                                  "mean velocity of a step, and work per mass", Counts::nearParticles};
 template <int D>
-inline constexpr NodeLabel<Vec<D>> massGradient{"g.massGradient", "kg/m", "gradient of the mass, out of the body"};
+inline constexpr NodeLabel<Vec<D>> massGradient{"g.massGradient", "kg/m",
+                                                "gradient of the mass, pointing out of the body"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> massPosition{"g.massPosition", "kg m", "mass of particles times their position"};
-inline constexpr NodeLabel<Matrix3> surfaceStress{"g.surfaceStress", "Pa", "stress of particles, gathered"};
-inline constexpr NodeLabel<double> surfaceVolume{"g.surfaceVolume", "m^3",
-                                                 "volume of particles, with what mirrors it beyond symmetry planes"};
+inline constexpr NodeLabel<Matrix3> surfaceStress{"g.surfaceStress", "Pa", "stress gathered from particles"};
+inline constexpr NodeLabel<double> surfaceVolume{
+    "g.surfaceVolume", "m^3", "volume of particles, including their mirror images beyond symmetry planes"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> separatingNormal{
-    "g.normAlphaToBeta", "1", "out of the body with most mass at the node, where several touch; 0 elsewhere"};
+    "g.normAlphaToBeta", "1", "normal, out of the body with most mass at the node, where several touch; 0 elsewhere"};
 inline constexpr NodeLabel<double> prominence{"g.matlProminence", "m",
-                                              "how far surface particles reach along g.normAlphaToBeta"};
-inline constexpr NodeLabel<double> color{"g.color", "1", "mean of p.color by mass"};
+                                              "how far surface particles extend along g.normAlphaToBeta"};
+inline constexpr NodeLabel<double> color{"g.color", "1", "mass-weighted mean of p.color"};
 inline constexpr NodeLabel<double> frictionHeat{"g.frictionHeat", "J", "frictional heat in a step"};
 inline constexpr NodeLabel<double> heatCapacity{"g.heatCapacity", "J/K", "heat capacity gathered from particles"};
 inline constexpr NodeLabel<double> temperatureNoBC{"g.temperaturenobc", "K", "temperature gathered from particles"};
 inline constexpr NodeLabel<double> temperature{"g.temperature", "K", "temperature with the boundary conditions"};
 inline constexpr NodeLabel<double> heatRate{"g.heatRate", "W", "heat that flows to the node by conduction"};
-inline constexpr NodeLabel<double> contactTemperatureRate{"g.contactTemperatureRate", "K/s",
-                                                          "rate by contact with other materials"};
-inline constexpr NodeLabel<double> temperatureRate{"g.temperatureRate", "K/s", "change of the temperature"};
+inline constexpr NodeLabel<double> contactTemperatureRate{
+    "g.contactTemperatureRate", "K/s", "rate of change of the temperature by contact with other materials"};
+inline constexpr NodeLabel<double> temperatureRate{"g.temperatureRate", "K/s", "rate of change of the temperature"};
 }  // namespace g
 
 /// Cell variables.
 namespace c {
 inline constexpr CellLabel<double> stableTimeStep{
-    "c.stableTimeStep", "s", "time in which the fastest wave of a particle in the cell crosses it"};
+    "c.stableTimeStep", "s", "time in which the fastest wave of the cell's particles crosses the cell"};
 }  // namespace c
 
 /// Totals over all particles.
 namespace total {
 using namespace mpm::total;
-inline constexpr ReductionLabel<VectorSum> angularMomentum{"AngularMomentum", "kg m^2/s",
-                                                           "of all particles about the origin of x, y, z"};
-inline constexpr ReductionLabel<Sum> volume{"TotalVolumeDeformed", "m^3", "of all particles, as F has deformed them"};
+inline constexpr ReductionLabel<VectorSum> angularMomentum{
+    "AngularMomentum", "kg m^2/s", "angular momentum of all particles, about the origin of x, y, z"};
+inline constexpr ReductionLabel<Sum> volume{"TotalVolumeDeformed", "m^3", "volume of all particles, deformed by F"};
 inline constexpr ReductionLabel<Sum> thermalEnergy{"ThermalEnergy", "J", "mass times specific heat times temperature"};
 inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
     "RigidReactionForce", "N",
-    "force with which a contact of type rigid or specified holds the others against their stresses"};
+    "force by which the master of a contact of type rigid or specified resists the stresses of the others"};
 inline constexpr ReductionLabel<Sum> strainEnergy{
-    "StrainEnergy", "J", "strain energy of elastic materials and, of others, what the last step added, as in Uintah"};
+    "StrainEnergy", "J", "strain energy of elastic materials; of others, its increase in the last step, as in Uintah"};
 /// Sums of the numbers of p.work, in their order.
 inline constexpr std::array<ReductionLabel<Sum>, 7> work{{
-    {"ExternalWork", "J", "of loads and gravity since the start"},
-    {"BoundaryWork", "J", "of faces of the grid with a given velocity since the start"},
-    {"ContactWork", "J", "of contact since the start: of what drives a body; what friction takes is negative"},
-    {"DissipatedWork", "J", "taken by artificial viscosity and damping since the start"},
+    {"ExternalWork", "J", "work of loads and gravity since the start"},
+    {"BoundaryWork", "J", "work of the grid's sides where a velocity is given, since the start"},
+    {"ContactWork", "J", "work of contact since the start: positive from a driven master, negative from friction"},
+    {"DissipatedWork", "J", "energy taken by artificial viscosity and damping since the start"},
     {"StrainWork", "J",
-     "of the stresses since the start, less PlasticWork: what is stored, and what models without "
-     "p.plasticStrain dissipate"},
-    {"PlasticWork", "J", "taken by plastic flow since the start, of models that keep p.plasticStrain"},
-    {"KineticEnergyAtStart", "J", "of the particles that are still there"},
+     "work of the stresses since the start, less PlasticWork: stored energy, and dissipation by models without "
+     "p.plasticStrain"},
+    {"PlasticWork", "J", "energy taken by plastic flow since the start, in models with p.plasticStrain"},
+    {"KineticEnergyAtStart", "J", "kinetic energy at the start of the particles that have not left the grid"},
 }};
 /// The action of the body on a face of the grid.
 struct OnFace {

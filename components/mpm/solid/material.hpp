@@ -18,16 +18,16 @@ struct Body {
   input::VectorExpression velocity;    ///< m/s
   input::Expression temperature;       ///< K
   double color = 0;
-  int levels = 1;  ///< sizes of particles that fill its shape; negative: none protrudes from it
+  int levels = 1;  ///< number of particle sizes that fill its shape; negative: no particle extends beyond it
   /// Rows of A, and b: its particles start at A X + b (m) instead of X.
   Vec3 affineRow0 = Vec3::UnitX(), affineRow1 = Vec3::UnitY(), affineRow2 = Vec3::UnitZ(), affineShift = Vec3::Zero();
-  std::shared_ptr<const Seeds> seeds;  ///< where its particles start; null: in equal parts of cells
+  std::shared_ptr<const Seeds> seeds;  ///< initial positions of its particles; null: in equal parts of cells
 
   Matrix3 affineMatrix() const;
 };
 
-/// Where the k-th particle of a cell starts, m, rounded as Uintah rounds it: a point on a face of the shape is inside
-/// or not by its last digit.
+/// The initial position of the k-th particle of a cell, m, rounded as in Uintah, because the last digit of a point on a
+/// face decides whether it is inside the shape.
 template <int D>
 Vec3 placeOf(const Level& level, const Body& body, const Index<D>& cell, const Index<D>& k) {
   Vec<D> at;
@@ -62,7 +62,7 @@ struct Material {
   double thermalConductivity = 0;  ///< W/(m K)
   double thermalExpansion = 0;     ///< of lengths, 1/K
   bool isRigid = false;            ///< its stress exerts no force
-  bool transmitsForce = false;     ///< it moves as a rigid whole, by the sum of the forces on it
+  bool transmitsForce = false;     ///< it moves as one rigid body, by the sum of the forces on it
   bool mayLeadContact = true;      ///< planes that separate it from others (see SeparatingPlane) may belong to it
   Damage damage;
   Erosion erosion;
@@ -71,7 +71,7 @@ struct Material {
   MaterialConstants constants() const { return {density, specificHeat, meltTemperature, roomTemperature}; }
   /// The density of a particle at F = I, kg/m^3; bodies that start under pressure have `density` at the start.
   double undeformedDensity() const { return density * model->initialVolumeRatio(); }
-  /// Whether particles may lose strength and then carry less than the stress of the constitutive model.
+  /// Whether particles may lose strength, so that they bear less than the stress of the constitutive model.
   bool isDamageable() const { return erosion.acts() || !std::holds_alternative<NoDamage>(damage); }
 };
 

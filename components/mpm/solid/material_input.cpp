@@ -28,11 +28,11 @@ void forEachModel(Visit&& visit) {
   std::apply([&](const auto&... model) { (visit(model), ...); }, AllModels{});
 }
 
-/// A model's own tags, and the attribute that picks it.
+/// A model's own tags, and the attribute that selects it.
 template <class M>
 const Schema<M>& modelSchema() {
   static const Schema<M> schema =
-      Schema<M>(M::schema()).foreignAttribute("type", "picks the model: " + std::string(M::name));
+      Schema<M>(M::schema()).foreignAttribute("type", "selects the model: " + std::string(M::name));
   return schema;
 }
 
@@ -46,9 +46,9 @@ std::vector<std::string> modelNames() {
 const std::map<std::string, std::string> otherWords{
     {"arenisca", "Arenisca"}, {"cnh_damage", "UCNH"}, {"cnhp_damage", "comp_neo_hook_plastic"}};
 
-/// Uintah's models that are missing here, and their nearest substitutes.
+/// Models of Uintah that are missing here, and their nearest alternatives.
 const std::vector<std::pair<std::string, std::string>> lackingModels{
-    {"membrane", "comp_neo_hook for bodies as thick as a cell"},
+    {"membrane", "comp_neo_hook, for bodies as thick as a cell"},
     {"three_factor_mooney", "comp_mooney_rivlin"},
     {"SVK", "comp_neo_hook"},
     {"murnaghanMPM", "water, whose pressure obeys the same law"},
@@ -74,7 +74,7 @@ void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagn
 /// Whether a tag that names Arenisca3 has the tags of Arenisca alone, as some scenes of Uintah do.
 bool hasOlderTags(const Element& tag) { return tag.child("p4_fluid_effect") && !tag.child("STREN"); }
 
-/// The model that a tag names, by its name here.
+/// The model of a tag, by its name here.
 std::string typeOf(const Element& tag) {
   const std::string type = tag.attribute("type").value_or("");
   const auto yields = tag.child("usePlasticity");
@@ -163,30 +163,29 @@ void checkAffine(const Body& body, const Element& element, Diagnostics& diagnost
 
 Schema<Body> bodyTags() {
   Schema<Body> tags("geom_object", "A body of material at the start.");
-  input::addShape(tags, &Body::where, &Body::shape, "the body's shape; several are united")
+  input::addShape(tags, &Body::where, &Body::shape, "shape of the body; several shapes form their union")
       .required("res", &Body::particlesPerCell, "1", "particles per cell along x, y, z", input::between(1, 32))
       .value("velocity", &Body::velocity, input::VectorExpression(), "m/s", "velocity at the start")
       .value("temperature", &Body::temperature, input::Expression(293.0), "K", "temperature at the start",
              input::nonNegative())
-      .value("color", &Body::color, 0, "1", "a number that is stored on its particles as p.color")
+      .value("color", &Body::color, 0, "1", "a number that its particles keep as p.color")
       .value("numLevelsParticleFilling", &Body::levels, 1, "1",
-             "sizes of particles, each half of the one before, that fill the shape up to its surface; negative: no "
-             "particle protrudes from it",
+             "number of particle sizes, each half the previous one, that fill the shape up to its surface; negative: "
+             "no particle extends beyond the surface",
              input::between(-8, 8))
-      .value(
-          "affineTransformation_A0", &Body::affineRow0, Vec3::UnitX(), "1",
-          "first row of A: a particle starts at A X + b instead of at X, where the shape has X inside, and its edges "
-          "are those of the cell's parts times A")
+      .value("affineTransformation_A0", &Body::affineRow0, Vec3::UnitX(), "1",
+             "first row of A: for each point X inside the shape, a particle starts at A X + b instead of X, and A "
+             "transforms its edges")
       .value("affineTransformation_A1", &Body::affineRow1, Vec3::UnitY(), "1", "second row of A")
       .value("affineTransformation_A2", &Body::affineRow2, Vec3::UnitZ(), "1", "third row of A")
       .value("affineTransformation_b", &Body::affineShift, Vec3::Zero(), "m", "b")
       .check(checkAffine)
       .ignored("concentration", "belongs to do_scalar_diffusion")
-      .ignored("comment", "for readers")
-      .ignored("density", "that of the material is used, as in Uintah")
+      .ignored("comment", "a note for readers")
+      .ignored("density", "the density of the material is used, as in Uintah")
       .ignored("pressure", "bodies start without stress")
       .ignored("level", "there is one level")
-      .ignoredAttribute("name", "for readers");
+      .ignoredAttribute("name", "a note for readers");
   return tags;
 }
 
@@ -204,46 +203,45 @@ void acceptUintahsTags(Schema<Material>& tags) {
   for (const char* tag : {"water_density", "porosity", "permeability", "initial_pore_pressure"})
     tags.ignored(tag, "belongs to coupled_flow_analysis");
   tags.ignored("heat_transfer_coefficient", "with <thermal_contact> materials share one temperature at a node");
-  tags.ignored("gamma", "belongs to a gas; Uintah does not read it of a body either");
+  tags.ignored("gamma", "belongs to a gas; Uintah does not read it for a body either");
   tags.ignored("C_p", "the <specific_heat> is used").ignored("do_conc_reduction", "belongs to do_scalar_diffusion");
   for (const char* tag : {"D1", "D2", "D3", "D4", "D5"})
-    tags.ignored(tag, "outside <damage_model type=\"johnson_cook\"> it damages nothing, as in Uintah");
-  requireSwitch(tags, "is_active", "every material is there from the start");
-  refuseSwitch(tags, "activation_time", "every material is there from the start");
+    tags.ignored(tag, "it has an effect only in <damage_model type=\"johnson_cook\">, as in Uintah");
+  requireSwitch(tags, "is_active", "every material exists from the start");
+  refuseSwitch(tags, "activation_time", "every material exists from the start");
 }
 
 const Schema<Material>& materialSchema() {
   static const Schema<Material> schema = [] {
     Schema<Material> material("material", "A material and the bodies made of it.");
-    material.attributeValue("name", &Material::name, "", "1", "its name; material0, material1, … by default")
+    material.attributeValue("name", &Material::name, "", "1", "name; material0, material1, … by default")
         .required("density", &Material::density, "kg/m^3", "density at the start", input::positive())
         .value("specific_heat", &Material::specificHeat, 0, "J/(kg K)", "c_v", input::nonNegative())
-        .value("thermal_conductivity", &Material::thermalConductivity, 0, "W/(m K)", "conductivity",
+        .value("thermal_conductivity", &Material::thermalConductivity, 0, "W/(m K)", "thermal conductivity",
                input::nonNegative())
         .value("melt_temp", &Material::meltTemperature, 295e10, "K",
-               "melting temperature; without it, it never melts, as in Uintah", input::positive())
-        .value("room_temp", &Material::roomTemperature, 294, "K", "temperature of the constants of damage",
+               "melting temperature; by default the material never melts, as in Uintah", input::positive())
+        .value("room_temp", &Material::roomTemperature, 294, "K", "reference temperature of the damage constants",
                input::nonNegative())
         .value("linear_thermal_expansion_coef", &Material::thermalExpansion, 0, "1/K",
-               "growth of lengths with the temperature above <room_temp>, of neo-Hookean models in explicit steps",
+               "growth of lengths with the temperature above <room_temp>, for neo-Hookean models in explicit steps",
                input::nonNegative())
-        .value(
-            "is_rigid", &Material::isRigid, false, "1",
-            "explicit steps: its stress exerts no force, and its velocities go by FLIP also with XPIC2, as is always "
-            "so for the master of a contact; in implicit steps bodies are rigid that a <contact> of type rigid or "
-            "specified makes its master")
+        .value("is_rigid", &Material::isRigid, false, "1",
+               "in explicit steps, its stress exerts no force, and FLIP updates its velocities even with XPIC2; both "
+               "also hold for the master of a contact. In implicit steps, it must be the master of a <contact> of type "
+               "rigid or specified")
         .value("is_force_transmitting_material", &Material::transmitsForce, false, "1",
-               "explicit steps: it moves as a rigid whole, by the sum of the loads on it and of the contact forces of "
-               "a <contact> of type rigid or specified whose master it is; gravity, damping and sides of the grid do "
+               "in explicit steps, it moves as one rigid body under the sum of its loads and of the forces of the "
+               "<contact> of type rigid or specified whose master it is; gravity, damping and the sides of the grid do "
                "not act on it")
         .value("possible_alpha_material", &Material::mayLeadContact, true, "1",
-               "contacts of type friction_LR, friction_LRVar and specified_friction: normals may point out of this "
-               "material; false: it slides on others only where two others meet")
+               "for contacts of type friction_LR, friction_LRVar and specified_friction: true: normals may point out "
+               "of this material; false: it slides only at nodes where two other materials meet")
         .custom("constitutive_model", readModel, {"constitutive_model"}, "stress as a function of deformation",
                 describeModels)
         .forms({input::onceForm("constitutive_model", modelAlternatives, 1)})
-        .custom("damage_model", readDamage, {"damage_model", "erosion"}, "its failure, and its strength after it",
-                describeDamage)
+        .custom("damage_model", readDamage, {"damage_model", "erosion"},
+                "when particles fail, and their strength after failure", describeDamage)
         .forms(damageForms())
         .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start", 1);
     acceptUintahsTags(material);
@@ -278,7 +276,7 @@ void checkContacts(const MaterialProperties::List& list, const Element& element,
 
 const Schema<MaterialProperties>& propertiesSchema(bool besideGas) {
   static const Schema<MaterialProperties::ThermalContact> thermalContact(
-      "thermal_contact", "Materials that share nodes share a temperature there.");
+      "thermal_contact", "Materials that share a node also share its temperature.");
   static const Schema<MaterialProperties::List> list =
       Schema<MaterialProperties::List>("MPM", "The materials of the Material Point Method, and their contact.")
           .list("material", &MaterialProperties::List::materials, materialSchema(), "a material", 1)
@@ -287,7 +285,8 @@ const Schema<MaterialProperties>& propertiesSchema(bool besideGas) {
               [](MaterialProperties::List& read, const Element& element, Diagnostics& diagnostics) {
                 read.contacts = readContacts(element, diagnostics);
               },
-              {"contact"}, "how materials act on each other; several are applied one after the other", describeContacts)
+              {"contact"}, "how materials act on each other; several contacts are applied one after the other",
+              describeContacts)
           .forms({contactForm()})
           .section("thermal_contact", &MaterialProperties::List::thermalContact, thermalContact)
           .check(noteCommonNames)
@@ -299,7 +298,7 @@ const Schema<MaterialProperties>& propertiesSchema(bool besideGas) {
   static const Schema<MaterialProperties> alone = make();
   static const Schema<MaterialProperties> beside = make().custom(
       "ICE", [](MaterialProperties&, const Element&, Diagnostics&) {}, {"ICE", "exchange_properties"},
-      "the gas and what it exchanges with bodies");
+      "the gas, and its exchange with bodies");
   return besideGas ? beside : alone;
 }
 

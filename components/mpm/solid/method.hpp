@@ -7,27 +7,27 @@
 
 namespace tushar::mpm::solid {
 
-/// When in a step the stress follows the grid's velocity; Bardenhagen, J. Comput. Phys. 180 (2002) 383.
+/// The velocity from which stresses are computed; Bardenhagen, J. Comput. Phys. 180 (2002) 383.
 enum class StressUpdate {
   last,          ///< v* at the end of the step, as in Uintah
-  modifiedLast,  ///< the particles' new velocity, which goes to the grid once more
-  first,         ///< v at its start
+  modifiedLast,  ///< the particles' new velocity, interpolated to the grid again
+  first,         ///< v at the start of the step
 };
 
-/// The `MPM` section: how the method runs.
+/// The `MPM` section: the settings of the method.
 struct Method {
   StressUpdate stressUpdate = StressUpdate::last;
-  double picFraction = 0;         ///< of the velocity that particles take from the grid, the rest being FLIP's
-  bool xpic = false;              ///< velocities by XPIC of order 2
-  bool affine = false;            ///< velocities go to the grid by APIC
-  bool projectsGradient = false;  ///< velocities go to the grid with their gradients
+  double picFraction = 0;         ///< fraction of PIC in the velocity update; the rest is FLIP
+  bool xpic = false;              ///< whether velocities are updated by XPIC of order 2
+  bool affine = false;            ///< whether velocities are transferred to the grid by APIC
+  bool projectsGradient = false;  ///< whether velocities are transferred to the grid with their gradients
   Vec3 gravity = Vec3::Zero();    ///< m/s^2
   double damping = 0;             ///< artificial_damping_coeff, 1/s
   std::optional<ArtificialViscosity> viscosity;
   double minimumMassForAcceleration = 1e-199;     ///< kg
   std::optional<double> maximumParticleVelocity;  ///< m/s
   int minimumSubcyclesForF = 1;                   ///< -n: F follows the series of exp(L dt) up to the power n instead
-  Vec3 commonSize = Vec3::Ones();  ///< of all particles at the start, in cells; unless each keeps its own
+  Vec3 commonSize = Vec3::Ones();  ///< size of all particles at the start, in cells, unless each keeps its own
   std::array<bool, 3> isThin{};    ///< axes x, y, z that the grid leaves out
   bool keepsSizes = false;         ///< each particle keeps its size
   bool keepsDomains = false;       ///< as edges in any direction, where shape functions follow them
@@ -35,7 +35,7 @@ struct Method {
   bool viscosityHeats = false;     ///< artificial_viscosity_heating
   int nonlocalLayers = 0;          ///< cells within the greatest length of capability::Nonlocal; 0 if there is none
   bool turnsPressures = false;     ///< keepPressBCNormalToSurface: pressures turn with the bodies they act on
-  bool sharesVolume = false;       ///< DoPressureStabilization: the particles of a cell change their volume as one
+  bool sharesVolume = false;       ///< DoPressureStabilization: the particles of a cell share one change of volume
   bool conductsHeat = true;
   bool loadsAtCorners = false;  ///< use_CBDI_boundary_condition: pressures act on faces of particles
   bool contactHeats = false;    ///< do_contact_friction_heating

@@ -32,7 +32,7 @@ struct Filling {
   double share;      ///< of its extent in that of the largest, 1
 };
 
-/// Whether the eight points a quarter of `spacing` away lie in a shape; along an axis without width there are none.
+/// Whether the eight points a quarter of `spacing` away lie in a shape; axes without width are ignored.
 bool isFullyInside(const input::GeometryPiece& shape, const Vec3& at, const Vec3& spacing) {
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 away(corner & 1 ? 0.25 : -0.25, corner & 2 ? 0.25 : -0.25, corner & 4 ? 0.25 : -0.25);
@@ -45,7 +45,7 @@ bool overlaps(const Filling& one, const Vec3& point) {
   return ((point - one.at).array().abs() <= 0.5 * one.spacing.array()).all();
 }
 
-/// Adds particles of 2^-k times the size where the existing ones leave room.
+/// Adds particles of 2^-k times the size in the gaps between the existing ones.
 template <int D>
 void fillGaps(const Level& level, const Body& body, const Index<D>& cell, int k, std::vector<Filling>& particles) {
   Body finer = body;
@@ -60,8 +60,8 @@ void fillGaps(const Level& level, const Body& body, const Index<D>& cell, int k,
   });
 }
 
-/// The particles of a cell, in `levels` sizes, each half of the one before; where the number is negative, those that
-/// protrude from the shape are replaced by smaller ones.
+/// The particles of a cell, in `levels` sizes, each half the previous one; if `levels` is negative, those that extend
+/// beyond the shape are replaced by smaller ones.
 template <int D>
 std::vector<Filling> fill(const Level& level, const Body& body, const Index<D>& cell) {
   std::vector<Filling> particles;

@@ -12,10 +12,10 @@ namespace tushar::mpm::solid {
 
 struct Body;
 
-/// A particle that starts elsewhere than in the middle of an equal part of a cell.
+/// A particle that does not start at the centre of an equal part of a cell.
 struct Seed {
   Vec3 at = Vec3::Zero();            ///< m
-  Matrix3 domain = Matrix3::Zero();  ///< its edges, one a column, in cells
+  Matrix3 domain = Matrix3::Zero();  ///< its edges, one per column, in cells
   double volume = 0;                 ///< in cells
 };
 

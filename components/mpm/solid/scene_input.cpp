@@ -22,7 +22,7 @@ const Schema<PhysicalConstants>& constantsSchema(bool besideGas) {
   static const Schema<PhysicalConstants> alone = make().ignored("reference_pressure", "nothing here depends on it");
   static const Schema<PhysicalConstants> beside = make().custom(
       "reference_pressure", [](PhysicalConstants&, const Element&, Diagnostics&) {}, {"reference_pressure"},
-      "the pressure that exerts no force on bodies");
+      "the ambient pressure, which exerts no force on bodies");
   return besideGas ? beside : alone;
 }
 

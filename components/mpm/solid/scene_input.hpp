@@ -10,7 +10,7 @@ namespace tushar::mpm::solid {
 struct PhysicalConstants {
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
 };
-/// How the section is read; `besideGas`: it also describes a gas, which another schema reads.
+/// The schema of the section; `besideGas`: it also describes a gas, which another schema reads.
 const input::Schema<PhysicalConstants>& constantsSchema(bool besideGas = false);
 
 /// The sections of a scene of solids whose <MPM> is read by `mpm`, for the schemas of editors.
@@ -22,7 +22,7 @@ void nameMaterials(std::vector<Material>& materials);
 /// Requires heat capacities where work or conduction changes temperatures.
 void checkHeat(const Problem& problem, const input::Element& root, input::Diagnostics& diagnostics);
 
-/// Completes what depends on the grid: how many particles share each load, their size, the width of cells.
+/// Completes the settings that depend on the grid: number of particles of each load, their size, cell widths.
 void settleParticles(const Level& level, Problem& problem);
 
 /// Throws InputError if an axisymmetric scene, with its <MPM> at `where`, has cells around its axis.

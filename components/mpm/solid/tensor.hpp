@@ -22,7 +22,7 @@ inline Tensor tensorOf(const Matrix3& matrix) {
 }
 inline constexpr Tensor identityTensor{1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/// The derivative of one second-order tensor by another, each as nine numbers row by row.
+/// The derivative of one second-order tensor with respect to another, each as nine numbers row by row.
 using Matrix9 = Eigen::Matrix<double, 9, 9, Eigen::DontAlign | Eigen::RowMajor>;
 using Vector9 = Eigen::Matrix<double, 9, 1, Eigen::DontAlign>;
 

@@ -9,16 +9,16 @@ namespace tushar::mpm::solid {
 
 /// Switches of Uintah's that are missing here, and what there is instead.
 inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
-    {"InsertParticles", "give every body its place at the start"},
-    {"refine_particles", "give the body more particles by <res>"},
+    {"InsertParticles", "give every body its position at the start"},
+    {"refine_particles", "give the body more particles, by <res>"},
     {"use_cohesive_zones", "give the bodies a <contact>"},
     {"do_scalar_diffusion", "heat conduction obeys the same equation"},
     {"coupled_flow_analysis", "there is one phase"},
-    {"AMR", "there is one level: choose a finer <resolution>"},
-    {"DoCapDensity", "take it out: density is not capped"},
-    {"DoGranularMPM", "take it out"},
+    {"AMR", "solids are on one level: choose a finer <resolution>"},
+    {"DoCapDensity", "remove it: density is not capped"},
+    {"DoGranularMPM", "remove it"},
     {"DoDefGradAveraging", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
-    {"use_volume_integral", "take it out: particles represent their volume"},
+    {"use_volume_integral", "remove it: particles represent their volume"},
     {"restartOnLargeNodalVelocity", "recompute_timestep in <Time> repeats a step that fails"},
 };
 

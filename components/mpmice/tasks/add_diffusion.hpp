@@ -46,7 +46,7 @@ class DiffusionBeside {
   }
 
  private:
-  /// The cell itself or, beyond the grid, that which it mirrors.
+  /// The cell itself or, beyond the grid, the one that it mirrors.
   Index<D> onGrid(Index<D> cell) const {
     for (int d = 0; d < D; ++d)
       if (!level_.isPeriodic(d)) cell[d] = std::clamp(cell[d], level_.cells().lower[d], level_.cells().upper[d] - 1);
@@ -88,8 +88,8 @@ class DiffusionBeside {
     }
     return std::max(0.5, 1 + middle(cell, axis) - middle(below, axis));
   }
-  /// Where the middle of a cell's gas is along an axis, in cells from that of the cell: away from its walls, and
-  /// towards a small cell with which it shares.
+  /// The position, along an axis, of the centre of a cell's gas relative to that of the cell, in cells: away from its
+  /// walls, and towards a small cell with which it shares.
   double middle(const Index<D>& cell, int axis) const {
     const OpenFaces faces = space_.faces(cell, axis);
     const double walls = faces.wall(0) + faces.wall(1);

@@ -45,8 +45,7 @@ void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, co
   });
 }
 
-/// Cells with a body in them or beside them are taken as constant, and beyond a side of the grid those that mirror
-/// them.
+/// Treats cells with a body in them or next to them as constant, and those beyond a side of the grid that mirror them.
 template <int D, int K>
 void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& cells, const NearBodies<D>& near,
                      euler::Work<D, K>& work) {
@@ -67,7 +66,7 @@ void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& ce
   });
 }
 
-/// Lets the fluxes through the lower faces of the cells of `faces` pass as far as these are open.
+/// Reduces the fluxes through the lower faces of the cells of `faces` to the open fractions of these.
 template <int D, int K>
 void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<D>& near, const Box& faces, int axis,
                 euler::Rows<D, K>& flux) {
@@ -132,7 +131,7 @@ void refuseFarGas(const Patch& patch, const Settings& settings, const NearBodies
   });
 }
 
-/// Whether the gas of a cell is possible; refuseFarGas checks several gases.
+/// Whether the gas of a cell has a valid state; refuseFarGas checks several gases.
 template <int D, class G>
 bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, double>& fresh) {
   if constexpr (euler::kGases < G >> 1)

@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// The state of the gas in cells that hold some; else 0.
+/// The state of the gas in cells that contain some; 0 in others.
 template <int D, class Show>
 void showGas(const Patch& patch, const GasInCells<D>& cells, Show&& show) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { show(cell, !cells.isEmpty(cell)); });
@@ -122,7 +122,7 @@ void sumKineticEnergy(const Patch& patch, const GasInCells<D>& cells, Sum& ofGas
   ofAll.merge(sum);
 }
 
-/// The least share of a cell that holds gas.
+/// The smallest open fraction of a cell that contains gas.
 template <int D>
 void findLeastFreeVolume(const Patch& patch, const GasInCells<D>& cells, Minimum& least) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {

@@ -6,7 +6,7 @@
 
 namespace tushar::mpmice {
 
-/// The heat of bodies: of each particle of a material.
+/// The heat of the particles of a material.
 struct WarmBodies {
   ParticleView<const double> mass;
   ParticleView<const mpm::solid::Matrix3> deformation;

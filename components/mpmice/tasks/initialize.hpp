@@ -44,7 +44,7 @@ euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const
   return *nearest;
 }
 
-/// The gas of a scene in the free part of cells.
+/// Fills the free part of cells with the gas of the scene.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<const double> free, CellView<double> density,
                 CellView<Vec<D>> momentum, CellView<double> totalEnergy) {

@@ -6,7 +6,7 @@
 
 namespace tushar::mpmice {
 
-/// How many cells beyond a patch hold particles whose boxes reach into it, before or after a step.
+/// Number of layers of cells beyond a patch with particles whose boxes may reach into it, before or after a step.
 inline constexpr int boxReach = 2;
 
 /// The box of each particle, from its size at the start, in cells, and F; and what has not burned of it.
@@ -86,7 +86,7 @@ struct FreeShares {
       }
     });
   }
-  /// Where bodies overlap the free volume is 0, not negative.
+  /// Sets the free volume to 0 where bodies overlap and it would be negative.
   void settle() const {
     forEach<D>(volume.box(), [&](const Index<D>& cell) { volume[cell] = std::max(0.0, volume[cell]); });
   }

@@ -6,7 +6,7 @@
 
 namespace tushar::input {
 
-/// An axis-aligned box (m); empty if `max` is not above `min`.
+/// A box along the axes (m); empty if `max` is not above `min`.
 struct Box3 {
   Vec3 min = Vec3::Zero();
   Vec3 max = Vec3::Zero();
@@ -25,9 +25,10 @@ class GeometryPiece {
   /// Whether a body has a particle there, by Uintah's rule: faces belong to the body (except for `Parallelepiped` and
   /// `Torus`).
   virtual bool contains(const Vec3& point) const = 0;
-  /// As contains(), without the upper flat faces: of two pieces that share a face, exactly one owns a point on it.
+  /// Like contains(), but without the upper flat faces: a point on a face between two pieces belongs to exactly one of
+  /// them.
   virtual bool owns(const Vec3& point) const { return contains(point); }
-  /// A box that contains all of the piece.
+  /// A box that contains the piece.
   virtual Box3 bounds() const = 0;
 };
 

@@ -130,18 +130,18 @@ const Schema<Polyhedron>& Polyhedron::schema() {
   static const Schema<HalfSpace> space =
       Schema<HalfSpace>("half_space", "A plane that bounds a polyhedron.")
           .attributeValue("type", &HalfSpace::type, "absolute", "1",
-                          "absolute: by planePoint and normal; relative: by offset")
-          .optional("planePoint", &HalfSpace::point, "m", "a point of the plane")
-          .optional("normal", &HalfSpace::normal, "1", "perpendicular to it, into the body")
+                          "absolute: given by planePoint and normal; relative: given by offset")
+          .optional("planePoint", &HalfSpace::point, "m", "a point in the plane")
+          .optional("normal", &HalfSpace::normal, "1", "perpendicular to the plane, pointing into the body")
           .optional("offset", &HalfSpace::offset, "m", "from the centre to the nearest point of the plane")
           .check(checkHalfSpace);
   static const Schema<Planes> planes = Schema<Planes>("bounds", "The planes around a polyhedron.")
                                            .list("half_space", &Planes::list, space, "a plane", 4);
   static const Schema<Polyhedron> schema =
-      Schema<Polyhedron>("polyhedron", "A convex body that planes bound.")
-          .foreignAttribute("label", "an empty tag with this label, further down, refers to this shape")
-          .foreignAttribute("name", "another word for label")
-          .required("center", &Polyhedron::center, "m", "a point within")
+      Schema<Polyhedron>("polyhedron", "A convex body bounded by planes.")
+          .foreignAttribute("label", "a name by which an empty tag further down refers to this shape")
+          .foreignAttribute("name", "a synonym of label")
+          .required("center", &Polyhedron::center, "m", "a point inside the body")
           .requiredSection("bounds", &Polyhedron::planes, planes)
           .check(checkPolyhedron);
   return schema;

@@ -16,7 +16,7 @@ namespace tushar::input {
 /// of times.
 class Polygon : public GeometryPiece {
  public:
-  /// At least three corners, in order around it; their z is ignored.
+  /// Takes at least three corners, in order around the polygon; their z is ignored.
   explicit Polygon(std::vector<Vec3> corners);
   bool contains(const Vec3& point) const override;
   Box3 bounds() const override { return bounds_; }
@@ -34,7 +34,7 @@ std::vector<Vec3> readPolygon(const std::string& path, const Element& tag, Diagn
 struct HalfSpace {
   std::string type;                   ///< absolute or relative
   std::optional<Vec3> point, normal;  ///< absolute: the point (m), and the normal
-  std::optional<Vec3> offset;         ///< relative: of the point from the centre of the body (m)
+  std::optional<Vec3> offset;         ///< relative: the vector from the centre of the body to the plane (m)
 };
 
 /// The points on the inner side of all of its planes, or on them.
@@ -53,7 +53,7 @@ struct Polyhedron : GeometryPiece {
   static const Schema<Polyhedron>& schema();
 
  private:
-  /// A point of a plane, and its normal of length 1, inwards.
+  /// A point in a plane, and the unit normal into the body.
   std::pair<Vec3, Vec3> plane(const HalfSpace& space) const;
   bool isWithin(const Vec3& point, double tolerance) const;
 };

@@ -16,8 +16,8 @@ namespace {
 template <class T>
 Schema<T> shapeSchema(const std::string& name, const std::string& sentence) {
   Schema<T> schema(name, sentence);
-  schema.foreignAttribute("label", "an empty tag with this label, further down, refers to this shape");
-  schema.foreignAttribute("name", "another word for label");
+  schema.foreignAttribute("label", "a name by which an empty tag further down refers to this shape");
+  schema.foreignAttribute("name", "a synonym of label");
   return schema;
 }
 
@@ -81,15 +81,15 @@ const Schema<Box>& Box::schema() {
 
 const Schema<Sphere>& Sphere::schema() {
   static const Schema<Sphere> schema = shapeSchema<Sphere>("sphere", "A ball.")
-                                           .required("origin", &Sphere::origin, "m", "its centre")
-                                           .required("radius", &Sphere::radius, "m", "its radius", positive());
+                                           .required("origin", &Sphere::origin, "m", "centre")
+                                           .required("radius", &Sphere::radius, "m", "radius", positive());
   return schema;
 }
 
 const Schema<Ellipsoid>& Ellipsoid::schema() {
   static const Schema<Ellipsoid> schema =
-      shapeSchema<Ellipsoid>("ellipsoid", "An ellipsoid, by three radii or by three semi-axes.")
-          .required("origin", &Ellipsoid::origin, "m", "its centre")
+      shapeSchema<Ellipsoid>("ellipsoid", "An ellipsoid, given by three radii or by three semi-axes.")
+          .required("origin", &Ellipsoid::origin, "m", "centre")
           .optional("rx", &Ellipsoid::rx, "m", "radius along x", positive())
           .optional("ry", &Ellipsoid::ry, "m", "radius along y", positive())
           .optional("rz", &Ellipsoid::rz, "m", "radius along z", positive())
@@ -116,19 +116,21 @@ const Schema<Cylinder>& Cylinder::schema() {
       shapeSchema<Cylinder>("cylinder", "A circular cylinder in any direction.")
           .required("bottom", &Cylinder::bottom, "m", "centre of one end")
           .required("top", &Cylinder::top, "m", "centre of the other end")
-          .required("radius", &Cylinder::radius, "m", "its radius", positive())
-          .value("cylinder_end", &Cylinder::cylinderEnd, false, "", "a pressure acts on its end, not on its side")
-          .value("axisymmetric_end", &Cylinder::axisymmetricEnd, false, "", "the same in an axisymmetric scene")
+          .required("radius", &Cylinder::radius, "m", "radius", positive())
+          .value("cylinder_end", &Cylinder::cylinderEnd, false, "",
+                 "a pressure acts on the end of the cylinder, not on its side")
+          .value("axisymmetric_end", &Cylinder::axisymmetricEnd, false, "",
+                 "in an axisymmetric scene, a pressure acts on the end of the cylinder")
           .value("axisymmetric_side", &Cylinder::axisymmetricSide, false, "",
-                 "a pressure acts on its side in an axisymmetric scene")
+                 "in an axisymmetric scene, a pressure acts on the side of the cylinder")
           .check(checkAxis<Cylinder>);
   return schema;
 }
 
 const Schema<Parallelepiped>& Parallelepiped::schema() {
   static const Schema<Parallelepiped> schema =
-      shapeSchema<Parallelepiped>("parallelepiped", "A sheared box: one corner and the three next to it.")
-          .required("p1", &Parallelepiped::p1, "m", "the corner")
+      shapeSchema<Parallelepiped>("parallelepiped", "A sheared box, given by one corner and the three next to it.")
+          .required("p1", &Parallelepiped::p1, "m", "one corner")
           .required("p2", &Parallelepiped::p2, "m", "the corner at the end of the first edge")
           .required("p3", &Parallelepiped::p3, "m", "the corner at the end of the second edge")
           .required("p4", &Parallelepiped::p4, "m", "the corner at the end of the third edge")
@@ -139,11 +141,12 @@ const Schema<Parallelepiped>& Parallelepiped::schema() {
 const Schema<Torus>& Torus::schema() {
   static const Schema<Torus> schema =
       shapeSchema<Torus>("torus", "A ring.")
-          .required("center", &Torus::center, "m", "its centre")
+          .required("center", &Torus::center, "m", "centre")
           .required("major_radius", &Torus::majorRadius, "m", "radius of the ring", nonNegative())
           .required("minor_radius", &Torus::minorRadius, "m", "radius of the tube", positive())
           .requiredChoice("axis", &Torus::axis, {{"x", 0}, {"y", 1}, {"z", 2}}, "axis of the ring")
-          .value("theta", &Torus::theta, 0.0, "rad", "tilt of the axis: z towards -x, y towards z, x towards y");
+          .value("theta", &Torus::theta, 0.0, "rad",
+                 "tilt of the axis: a z axis tilts towards -x, a y axis towards z, an x axis towards y");
   return schema;
 }
 

@@ -16,7 +16,7 @@ Box3 discBounds(const Vec3& center, const Vec3& normal, double radius) {
   return {center - half, center + half};
 }
 
-/// How far up the axis the point is: 0 at the bottom, 1 at the top.
+/// The height of a point along the axis: 0 at the bottom, 1 at the top.
 double height(const Vec3& point, const Vec3& bottom, const Vec3& top) {
   const Vec3 axis = top - bottom;
   return (point - bottom).dot(axis) / axis.squaredNorm();

@@ -12,7 +12,7 @@ namespace tushar::input {
 // a torus none; an ellipsoid's reaches 1e-12 (of the sum) beyond it. `owns` leaves out the flat upper faces (max, top,
 // far from p1), as for cells.
 
-/// min <= p <= max along each axis.
+/// The points p with min <= p <= max along each axis.
 struct Box : GeometryPiece {
   Vec3 min = Vec3::Zero();
   Vec3 max = Vec3::Zero();
@@ -92,10 +92,10 @@ struct Parallelepiped : GeometryPiece {
 /// (R - d)^2 + h^2 < r^2 with d the distance from the axis and h that from the plane of the ring.
 struct Torus : GeometryPiece {
   Vec3 center = Vec3::Zero();
-  double majorRadius = 0;  ///< R, of the ring
-  double minorRadius = 0;  ///< r, of the tube
+  double majorRadius = 0;  ///< R, radius of the ring
+  double minorRadius = 0;  ///< r, radius of the tube
   int axis = 2;
-  double theta = 0;  ///< the axis z tilts towards -x, y towards z, x towards y (rad)
+  double theta = 0;  ///< tilt (rad): a z axis tilts towards -x, a y axis towards z, an x axis towards y
 
   /// The unit vector along the axis, tilted by theta.
   Vec3 direction() const;

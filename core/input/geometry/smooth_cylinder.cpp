@@ -12,8 +12,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// The rotation that turns the z axis into `direction` the shorter way. Eigen's, with one of the axes in place of a
-/// singular value decomposition, which takes the compiler seconds, where the two are opposite.
+/// The rotation by the smallest angle that turns the z axis into `direction`. Eigen's, with one of the axes in place of
+/// a singular value decomposition, which takes the compiler seconds, where the two are opposite.
 Eigen::Matrix3d turnOfZ(const Eigen::Vector3d& direction) {
   const Eigen::Vector3d z(0, 0, 1), end = direction.normalized(), normal = z.cross(end);
   const double cosine = end.dot(z);
@@ -105,24 +105,26 @@ void checkSmoothCylinder(const SmoothCylinder& shape, const Element& element, Di
 const Schema<SmoothCylinder>& SmoothCylinder::schema() {
   using Self = SmoothCylinder;
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("smoothcyl", "A hollow cylinder whose particles, in a body of their own, follow its surface.");
-    tags.foreignAttribute("label", "an empty tag with this label, further down, refers to this shape")
-        .foreignAttribute("name", "another word for label")
+    Schema<Self> tags("smoothcyl",
+                      "A hollow cylinder that, if it is the only shape of a body, places particles in rings.");
+    tags.foreignAttribute("label", "a name by which an empty tag further down refers to this shape")
+        .foreignAttribute("name", "a synonym of label")
         .choice("discretization_scheme", &Self::scheme,
                 {{"pie_slices", Scheme::pieSlices}, {"constant_particle_volumes", Scheme::constantVolumes}},
                 Scheme::pieSlices,
-                "rings of num_angular particles, or of as many as are about as long as the ring is wide")
+                "particles in a ring: num_angular, or so many that each is about as long as the ring is wide")
         .required("bottom", &Self::bottom, "m", "centre of one end")
         .required("top", &Self::top, "m", "centre of the other end")
-        .value("inner_radius", &Self::innerRadius, 0, "m", "of the hole", nonNegative())
-        .required("outer_radius", &Self::outerRadius, "m", "its radius", positive())
-        .required("num_radial", &Self::radial, "1", "rings around the axis", positive())
-        .required("num_axial", &Self::axial, "1", "layers along the axis", positive())
-        .optional("num_angular", &Self::angular, "1", "particles of a ring; needed for pie_slices", positive())
-        .value("arc_start_angle", &Self::startAngle, 0, "degrees", "where its arc begins", between(0, 360))
-        .value("arc_angle", &Self::endAngle, 360, "degrees", "where its arc ends", between(0, 360))
+        .value("inner_radius", &Self::innerRadius, 0, "m", "radius of the hole", nonNegative())
+        .required("outer_radius", &Self::outerRadius, "m", "outer radius", positive())
+        .required("num_radial", &Self::radial, "1", "number of rings around the axis", positive())
+        .required("num_axial", &Self::axial, "1", "number of layers along the axis", positive())
+        .optional("num_angular", &Self::angular, "1", "number of particles in a ring; needed for pie_slices",
+                  positive())
+        .value("arc_start_angle", &Self::startAngle, 0, "degrees", "angle at which the arc begins", between(0, 360))
+        .value("arc_angle", &Self::endAngle, 360, "degrees", "angle at which the arc ends", between(0, 360))
         .ignored("endcap_thickness", "as in Uintah, end caps have no particles")
-        .ignored("output_file", "the archive has the particles")
+        .ignored("output_file", "the archive contains the particles")
         .check(checkSmoothCylinder);
     return tags;
   }();

@@ -16,15 +16,15 @@ struct SmoothCylinder : GeometryPiece {
   /// One of its particles.
   struct Particle {
     Vec3 at;                                              ///< m
-    Eigen::Matrix<double, 3, 3, Eigen::DontAlign> edges;  ///< columns: around, outwards, along the axis, m
+    Eigen::Matrix<double, 3, 3, Eigen::DontAlign> edges;  ///< edges as columns: around, outwards, along the axis, m
     double volume;                                        ///< m^3
   };
 
   Scheme scheme = Scheme::pieSlices;
   Vec3 bottom = Vec3::Zero(), top = Vec3::Zero();  ///< centres of the ends, m
   double innerRadius = 0, outerRadius = 0;         ///< m
-  int radial = 0, axial = 0;                       ///< rings, and layers
-  std::optional<int> angular;                      ///< particles of a ring
+  int radial = 0, axial = 0;                       ///< numbers of rings and of layers
+  std::optional<int> angular;                      ///< number of particles in a ring
   double startAngle = 0, endAngle = 360;           ///< degrees
 
   bool contains(const Vec3& point) const override;
@@ -37,7 +37,7 @@ struct SmoothCylinder : GeometryPiece {
  private:
   void addRing(const Vec3& center, int ring, int count, std::vector<Particle>& particles) const;
   int particlesOfRing(int ring, double cellVolume) const;
-  /// Area of a particle of a ring of `count`, m^2.
+  /// Area of a particle in a ring of `count` particles, m^2.
   double areaOf(int ring, int count) const;
   /// Angle of the arc, rad.
   double angle() const;

@@ -17,7 +17,8 @@ namespace tushar::input {
 
 namespace {
 
-constexpr std::size_t headerBytes = 84, facetBytes = 50;  ///< of a binary file: 80 characters and a count; a facet
+constexpr std::size_t headerBytes = 84,
+                      facetBytes = 50;  ///< of a binary file: header with a count, facet
 
 /// The content of a file, or why it cannot be used.
 struct Read {
@@ -40,7 +41,7 @@ std::uint32_t countIn(const std::string& bytes) {
   return count;
 }
 
-/// A normal and three corners, little-endian floats, and two bytes for each facet.
+/// Reads a binary file: for each facet, a normal and three corners as little-endian floats, and two bytes.
 Read readBinary(const std::string& bytes) {
   Read read;
   read.triangles.resize(countIn(bytes));
@@ -54,7 +55,7 @@ Read readBinary(const std::string& bytes) {
   return read;
 }
 
-/// `vertex x y z` three times within each `facet`; the rest of such a file follows from that.
+/// Reads a text file: `vertex x y z` three times in each `facet`; the other words are redundant.
 Read readText(const std::string& text) {
   Read read;
   std::istringstream lines(text);
@@ -100,7 +101,7 @@ std::optional<std::string> slurp(const std::string& path) {
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-/// Three numbers a line; empty lines are ignored. Otherwise `problem` names the line.
+/// Reads three numbers per line; empty lines are ignored. Otherwise `problem` names the line.
 template <class Number>
 std::vector<std::array<Number, 3>> readTriples(const std::string& text, std::string& problem) {
   std::vector<std::array<Number, 3>> triples;
@@ -117,7 +118,7 @@ std::vector<std::array<Number, 3>> readTriples(const std::string& text, std::str
   return triples;
 }
 
-/// The pair of files that Uintah reads.
+/// Reads the pair of files of Uintah: points, and triangles.
 Read joinPoints(const std::string& points, const std::string& corners) {
   Read read;
   const auto places = readTriples<double>(points, read.problem);

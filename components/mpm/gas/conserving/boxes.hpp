@@ -13,7 +13,7 @@ struct GasBox {
   Vec<D> x, edges;                      ///< centre and edge lengths, m
   double mass;                          ///< kg
   Vec<D> velocity;                      ///< mean, m/s
-  Modes<D> modes;                       ///< of the motion about the mean
+  Modes<D> modes;                       ///< modes of the motion about the mean
   double internalEnergy, affineEnergy;  ///< J/kg
 };
 

@@ -28,15 +28,15 @@ struct CellState {
   double pressure = 0, viscosity = 0, shock = 1;
 };
 
-/// How a cell and its neighbours along the axes are compressed. The velocity difference over a cell along an axis is
+/// The compression of a cell and its neighbours along the axes. The velocity difference over a cell along an axis is
 /// the derivative times the least cell width h; Delta is the sum of these differences over the axes [m/s].
 struct Compression {
   double difference = 0;  ///< Delta of the cell
   double smooth = 0;      ///< J_0: Delta less van Leer's harmonic means with the differences of neighbours
-  double nearby = 0;      ///< greatest -Delta of the neighbours
+  double nearby = 0;      ///< largest -Delta of the neighbours
 };
 
-/// q where the gas is compressed, Delta < 0:  rho |Delta| (C_q |Delta| + C_l c).
+/// q under compression, Delta < 0:  rho |Delta| (C_q |Delta| + C_l c).
 CellState shockViscosity(double pressure, double density, double soundSpeed, double difference,
                          const Viscosity& viscosity);
 
@@ -80,7 +80,7 @@ void computeAcceleration(const Patch& patch, const Gas&, CellView<const Tensor<D
   stopAtSymmetryPlanes<D>(patch, acceleration);
 }
 
-/// beta_i, the greatest shock sensor of the cells around a node.
+/// beta_i, the largest shock sensor of the cells around a node.
 template <int D>
 void computeRelaxation(const Patch& patch, const Gas&, CellView<const double> shock, NodeView<double> relaxation) {
   forEach<D>(patch.nodes(), [&](const Index<D>& node) {

@@ -75,8 +75,9 @@ BoxContents<D> integrate(const Level& level, const Gas& gas, const GasObject& ob
   });
 }
 
-/// A stiffened gas exerts p + p_inf on its surroundings. Throws InputError where nothing balances it: on a grid with a
-/// free side, and, if it is the only gas, where `boxes` leave a part of the patch empty.
+/// Refuses a stiffened gas that does not fill the grid, as it exerts p + p_inf on its surroundings. Throws InputError
+/// where nothing balances it: on a grid with a free side, and, if it is the only gas, where `boxes` leave a part of the
+/// patch empty.
 template <int D>
 void refuseLooseness(const Patch& patch, const Gas& gas, const std::vector<Vec<D>>& boxes) {
   if (gas.pInfinity == 0) return;

@@ -19,14 +19,14 @@ namespace tushar::mpm::gas::conserving {
 /// interval has the mirrored numbers, to the bit.
 template <int Overhang>
 struct Span {
-  static constexpr int most = 2 * Overhang + 1;  ///< cells that the intervals of one batch may overlap
+  static constexpr int most = 2 * Overhang + 1;  ///< largest number of cells overlapped in one batch
 
-  LaneIntegers first;                            ///< cell, and node below it
-  int below = 0;                                 ///< cells below that of the centre that some interval overlaps
-  int cells = 1;                                 ///< that some interval overlaps
-  std::array<Lanes, most> part;                  ///< by cell; they sum to 1
-  std::array<Lanes, most + 1> weight;            ///< by node; they sum to 1
-  std::array<Lanes, most + 1> arm;               ///< distances of nodes from the centre, m
+  LaneIntegers first;                  ///< cell, and node below it
+  int below = 0;                       ///< number of cells below that of the centre that some interval overlaps
+  int cells = 1;                       ///< number of cells that some interval overlaps
+  std::array<Lanes, most> part;        ///< parts of the interval by cell; they sum to 1
+  std::array<Lanes, most + 1> weight;  ///< weights by node; they sum to 1
+  std::array<Lanes, most + 1> arm;     ///< distances of the nodes from the centre, m
   std::array<Lanes, most + 1> atLower, atUpper;  ///< weights of nodes in the values at the ends
   Lanes inertia;                                 ///< sum of weight times arm², m²
   Lanes lower, upper;                            ///< ends, m
@@ -110,7 +110,7 @@ struct Span {
     atLower[last] = (start - edge) + 1;
     atUpper[last] = (end - edge) + 1;
   }
-  /// `offset` is that of the centre of the cell from the centre.
+  /// `offset` is the distance of the cell's centre from that of the interval.
   void measureArms(const Lanes& offset, double h) {
     inertia = sumOverNodes<Lanes>([&](int k, Lanes& sum) {
       const std::size_t at = k;
@@ -172,7 +172,7 @@ struct Footprint {
     Index<D> k;
     weights<D - 1>(k, Lanes(1), field, visit);
   }
-  /// The field on a plane across its last axis, `arm` from the centre.
+  /// The field on a plane perpendicular to its last axis, at the distance `arm` from the centre.
   template <int Axis>
   static Field<Axis - 1> slice(const Field<Axis>& field, const Lanes& arm) {
     constexpr std::size_t half = std::size_t{1} << Axis;

@@ -25,7 +25,7 @@ class GridFields {
     forEach<D>(from.box(), [&](const Index<D>& index) { at(field, index) = from[index]; });
   }
 
-  /// Nodes or cells, one per particle of a batch.
+  /// The nodes or cells near the particles of a batch, one per particle.
   class Near {
    public:
     Near(const GridFields& fields, const std::array<LaneIntegers, D>& index, int count) : place_(fields.places(index)) {
@@ -36,7 +36,7 @@ class GridFields {
    private:
     friend GridFields;
     LaneIntegers place_;
-    bool consecutive_ = true;  ///< each lies beside the one of the lane before
+    bool consecutive_ = true;  ///< whether each is next to that of the previous lane
   };
 
   /// A field at the nodes or cells offset by `k`.
@@ -49,7 +49,7 @@ class GridFields {
   Lanes readRow(std::size_t field, const Index<D>& index) const { return Lanes::at(&at(field, index)); }
 
  protected:
-  /// Memory layout, for fields that are sums.
+  /// Access to the memory, for fields that are sums.
   double* values(std::size_t field) { return values_.data() + field * size_; }
   std::size_t size() const { return size_; }
   int stride(int axis) const { return stride_[axis]; }

@@ -6,9 +6,9 @@
 namespace tushar::mpm::gas::conserving {
 
 /// Artificial heat conduction where a shock compresses cells, against wall heating: the heat flow through the face
-/// between two cells along axis d is Q = C_h rho h max(0, -dv_d/dx_d) A (e_next - e), rho the lesser of the two
-/// densities, dv_d/dx_d the lesser of the two derivatives. Adds dt Q / IE_c to the work of each cell; the flow leaves
-/// one cell and enters the other. Source: W. F. Noh, J. Comput. Phys. 72 (1987) 78, section 3.
+/// between two cells along axis d is Q = C_h rho h max(0, -dv_d/dx_d) A (e_next - e), with the smaller of the two
+/// densities and of the two derivatives. Adds dt Q / IE_c to the work of each cell; the flow leaves one cell and enters
+/// the other. Source: W. F. Noh, J. Comput. Phys. 72 (1987) 78, section 3.
 template <int D>
 void conductHeat(const Patch& patch, const Gas&, double coefficient, CellView<const double> mass,
                  CellView<const double> internalEnergy, CellView<const Tensor<D>> gradient, double dt,

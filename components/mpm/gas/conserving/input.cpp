@@ -11,11 +11,11 @@ namespace {
 
 const Schema<Remap>& remapSchema() {
   static const Schema<Remap> schema =
-      Schema<Remap>("remap", "One new particle per cell, with the mass, momentum and energy of what lies in it.")
+      Schema<Remap>("remap", "One new particle per cell, with the mass, momentum and energy of the gas in the cell.")
           .value("every", &Remap::every, 4, "1", "steps", input::positive())
           .ours()
           .value("overfilled", &Remap::overfilled, 0.02, "1",
-                 "or once the particles of a cell exceed its volume by this fraction", input::nonNegative())
+                 "remap early if the particles of a cell exceed its volume by this fraction", input::nonNegative())
           .ours();
   return schema;
 }
@@ -33,7 +33,8 @@ const Schema<Section>& sectionSchema() {
       Schema<Section>("conserving_gas_dynamics", "A gas method that conserves mass, momentum and total energy.")
           .choice("transfer", &Section::transfer, {{"apic", Transfer::apic}, {"affine_flip", Transfer::affineFlip}},
                   Transfer::apic,
-                  "particles take the grid's velocity, or, where the gas is smooth, its change: of second order")
+                  "particles take the grid's velocity (apic) or, where the gas is smooth, its change (affine_flip, "
+                  "second order)")
           .ours()
           .value("cfl", &Section::cfl, 0.5, "1", "dt times the speed of signals over h; affine_flip: dt max(c) / h",
                  input::positive())
@@ -48,11 +49,10 @@ const Schema<Section>& sectionSchema() {
           .ours()
           .section("artificial_viscosity", &Section::viscosity, viscosity)
           .ours()
-          .value(
-              "artificial_heat_conduction", &Section::heatConduction, 0, "1",
-              "C_h: heat flows C_h rho h |dv/dx| de/dx h where cells are compressed (Noh 1987); 1 takes wall heating "
-              "away",
-              input::between(0, 1))
+          .value("artificial_heat_conduction", &Section::heatConduction, 0, "1",
+                 "C_h of the heat flow C_h rho h |dv/dx| de/dx h in cells under compression (Noh 1987); 1 removes wall "
+                 "heating",
+                 input::between(0, 1))
           .ours()
           .section("remap", &Section::remap, remapSchema())
           .ours();

@@ -6,8 +6,8 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// The `conserving_gas_dynamics` section of `MPM` as it is written. Defaults of what is missing depend on the transfer
-/// and the dimension.
+/// The `conserving_gas_dynamics` section of `MPM`, as given in the scene. Defaults of what is missing depend on the
+/// transfer and the dimension.
 struct Section {
   Transfer transfer = Transfer::apic;
   double cfl = 0.5, advectiveCfl = 0.8;

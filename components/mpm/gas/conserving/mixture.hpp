@@ -12,11 +12,11 @@ using CellViews = std::vector<CellView<T>>;
 template <class T>
 using NodeViews = std::vector<NodeView<T>>;
 
-/// Several gases in a cell, each in its share alpha of the volume, at one pressure and velocity, compressed alike. With
-/// G = sum of alpha / (gamma - 1) and S = sum of alpha gamma p_inf / (gamma - 1), their energy per volume is p G + S.
-/// So a contact at rest or in motion keeps its pressure, and rho c² = (p (1 + G) + S) / G.
-/// Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; for G and S alone: R. Abgrall, J. Comput.
-/// Phys. 125 (1996) 150.
+/// Several gases in a cell, each with its volume fraction alpha, at one pressure and velocity, with the same
+/// compression. With G = sum of alpha / (gamma - 1) and S = sum of alpha gamma p_inf / (gamma - 1), their energy per
+/// volume is p G + S. So a contact at rest or in motion keeps its pressure, and rho c² = (p (1 + G) + S) / G. Source:
+/// G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; for G and S alone: R. Abgrall, J. Comput. Phys. 125
+/// (1996) 150.
 struct Mixture {
   double density = 0;    ///< kg/m³
   double energy = 0;     ///< internal, J/m³
@@ -35,7 +35,7 @@ struct Mixture {
 struct GasInCells {
   CellView<const double> mass;            ///< kg
   CellView<const double> internalEnergy;  ///< J
-  CellView<const double> fill;            ///< share of the cell's volume
+  CellView<const double> fill;            ///< fraction of the cell's volume
 
   /// `read` is requiresOld or requiresNew, as a function of a label.
   static GasInCells from(auto& take, const auto& read) {
@@ -74,8 +74,8 @@ struct Cells {
   }
 };
 
-/// epsilon = e - p_inf / rho of each particle, with rho = m / V of its box: negative where the gas is torn, at a
-/// pressure below -p_inf.
+/// epsilon = e - p_inf / rho of each particle, with rho = m / V of its box; negative at pressures below -p_inf, at
+/// which the gas tears.
 template <int D>
 void computeHeat(const Patch& patch, const Gas& gas, ParticleView<const double> mass, ParticleView<const Vec<D>> edges,
                  ParticleView<const double> internalEnergy, ParticleView<double> heat) {
@@ -102,8 +102,8 @@ void mixAtNodes(const Patch&, const std::vector<Gas>& gases, const NodeViews<dou
   });
 }
 
-/// Throws InputError where the gases leave a part of a cell empty at the start, or overlap: the pressure of a mixture
-/// acts on all of the grid.
+/// Throws InputError if the gases leave a part of a cell empty at the start, or overlap, as the pressure of a mixture
+/// acts on the whole grid.
 template <int D>
 void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellViews<double>& fill) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
@@ -140,7 +140,8 @@ void computeMixturePressure(const Patch& patch, const std::vector<Gas>& gases, c
   });
 }
 
-/// How the gases of a cell share the work `done` [J] on it: the relative change of the internal energy of each.
+/// The distribution of the work `done` [J] on a cell over its gases: the relative change of the internal energy of
+/// each.
 template <class Index>
 class SharedWork {
  public:
@@ -190,7 +191,7 @@ void computeMixtureWork(const Patch& patch, const std::vector<Gas>& gases, const
   });
 }
 
-/// measureSignals of a mixture: |v| + c from its nodes' velocities, and signals relative to the gas.
+/// Like measureSignals, for a mixture: |v| + c from its nodes' velocities, and signals relative to the gas.
 template <int D>
 void measureMixtureSignals(const Patch& patch, const std::vector<Gas>& gases, const std::vector<GasInCells>& held,
                            const CellViews<const Tensor<D>>& gradient, const NodeViews<const Vec<D>>& velocity,

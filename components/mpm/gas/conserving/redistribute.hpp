@@ -7,8 +7,8 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// Scales velocity modes down where their kinetic energy could exceed K_A by more than `spare` of the heat. The mean
-/// square of x_d - centre_d, as the grid sees a box of length L, is at most L²/12 + h²/4.
+/// Scales velocity modes down if their kinetic energy could exceed K_A by more than the fraction `spare` of the heat.
+/// The mean square of x_d - centre_d, as the grid sees a box of length L, is at most L²/12 + h²/4.
 template <int D>
 void limitModes(const Patch& patch, const Gas&, double spare, ParticleView<const Vec<D>> edges,
                 ParticleView<const double> heat, ParticleView<const double> affineEnergy,
@@ -31,11 +31,11 @@ template <int D>
 void splitLong(const Patch& patch, double longestInCells, const OldBoxes<D>& old, ParticleMaker& maker,
                const NewBoxes<D>& fresh);
 
-/// Replaces the particles by one per cell, which fills the cell; next to an empty cell only as far as the gas does.
-/// Mass, momentum and energy are those of the parts of particles that lie in the cell. The share of a part in the
-/// particle's mass and energy follows van Leer's limited slopes of the cells' (`mass`, `energy`); it has the particle's
-/// velocity there. The velocity gradient of a new particle is the regression over its parts, its mixed modes their
-/// mean, and the kinetic energy it cannot hold becomes heat.
+/// Replaces the particles by one per cell, which fills the cell; next to an empty cell, only the part that the gas
+/// fills. Mass, momentum and energy are those of the parts of particles that lie in the cell. The share of a part in
+/// the particle's mass and energy follows van Leer's limited slopes of the cells' (`mass`, `energy`); it has the
+/// particle's velocity there. The velocity gradient of a new particle is the regression over its parts, its mixed modes
+/// their mean, and the kinetic energy it cannot hold becomes heat.
 template <int D>
 void remap(const Patch& patch, const OldBoxes<D>& old, CellView<const double> mass, CellView<const double> energy,
            ParticleMaker& maker, const NewBoxes<D>& fresh);
@@ -47,7 +47,7 @@ void redistribute(const Patch& patch, const Gas&, ParticleMaker& maker, double l
   splitLong<D>(patch, longestInCells, old, maker, fresh);
 }
 
-/// remap in the steps in which `count` is 0, splitLong in the others.
+/// Calls remap in steps in which `count` is 0, splitLong in others.
 template <int D>
 void redistributeOrRemap(const Patch& patch, const Gas&, ParticleMaker& maker, double longestInCells,
                          const OldBoxes<D>& old, CellView<const double> cellMass, CellView<const double> cellEnergy,
@@ -58,8 +58,8 @@ void redistributeOrRemap(const Patch& patch, const Gas&, ParticleMaker& maker, d
     splitLong<D>(patch, longestInCells, old, maker, fresh);
 }
 
-/// Counts the steps since the last remap. 0: one is due in this step, after `every` steps or because a cell is
-/// overfull.
+/// Counts the steps since the last remap; 0 means that a remap is due in this step, after `every` steps or because a
+/// cell is too full.
 inline void countSteps(const Patch&, const Remap& remap, double age, double fill, Maximum& count) {
   count.add(age + 1 >= remap.every || fill > 1 + remap.overfilled ? 0.0 : age + 1);
 }

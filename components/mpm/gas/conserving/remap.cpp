@@ -29,7 +29,7 @@ constexpr bool isMixed(std::size_t a) { return (a & (a - 1)) != 0; }
 template <int D>
 using Contents = GridFields<D, 2>;
 
-/// Van Leer's limited slopes of a cell variable over the value itself, 1/m; 0 at the rim of the grid. They are scaled
+/// Van Leer's limited slopes of a cell variable, relative to its value, 1/m; 0 at the rim of the grid. They are scaled
 /// so that in boxes of these edges the variable is at least a fifth of its mean everywhere.
 template <int D>
 LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std::size_t field, const Batch<D>& batch,
@@ -55,14 +55,14 @@ LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std:
 template <int D>
 struct Part {
   LanesVec<D> x, edges;  ///< centre and edge lengths
-  Lanes mass, internal;  ///< shares of the particle's
+  Lanes mass, internal;  ///< parts of the particle's mass and internal energy
 };
 
-/// Boxes cut at the faces of cells.
+/// The parts of boxes that are cut at the faces of cells.
 template <int D>
 class Parts {
  public:
-  /// `density` and `energy` are relative slopes: mass and internal energy of the parts follow them.
+  /// `density` and `energy` are the relative slopes by which mass and internal energy are divided among the parts.
   Parts(const Footprint<D>& footprint, const LanesVec<D>& centre, const LanesVec<D>& density,
         const LanesVec<D>& energy) {
     footprint.forEachPart([&](const Index<D>& k, const Lanes& share) {
@@ -162,8 +162,8 @@ void cut(const Level& level, const Batch<D>& batch, const OldBoxes<D>& boxes, co
 template <int D>
 struct Contained {
   Lanes mass, internalEnergy;
-  Lanes within;        ///< kinetic energy per mass about the mean velocity, J/kg
-  LanesVec<D> offset;  ///< of the centre of mass from the middle of the cell, m
+  Lanes within;        ///< kinetic energy per mass of the motion about the mean velocity, J/kg
+  LanesVec<D> offset;  ///< offset of the centre of mass from the centre of the cell, m
   LanesVec<D> velocity;
   LanesModes<D> modes;
 
@@ -199,9 +199,9 @@ struct Contained {
 template <int D>
 struct NewBox {
   Vec<D> centre, edges;
-  Vec<D> inertia;  ///< on the grid, m²
+  Vec<D> inertia;  ///< mean squares of the distances of nodes from the centre, m²
 
-  /// `offset` is that of the centre of mass from the middle of the cell.
+  /// `offset` is that of the centre of mass from the centre of the cell.
   NewBox(const Level& level, CellView<const double> mass, const Index<D>& cell, const Vec<D>& offset) {
     for (int d = 0; d < D; ++d) {
       const double h = level.spacing(d);
@@ -222,7 +222,7 @@ struct NewBox {
   }
 };
 
-/// The particle of a cell: what its parts hold together, in the box `NewBox`.
+/// The new particle of a cell, with the contents of all parts, in the box NewBox.
 template <int D>
 GasBox<D> boxOf(const Level& level, CellView<const double> mass, const Index<D>& cell, const Contained<D>& contained,
                 int lane) {

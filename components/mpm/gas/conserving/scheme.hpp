@@ -6,16 +6,16 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// How particles update their velocity from that of the grid.
+/// The update of particle velocities from those of the grid.
 enum class Transfer {
-  apic,       ///< it replaces theirs, with its gradient: Jiang et al., ACM Trans. Graph. 34 (2015) 51
-  affineFlip  ///< its change is added to theirs where the gas is smooth; as apic at shocks
+  apic,       ///< the grid's velocity, with its gradient, replaces theirs: Jiang et al., ACM Trans. Graph. 34 (2015) 51
+  affineFlip  ///< its change is added to theirs where the gas is smooth; like apic at shocks
 };
 
-/// When particles are replaced by one per cell.
+/// When to replace particles by one per cell.
 struct Remap {
   int every = 4;             ///< steps
-  double overfilled = 0.02;  ///< or when gas fills a cell by more than 1 + this share of its volume
+  double overfilled = 0.02;  ///< or when gas exceeds the volume of a cell by this fraction
 };
 
 /// The `conserving_gas_dynamics` section.
@@ -29,11 +29,11 @@ struct ConservingGasDynamics {
   std::optional<Remap> remap;
 };
 
-/// Compile-time differences between the two transfers.
+/// Properties of apic, as compile-time constants.
 struct Apic {
   static constexpr Transfer transfer = Transfer::apic;
   static constexpr double faceTime = 1.0;     ///< faces move with v + faceTime dt a
-  static constexpr double spareEnergy = 0.5;  ///< share of e that may make up for missing kinetic energy
+  static constexpr double spareEnergy = 0.5;  ///< fraction of e that may compensate for missing kinetic energy
 };
 struct AffineFlip {
   static constexpr Transfer transfer = Transfer::affineFlip;

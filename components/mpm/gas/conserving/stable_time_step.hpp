@@ -38,17 +38,17 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, const ConservingG
   limitDeformation<D>(patch, gas, mass, gradient, dt);
 }
 
-/// The greatest speed of signals in a cell relative to its gas [m/s], 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|,
-/// Delta the velocity difference over the cell: shocks are faster than sound. The form is that of D. J. Benson, Comput.
-/// Methods Appl. Mech. Eng. 99 (1992) 235; with these factors a moving gas has hardly a greater error than one at rest,
-/// and one at rest has that of |v| + c alone.
+/// The largest speed of signals in a cell relative to its gas [m/s], 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|,
+/// where Delta is the velocity difference over the cell, as shocks are faster than sound. The form is that of D. J.
+/// Benson, Comput. Methods Appl. Mech. Eng. 99 (1992) 235; with these factors a moving gas has hardly a greater error
+/// than one at rest, and one at rest has that of |v| + c alone.
 template <int D>
 double signalInCell(const Level& level, const Tensor<D>& gradient, double soundSpeedSquared) {
   const double q = 1.4 * level.minSpacing() * std::abs(gradient.trace());
   return 1.25 * (q + std::sqrt(q * q + soundSpeedSquared));
 }
 
-/// The greatest speeds of signals [m/s]: of particles relative to the grid, |v| + c; and signalInCell.
+/// The largest speeds of signals [m/s]: of particles relative to the grid, |v| + c; and signalInCell.
 template <int D>
 void measureSignals(const Patch& patch, const Gas& gas, ParticleView<const Vec<D>> velocity,
                     ParticleView<const double> internalEnergy, CellView<const double> mass,
@@ -64,7 +64,7 @@ void measureSignals(const Patch& patch, const Gas& gas, ParticleView<const Vec<D
   pastGas.add(fastest);
 }
 
-/// dt = cfl h over the lesser of the two speeds of measureSignals, and limitDeformation. Boxes move with the gas, so
+/// dt = cfl h over the smaller of the two speeds of measureSignals; and limitDeformation. Boxes move with the gas, so
 /// only signals relative to the gas need a limit; where the gas is slow, |v| + c is the sharper bound.
 template <int D>
 void computeAcousticTimeStep(const Patch& patch, const Gas& gas, const ConservingGasDynamics& method,

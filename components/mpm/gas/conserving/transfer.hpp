@@ -105,13 +105,13 @@ void gatherOnGrid(const Patch& patch, const ParticlesToGrid<D>& t, Visit&& visit
   stopAtSymmetryPlanes<D>(patch, t.nodeVelocity);
 }
 
-/// gatherOnGrid, and nothing else.
+/// The task that only calls gatherOnGrid.
 template <int D>
 void interpolateParticlesToGrid(const Patch& patch, const Gas&, const ParticlesToGrid<D>& transfer) {
   gatherOnGrid<D>(patch, transfer, [](const Index<D>&, double) {});
 }
 
-/// gatherOnGrid, and the volume of the boxes in each cell over the cell's own: 1 if they tile the gas.
+/// Calls gatherOnGrid, and computes the volume of the boxes in each cell over that of the cell: 1 if they tile the gas.
 template <int D>
 void interpolateAndMeasureFill(const Patch& patch, const Gas&, const ParticlesToGrid<D>& transfer,
                                CellView<double> fill, Maximum& greatest) {
@@ -128,7 +128,7 @@ void interpolateAndMeasureFill(const Patch& patch, const Gas&, const ParticlesTo
 template <int D, int Axis>
 struct Gathered {
   std::array<LanesVec<D>, (1 << (Axis + 1))> moments;  ///< y phi_a
-  std::array<LanesVec<D>, Axis + 1> lower, upper;      ///< velocity of the faces across each axis, m/s
+  std::array<LanesVec<D>, Axis + 1> lower, upper;      ///< velocity of the lower and upper faces across each axis, m/s
   LanesVec<D> moving = LanesVec<D>::Zero();            ///< mean of that velocity over the nodes, m/s
   Lanes slipEnergy = 0;                                ///< beta (2 - beta) |r|² / 2, J/kg
   Lanes square = 0;                                    ///< |y|², J/kg
@@ -288,7 +288,7 @@ Lanes workOn(const Footprint<D>& footprint, const Reader<D>& read) {
   return footprint.sumOverParts([&](const Index<D>& k, const Lanes& part) { return part * read(Motion<D>::work, k); });
 }
 
-/// Requires a smaller time step where a box would shrink below 0.4 of its length or become longer than `most`.
+/// Requires a smaller time step if a box would shrink below 0.4 of its length or become longer than `most`.
 template <int D>
 void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after, double most, Minimum& factor) {
   if (all((after > 0.4 * before) & (after < most), batch.count)) return;
@@ -299,7 +299,7 @@ void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after, 
   }
 }
 
-/// Requires a smaller time step where work would take over 0.8 of the internal energy, or make it negative.
+/// Requires a smaller time step if work would take more than 0.8 of the internal energy, or make it negative.
 template <int D>
 void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy, Minimum& factor) {
   if (all((work > -0.8) & (energy >= 0), batch.count)) return;
@@ -309,7 +309,7 @@ void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy,
   }
 }
 
-/// Particles after a step, from node velocities v, accelerations a and relaxations beta, and the work f of cells.
+/// Updates particles from node velocities v, accelerations a and relaxations beta, and from the work f of cells.
 ///
 /// With z = u(x_i), r = z - v_i, y = z - beta r + dt a_i (apic: beta = 1, so that y = v_i + dt a_i), and means over the
 /// box, sum of w_i:

@@ -13,18 +13,20 @@ namespace {
 const Schema<Redistribution>& redistributeSchema() {
   using Mode = Redistribution::Mode;
   static const Schema<Redistribution> schema =
-      Schema<Redistribution>("redistribute", "New particles where a cell holds too few or too many.")
+      Schema<Redistribution>("redistribute", "New particles where a cell has too few or too many.")
           .location(&Redistribution::where)
-          .choice("mode", &Redistribution::mode, {{"split_merge", Mode::splitMerge}, {"reseed", Mode::reseed}},
-                  Mode::splitMerge, "halve large particles and join near ones, or put new ones at midpoints")
+          .choice(
+              "mode", &Redistribution::mode, {{"split_merge", Mode::splitMerge}, {"reseed", Mode::reseed}},
+              Mode::splitMerge,
+              "halve large particles and join close ones, or put new ones at the centres of equal parts of the cell")
           .ours()
-          .value("min_particles", &Redistribution::minParticles, 2, "1", "least number in a cell that is not empty",
+          .value("min_particles", &Redistribution::minParticles, 2, "1",
+                 "smallest number of particles in a cell that is not empty", input::positive())
+          .ours()
+          .value("max_particles", &Redistribution::maxParticles, 16, "1", "largest number of particles in a cell",
                  input::positive())
           .ours()
-          .value("max_particles", &Redistribution::maxParticles, 16, "1", "greatest number in a cell",
-                 input::positive())
-          .ours()
-          .value("target_particles", &Redistribution::targetParticles, 4, "1", "number in a reseeded cell",
+          .value("target_particles", &Redistribution::targetParticles, 4, "1", "number of particles in a reseeded cell",
                  input::positive())
           .ours()
           .check([](const Redistribution& r, const Element& element, Diagnostics& diagnostics) {
@@ -40,7 +42,8 @@ const Schema<Redistribution>& redistributeSchema() {
 
 const Schema<GasDynamics>& methodSchema() {
   static const Schema<Viscosity> viscosity =
-      Schema<Viscosity>("artificial_viscosity", "The viscosity of Monaghan & Pongracic (1985), (16) of the paper.")
+      Schema<Viscosity>("artificial_viscosity",
+                        "The artificial viscosity of Monaghan & Pongracic (1985), equation (16) of the paper.")
           .value("quadratic", &Viscosity::quadratic, 0.6, "1", "C_q", input::nonNegative())
           .ours()
           .value("linear", &Viscosity::linear, 2.75, "1", "C_l", input::nonNegative())
@@ -52,7 +55,7 @@ const Schema<GasDynamics>& methodSchema() {
           .section("artificial_viscosity", &GasDynamics::viscosity, viscosity)
           .ours()
           .value("density_filter", &GasDynamics::densityFilter, true, "1",
-                 "smooth extrema of the cells' density, (18) of the paper")
+                 "smooth extrema of the cells' density, equation (18) of the paper")
           .ours()
           .choice("volume_model", &GasDynamics::volumeModel,
                   {{"cell_share", VolumeModel::cellShare}, {"tracked", VolumeModel::tracked}}, VolumeModel::cellShare,

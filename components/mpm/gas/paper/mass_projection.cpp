@@ -14,7 +14,7 @@ namespace tushar::mpm::gas::paper {
 
 namespace {
 
-/// Ghost cells: the one across a face, and the next, whose particles define the density in the former.
+/// Layers of ghost cells: the cell across a face, and the next, whose particles define the density in the former.
 constexpr int reach = 2;
 
 /// Simpson's rule from the values at both ends and in the middle: exact for cubics.
@@ -22,7 +22,7 @@ double simpson(double width, double first, double middle, double last) {
   return width / 6 * (first + 4 * middle + last);
 }
 
-/// The particles of a cell sorted by place, which is measured from cell `from`; none for a cell outside the grid.
+/// The particles of a cell sorted by position, which is measured from cell `from`; none for a cell outside the grid.
 std::vector<PlacedDensity> particlesOf(int cell, int from, const Level& level, ParticleView<const Vec<1>> x,
                                        ParticleView<const double> density) {
   std::vector<PlacedDensity> particles;
@@ -34,7 +34,7 @@ std::vector<PlacedDensity> particlesOf(int cell, int from, const Level& level, P
   return particles;
 }
 
-/// The density on a face between a particle within and one beyond; without one beyond, that of the particle within.
+/// The density on a face between a particle inside and one outside; without the latter, that of the particle inside.
 double densityAt(double face, const std::optional<PlacedDensity>& beyond, const PlacedDensity& within) {
   if (!beyond || beyond->place == within.place) return within.density;
   const double part = (face - within.place) / (beyond->place - within.place);
@@ -79,10 +79,9 @@ class MassProjection : public simulation::Analysis {
 /// Why the module cannot measure this run; empty if it can.
 std::string misfit(const GasMpm<1>* mpm, const Level& level) {
   if (level.dimension() > 1)
-    return fmt::format("works in one dimension, like its theorem, but this grid has {}; take the module out",
+    return fmt::format("works only in one dimension, like its theorem, but this grid has {}; remove the module",
                        level.dimension());
-  if (!mpm)
-    return "measures the <gas_dynamics> of the component mpm, which this scene does not run; take the module out";
+  if (!mpm) return "measures the <gas_dynamics> of the component mpm, which this scene does not run; remove the module";
   if (mpm->method().volumeModel != VolumeModel::cellShare)
     return "measures particles that share their cell's volume, but volume_model is tracked; use cell_share";
   return {};
@@ -162,9 +161,9 @@ void measureMassProjection(const Patch& patch, const Gas&, ParticleView<const Ve
 }
 
 simulation::AnalysisKind massProjectionKind() {
-  return simulation::plainModule("massProjection", "error of the nodal mass against its bound",
-                                 "Error of the nodal mass against its bound, (19)-(23) of Tran, Kim & Berzins.",
-                                 makeModule);
+  return simulation::plainModule(
+      "massProjection", "error of the nodal mass against its bound",
+      "Error of the nodal mass against its bound, equations (19)-(23) of Tran, Kim & Berzins.", makeModule);
 }
 
 }  // namespace tushar::mpm::gas::paper

@@ -9,7 +9,7 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// `massProjection`: how far the nodal mass m_i is from the integral of S_i rho, and the bound on it: (19)-(23) of
+/// `massProjection`: the difference between the nodal mass m_i and the integral of S_i rho, and its bound: (19)-(23) of
 /// Tran, Kim & Berzins. In one dimension, for `gas_dynamics` with `volume_model` cell_share.
 ///
 /// rho(x) is taken to be piecewise linear between the particles, and constant beyond the last one before an empty cell:
@@ -24,13 +24,13 @@ inline constexpr NodeLabel<double> massProjectionError{
 inline constexpr NodeLabel<double> massProjectionBound{"g.massProjectionBound", "kg", "bound of |E_m^i|"};
 }  // namespace g
 
-/// The greatest |E_m^i| over the volume of a cell, which is |E_m^i| / h in the paper.
+/// The largest |E_m^i| over the volume of a cell, which is |E_m^i| / h in the paper.
 inline constexpr ReductionLabel<Maximum> massProjectionError{
-    "MassProjectionError", "kg/m^3", "greatest error of the projection of mass, over the cell volume"};
-inline constexpr ReductionLabel<Maximum> massProjectionRatio{"MassProjectionRatio", "1",
-                                                             "greatest error of the projection of mass over its bound"};
+    "MassProjectionError", "kg/m^3", "largest error of the mass projection, over the cell volume"};
+inline constexpr ReductionLabel<Maximum> massProjectionRatio{
+    "MassProjectionRatio", "1", "largest ratio of the error of the mass projection to its bound"};
 
-/// A particle, seen from a cell: 0 is the lower face, 1 the upper.
+/// The position of a particle relative to a cell (0: lower face, 1: upper face), and its density.
 struct PlacedDensity {
   double place;
   double density;  ///< kg/m³

@@ -7,13 +7,13 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// The volume, and so the mass, that a particle represents.
+/// The volume, and hence the mass, that a particle represents.
 enum class VolumeModel {
   cellShare,  ///< V_c / N_c, (5) of the paper, in each step: neither mass nor energy is conserved
-  tracked,    ///< its own: mass is constant, volume is mass over density; mass and total energy are conserved
+  tracked,    ///< its own volume: mass is constant, volume is mass over density; mass and total energy are conserved
 };
 
-/// The `gas_dynamics` section: how the gas method runs.
+/// The `gas_dynamics` section: the settings of the gas method.
 struct GasDynamics {
   double cfl = 0.2125;
   Viscosity viscosity;

@@ -4,11 +4,11 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// What the positions of all cells of a level have in common, found once.
+/// The quantities common to the positions of all cells of a level, computed once.
 template <int D>
 struct CellPlaces {
-  Vec<D> middle;          ///< of the grid, m
-  Vec<D> half;            ///< place of the middle among the centres of cells
+  Vec<D> middle;          ///< middle of the grid, m
+  Vec<D> half;            ///< position of the middle in cells, relative to cell centres
   Vec<D> spacing;         ///< m
   Vec<D> inverseSpacing;  ///< 1/m
 
@@ -20,7 +20,7 @@ struct CellPlaces {
       inverseSpacing[d] = level.inverseSpacing(d);
     }
   }
-  /// The centre of a cell: positionInCell with the bits that it has.
+  /// The centre of a cell, with the same bits as positionInCell.
   Vec<D> centre(const Index<D>& cell) const {
     Vec<D> at;
     for (int d = 0; d < D; ++d) at[d] = middle[d] + (cell[d] - half[d]) * spacing[d];

@@ -10,14 +10,14 @@ namespace tushar::mpm::gas {
 /// Throws InputError if another body of the gas also contains the point.
 void refuseOverlap(const Gas& gas, const GasObject& object, const Vec3& point);
 
-/// The message for a body without a particle on the grid.
+/// The message for a body without particles on the grid.
 InputProblem emptyBody(const Level& level, const GasObject& object);
 
 /// Throws InputError unless the density is positive, the pressure not negative, and the whole state finite.
 void refuseImpossible(const GasObject& object, const Vec3& point, double density, double pressure,
                       const Vec3& velocity);
 
-/// A random number in (0, 1) that depends on its arguments alone: neither on the patches nor on the order of calls.
+/// A random number in (0, 1) that depends only on its arguments, neither on the patches nor on the order of calls.
 /// `place` numbers the particles that a cell could hold.
 double drawn(int seed, std::uint64_t cellNumber, int place, int axis);
 

@@ -55,7 +55,7 @@ void sumCenterOfMass(const Patch& patch, const Gas&, ParticleView<const double> 
   for (int p = 0; p < mass.owned(); ++p) centre.add(mass[p] * patch.level().expandPoint<D>(x[p]));
 }
 
-/// Least density [kg/m³] and internal energy [J/kg] of any particle.
+/// Smallest density [kg/m³] and internal energy [J/kg] of any particle.
 inline void findLeast(const Patch&, const Gas&, ParticleView<const double> density,
                       ParticleView<const double> internalEnergy, Minimum& leastDensity, Minimum& leastEnergy) {
   for (int p = 0; p < density.owned(); ++p) {

@@ -13,7 +13,8 @@ namespace tushar::mpm::solid {
 
 namespace {
 
-/// Whether all work of strain is stored, and follows from F: then StrainEnergy is exact, however much a step strains.
+/// Whether all work of strain is stored, as a function of F: then StrainEnergy is exact, however large the strain of a
+/// step.
 bool storesAllStrain(const Problem& problem) {
   return !problem.start.solution &&
          std::all_of(problem.materials.begin(), problem.materials.end(), [](const Material& material) {
@@ -47,7 +48,7 @@ class EnergyBudget : public simulation::Analysis {
 std::unique_ptr<simulation::Analysis> makeModule(const Component& component, const Level&) {
   const auto* solids = dynamic_cast<const Solids*>(&component);
   if (!solids || !solids->measuresWork())
-    throw std::invalid_argument("only solids with explicit time steps have an energy budget; take the module out");
+    throw std::invalid_argument("only solids with explicit time steps have an energy budget; remove the module");
   return std::make_unique<EnergyBudget>(storesAllStrain(solids->problem()));
 }
 

@@ -45,7 +45,7 @@ std::unique_ptr<simulation::Analysis> makeManufacturedError(const Component& com
   const auto* solids = dynamic_cast<const Solids*>(&component);
   if (!solids || !solids->problem().start.solution)
     throw std::invalid_argument(
-        "measures against the solution of <RunMMSProblem> in <MPM>, which is missing; take the module out");
+        "measures against the solution of <RunMMSProblem> in <MPM>, which is missing; remove the module");
   return make(solids->problem(), level.dimension());
 }
 

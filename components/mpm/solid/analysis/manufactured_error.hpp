@@ -6,11 +6,10 @@
 
 namespace tushar::mpm::solid {
 
-/// `manufacturedError`: how far particles are from the solution that `RunMMSProblem` names: the errors of displacement
-/// and velocity at the particles.
+/// `manufacturedError`: the errors of the particles' displacement and velocity against the solution of `RunMMSProblem`.
 simulation::AnalysisKind manufacturedErrorKind();
 
-/// Lengths of u_p - u(X_p, t) and v_p - v(X_p, t), where X_p = x_p - u_p is where the particle started.
+/// Lengths of u_p - u(X_p, t) and v_p - v(X_p, t), where X_p = x_p - u_p is the initial position of the particle.
 template <int D>
 void measureManufacturedError(const Patch& patch, const Material& material, const Manufactured* solution,
                               const double* time, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> displacement,

@@ -27,7 +27,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Every constitutive model that a scene can choose, one line each.
+/// All constitutive models that a scene can select, one per line.
 using AllModels = std::tuple<Arenisca2,              //
                              Arenisca3,              //
                              Arenisca4,              //

@@ -9,35 +9,35 @@
 
 namespace tushar::mpm::solid {
 
-/// Arenisca: rock and soil whose pores collapse under pressure and may hold a fluid. Homel, Guilkey & Brannon, Acta
-/// Mech. 227 (2016) 279; the return to the yield surface is theirs of Comput. Mech. 56 (2015) 565, the relaxation to it
-/// that of Duvaut & Lions as in Brannon, Shock Wave Science and Technology Reference Library 2 (2007) 225,
-/// eqs. 6.92-93. Hypoelastic in axes that turn with the material. Uintah's `Arenisca4`; `Arenisca3` without
-/// Lode's angle; `Arenisca`, the oldest, a cone that an ellipse touches, with constant moduli (version 2).
+/// Arenisca: rock and soil with pores that collapse under pressure and may contain a fluid. Homel, Guilkey & Brannon,
+/// Acta Mech. 227 (2016) 279; the return to the yield surface is theirs of Comput. Mech. 56 (2015) 565, the relaxation
+/// to it that of Duvaut & Lions as in Brannon, Shock Wave Science and Technology Reference Library 2 (2007) 225,
+/// eqs. 6.92-93. Hypoelastic in axes that turn with the material. Uintah's `Arenisca4`; `Arenisca3` without Lode's
+/// angle; `Arenisca`, the oldest, a cone that an ellipse touches, with constant moduli (version 2).
 template <int version>
 struct Arenisca : arenisca::Constants {
   struct State {
     Tensor quasistatic;    ///< stress without rate dependence, Pa
-    Tensor plasticStrain;  ///< in axes that turn with the material, 1
+    Tensor plasticStrain;  ///< in axes that rotate with the material, 1
     double plasticVolume, elasticVolume;
     double cap, capStart, zeta, porePressure;  ///< Pa
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::InitialStress>;
   static constexpr std::array<StateVariable, 8> stateVariables{
-      {{"p.StressQS", "Pa", "stress without the part of the strain rate", 9},
-       {"p.ep", "1", "plastic strain, in axes that turn with the material", 9},
+      {{"p.StressQS", "Pa", "stress without its rate-dependent part", 9},
+       {"p.ep", "1", "plastic strain, in axes that rotate with the material", 9},
        {"p.evp", "1", "volumetric plastic strain"},
        {"p.eve", "1", "volumetric elastic strain"},
-       {"p.CapX", "Pa", "I1 less zeta at the end of the cap"},
-       {"p.Kappa", "Pa", "I1 less zeta where the cap begins"},
-       {"p.Zeta", "Pa", "trace of the stress that the fluid in the pores bears"},
-       {"p.PorePressure", "Pa", "pressure of the fluid in the pores"}}};
+       {"p.CapX", "Pa", "I1 - zeta at the end of the cap"},
+       {"p.Kappa", "Pa", "I1 - zeta where the cap begins"},
+       {"p.Zeta", "Pa", "trace of the stress in the pore fluid"},
+       {"p.PorePressure", "Pa", "pressure of the pore fluid"}}};
   static constexpr std::string_view name = version == 4 ? "Arenisca4" : version == 3 ? "Arenisca3" : "Arenisca";
   static constexpr bool strainEnergyIsRate = true;
 
   static const input::Schema<Arenisca>& schema() {
     static const input::Schema<Arenisca> schema = [] {
-      input::Schema<Arenisca> tags(name, "Rock and soil whose pores collapse and may hold a fluid.");
+      input::Schema<Arenisca> tags(name, "Rock and soil with pores that collapse and may contain a fluid.");
       arenisca::addConeTags(tags);
       if constexpr (version == 2)
         arenisca::addTangentCapTags(tags);

@@ -22,14 +22,14 @@ struct ArrudaBoyce8 {
   static constexpr bool strainEnergyIsRate = false;
 
   double bulkModulus = 0;     ///< K, Pa
-  double shearModulus = 0;    ///< G: of chains that never lock, Pa
+  double shearModulus = 0;    ///< G for chains that never lock, Pa
   double lockingStretch = 0;  ///< l, 1
 
   static const input::Schema<ArrudaBoyce8>& schema() {
     static const input::Schema<ArrudaBoyce8> schema =
-        input::Schema<ArrudaBoyce8>("ArrudaBoyce8", "Rubber whose chains lock, a network of eight chains.")
+        input::Schema<ArrudaBoyce8>("ArrudaBoyce8", "Rubber as a network of eight chains that lock.")
             .required("bulk_modulus", &ArrudaBoyce8::bulkModulus, "Pa", "K", input::positive())
-            .required("shear_modulus", &ArrudaBoyce8::shearModulus, "Pa", "G of chains that never lock",
+            .required("shear_modulus", &ArrudaBoyce8::shearModulus, "Pa", "G for chains that never lock",
                       input::positive())
             .required("beta", &ArrudaBoyce8::lockingStretch, "1", "stretch at which chains lock", input::positive());
     return schema;

@@ -20,7 +20,7 @@ inline constexpr bool isListOfVariables<const std::array<StateVariable, N>*> = t
 
 // Properties without a member.
 
-/// The stress at the end of a step is a function of F at the end alone, so that no particle keeps its stress. Offer it
+/// The stress at the end of a step depends only on F at the end, so that particles do not keep their stress. Offer it
 /// for elastic models in total form without a State.
 struct DependsOnDeformationOnly {
   template <class M>
@@ -31,7 +31,7 @@ struct DependsOnDeformationOnly {
   }
 };
 
-/// No member function reads the temperature, which is 0 K for them unless another material of the scene needs it.
+/// No member function uses the temperature, which is 0 K unless another material of the scene needs it.
 struct IgnoresTemperature {
   template <class M>
   static consteval bool check() {
@@ -39,8 +39,8 @@ struct IgnoresTemperature {
   }
 };
 
-/// F-bar in implicit time steps: updateStress reads F, F_old and the State, and F -> s F changes nothing but the mean
-/// of J sigma. Every model that DependsOnDeformationOnly supports it without naming it.
+/// F-bar in implicit time steps: updateStress uses only F, F_old and the State, and F -> s F changes only the mean of J
+/// sigma. Every model that DependsOnDeformationOnly supports it without naming it.
 struct FBar {
   template <class M>
   static consteval bool check() {
@@ -48,8 +48,8 @@ struct FBar {
   }
 };
 
-/// The model reads the position and the mass of the particle and the time, in explicit steps. Offer it where something
-/// runs through the body at a given speed.
+/// The model uses the position and mass of the particle, and the time, in explicit steps. Offer it where something runs
+/// through the body at a given speed.
 struct PlaceAndTime {
   template <class M>
   static consteval bool check() {
@@ -70,7 +70,7 @@ struct Vectorized {
     constexpr bool isNamed = providesCapability<M, Vectorized>;
     constexpr bool isAbsent = requires { &Both<M, Name>::kirchhoffStress; };
     static_assert(isNamed || isAbsent,
-                  "a member kirchhoffStress is used only by a model that names capability::Vectorized");
+                  "a member kirchhoffStress is used only if the model names capability::Vectorized");
     constexpr bool isFunctionOfF = providesCapability<M, DependsOnDeformationOnly>;
     static_assert(!isNamed || isFunctionOfF, "capability::Vectorized needs capability::DependsOnDeformationOnly");
     constexpr bool hasStress = requires { Member<M, TensorOf<Lanes>, const TensorOf<Lanes>&>{&M::kirchhoffStress}; };
@@ -98,7 +98,7 @@ struct NominalTangent {
     constexpr bool isNamed = providesCapability<M, NominalTangent>;
     constexpr bool isAbsent = requires { &Both<M, Name>::nominalTangent; };
     static_assert(isNamed || isAbsent,
-                  "a member nominalTangent is used only by a model that names capability::NominalTangent");
+                  "a member nominalTangent is used only if the model names capability::NominalTangent");
     constexpr bool fits = requires {
       Member<M, Matrix9, const Deformation&, const Matrix3&, const typename M::State&>{&M::nominalTangent};
     };
@@ -122,7 +122,7 @@ struct BulkSpeed {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, BulkSpeed>;
     constexpr bool isAbsent = requires { &Both<M, Name>::bulkSpeed; };
-    static_assert(isNamed || isAbsent, "a member bulkSpeed is used only by a model that names capability::BulkSpeed");
+    static_assert(isNamed || isAbsent, "a member bulkSpeed is used only if the model names capability::BulkSpeed");
     constexpr bool fits = requires {
       Member<M, double, double, const Deformation&, const Matrix3&, const typename M::State&>{&M::bulkSpeed};
     };
@@ -145,7 +145,7 @@ struct InitialWaveSpeed {
     constexpr bool isNamed = providesCapability<M, InitialWaveSpeed>;
     constexpr bool isAbsent = requires { &Both<M, Name>::initialWaveSpeed; };
     static_assert(isNamed || isAbsent,
-                  "a member initialWaveSpeed is used only by a model that names capability::InitialWaveSpeed");
+                  "a member initialWaveSpeed is used only if the model names capability::InitialWaveSpeed");
     constexpr bool fits = requires { Member<M, double, double>{&M::initialWaveSpeed}; };
     static_assert(!isNamed || fits,
                   "capability::InitialWaveSpeed needs the public member `double initialWaveSpeed(double "
@@ -154,7 +154,7 @@ struct InitialWaveSpeed {
   }
 };
 
-/// Coefficients of the artificial viscosity in place of those of the scene.
+/// Coefficients of the artificial viscosity instead of those of the scene.
 struct OwnViscosity {
   struct Name {
     int ownViscosity;
@@ -164,7 +164,7 @@ struct OwnViscosity {
     constexpr bool isNamed = providesCapability<M, OwnViscosity>;
     constexpr bool isAbsent = requires { &Both<M, Name>::ownViscosity; };
     static_assert(isNamed || isAbsent,
-                  "a member ownViscosity is used only by a model that names capability::OwnViscosity");
+                  "a member ownViscosity is used only if the model names capability::OwnViscosity");
     constexpr bool fits = requires {
       { &M::ownViscosity } -> std::same_as<const ArtificialViscosity*>;
     };
@@ -188,7 +188,7 @@ struct ConstantsOfMaterial {
     constexpr bool isNamed = providesCapability<M, ConstantsOfMaterial>;
     constexpr bool isAbsent = requires { &Both<M, Name>::material; };
     static_assert(isNamed || isAbsent,
-                  "a member material is filled only for a model that names capability::ConstantsOfMaterial");
+                  "a member material is filled only if the model names capability::ConstantsOfMaterial");
     constexpr bool fits = requires {
       { &M::material } -> std::same_as<MaterialConstants M::*>;
     };
@@ -209,7 +209,7 @@ struct TemperatureChange {
     constexpr bool isNamed = providesCapability<M, TemperatureChange>;
     constexpr bool isAbsent = requires { &Both<M, Name>::temperatureChange; };
     static_assert(isNamed || isAbsent,
-                  "a member temperatureChange is used only by a model that names capability::TemperatureChange");
+                  "a member temperatureChange is used only if the model names capability::TemperatureChange");
     constexpr bool fits = requires {
       Member<M, double, const Deformation&, const Matrix3&, const typename M::State&>{&M::temperatureChange};
     };
@@ -231,7 +231,7 @@ struct HeatCapacity {
     constexpr bool isNamed = providesCapability<M, HeatCapacity>;
     constexpr bool isAbsent = requires { &Both<M, Name>::heatCapacity; };
     static_assert(isNamed || isAbsent,
-                  "a member heatCapacity is used only by a model that names capability::HeatCapacity");
+                  "a member heatCapacity is used only if the model names capability::HeatCapacity");
     constexpr bool fits = requires { Member<M, double, const Matrix3&, double>{&M::heatCapacity}; };
     static_assert(!isNamed || fits,
                   "capability::HeatCapacity needs the public member `double heatCapacity(const Matrix3& "
@@ -250,7 +250,7 @@ struct ViscousHeat {
     constexpr bool isNamed = providesCapability<M, ViscousHeat>;
     constexpr bool isAbsent = requires { &Both<M, Name>::addViscousHeat; };
     static_assert(isNamed || isAbsent,
-                  "a member addViscousHeat is used only by a model that names capability::ViscousHeat");
+                  "a member addViscousHeat is used only if the model names capability::ViscousHeat");
     constexpr bool fits = requires { Member<M, void, typename M::State&, double>{&M::addViscousHeat}; };
     static_assert(!isNamed || fits,
                   "capability::ViscousHeat needs the public member `void addViscousHeat(State&, double heat) const`");
@@ -268,7 +268,7 @@ struct Melting {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, Melting>;
     constexpr bool isAbsent = requires { &Both<M, Name>::isMolten; };
-    static_assert(isNamed || isAbsent, "a member isMolten is used only by a model that names capability::Melting");
+    static_assert(isNamed || isAbsent, "a member isMolten is used only if the model names capability::Melting");
     constexpr bool fits = requires { Member<M, bool, const Matrix3&, const Matrix3&, double>{&M::isMolten}; };
     static_assert(
         !isNamed || fits,
@@ -280,8 +280,8 @@ struct Melting {
 
 // Internal variables.
 
-/// Whether the particles keep a State, which depends on the constants of the model; if not, initialState() is used.
-/// Offer it where plasticity can be switched off.
+/// Whether particles keep a State, depending on the constants of the model; if not, initialState() is used. Offer it
+/// where plasticity can be switched off.
 struct OptionalState {
   struct Name {
     int keepsState;
@@ -290,16 +290,15 @@ struct OptionalState {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, OptionalState>;
     constexpr bool isAbsent = requires { &Both<M, Name>::keepsState; };
-    static_assert(isNamed || isAbsent,
-                  "a member keepsState is used only by a model that names capability::OptionalState");
+    static_assert(isNamed || isAbsent, "a member keepsState is used only if the model names capability::OptionalState");
     constexpr bool fits = requires { Member<M, bool>{&M::keepsState}; };
     static_assert(!isNamed || fits, "capability::OptionalState needs the public member `bool keepsState() const`");
     return true;
   }
 };
 
-/// How many of the leading doubles of their State particles keep, which depends on the constants of the model; the
-/// others are not set. Offer it where a rare choice of constants needs many more variables.
+/// The number of leading doubles of the State that particles keep, depending on the constants of the model; the others
+/// are not set. Offer it where a rare choice of constants needs many more variables.
 struct PartialState {
   struct Name {
     int keptNumbers;
@@ -308,8 +307,7 @@ struct PartialState {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, PartialState>;
     constexpr bool isAbsent = requires { &Both<M, Name>::keptNumbers; };
-    static_assert(isNamed || isAbsent,
-                  "a member keptNumbers is used only by a model that names capability::PartialState");
+    static_assert(isNamed || isAbsent, "a member keptNumbers is used only if the model names capability::PartialState");
     constexpr bool fits = requires { Member<M, int>{&M::keptNumbers}; };
     static_assert(!isNamed || fits, "capability::PartialState needs the public member `int keptNumbers() const`");
     return true;
@@ -326,15 +324,14 @@ struct Nonlocal {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, Nonlocal>;
     constexpr bool isAbsent = requires { &Both<M, Name>::nonlocalLength; };
-    static_assert(isNamed || isAbsent,
-                  "a member nonlocalLength is used only by a model that names capability::Nonlocal");
+    static_assert(isNamed || isAbsent, "a member nonlocalLength is used only if the model names capability::Nonlocal");
     constexpr bool fits = requires { Member<M, double>{&M::nonlocalLength}; };
     static_assert(!isNamed || fits, "capability::Nonlocal needs the public member `double nonlocalLength() const`");
     return true;
   }
 };
 
-/// Variables of Uintah's model of the same name that are always 0 here, for scenes that save them.
+/// Variables of Uintah's model of the same name, which are always 0 here, for scenes that save them.
 struct AbsentVariables {
   struct Name {
     int absentVariables;
@@ -344,7 +341,7 @@ struct AbsentVariables {
     constexpr bool isNamed = providesCapability<M, AbsentVariables>;
     constexpr bool isAbsent = requires { &Both<M, Name>::absentVariables; };
     static_assert(isNamed || isAbsent,
-                  "a member absentVariables is used only by a model that names capability::AbsentVariables");
+                  "a member absentVariables is used only if the model names capability::AbsentVariables");
     constexpr bool fits = requires { requires isListOfVariables<decltype(&M::absentVariables)>; };
     static_assert(!isNamed || fits,
                   "capability::AbsentVariables needs the public member `static constexpr std::array<StateVariable, N> "

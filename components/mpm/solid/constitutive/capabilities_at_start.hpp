@@ -9,7 +9,7 @@ namespace tushar::mpm::solid::capability {
 
 struct DependsOnDeformationOnly;
 
-/// The det F with which particles start, and with it their stress: that of updateStress there. They fill their body so
+/// The initial det F of particles, which determines their initial stress through updateStress. They fill their body so
 /// deformed. Without it 1, and no stress unless it names InitialStress. Offer it for materials that may start under
 /// pressure.
 struct InitialVolumeRatio {
@@ -21,7 +21,7 @@ struct InitialVolumeRatio {
     constexpr bool isNamed = providesCapability<M, InitialVolumeRatio>;
     constexpr bool isAbsent = requires { &Both<M, Name>::initialVolumeRatio; };
     static_assert(isNamed || isAbsent,
-                  "a member initialVolumeRatio is used only by a model that names capability::InitialVolumeRatio");
+                  "a member initialVolumeRatio is used only if the model names capability::InitialVolumeRatio");
     constexpr bool fits = requires { Member<M, double>{&M::initialVolumeRatio}; };
     static_assert(!isNamed || fits,
                   "capability::InitialVolumeRatio needs the public member `double initialVolumeRatio() const`");
@@ -29,7 +29,8 @@ struct InitialVolumeRatio {
   }
 };
 
-/// Stress at the start of the run, Pa; without it there is none. Offer it for solids with a fluid under pressure.
+/// Stress at the start of the run, Pa; without this capability it is 0. Offer it for solids with a fluid under
+/// pressure.
 struct InitialStress {
   struct Name {
     int initialStress;
@@ -39,7 +40,7 @@ struct InitialStress {
     constexpr bool isNamed = providesCapability<M, InitialStress>;
     constexpr bool isAbsent = requires { &Both<M, Name>::initialStress; };
     static_assert(isNamed || isAbsent,
-                  "a member initialStress is used only by a model that names capability::InitialStress");
+                  "a member initialStress is used only if the model names capability::InitialStress");
     constexpr bool fits = requires { Member<M, Matrix3>{&M::initialStress}; };
     static_assert(!isNamed || fits,
                   "capability::InitialStress needs the public member `Matrix3 initialStress() const`");

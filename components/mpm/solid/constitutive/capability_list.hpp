@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The optional abilities of a type, as types of namespace capability. A type lists its own as `T::Capabilities`.
+/// The optional capabilities of a type, as types of namespace capability. A type lists its own as `T::Capabilities`.
 ///
 /// A capability has a member template `check<T>()`, whose assertions compare what T names with what T has.
 template <class... Names>
@@ -12,12 +12,12 @@ struct CapabilityList {
   template <class Capability>
   static constexpr bool contains = (std::same_as<Capability, Names> || ...);
 
-  /// True, or compilation stops with a sentence that says where the members of T and the capabilities that it names
-  /// disagree. The list itself holds all capabilities that a type of this kind may name.
+  /// True, or compilation stops with a sentence about a member of T that disagrees with its capabilities. The list
+  /// itself holds all capabilities that a type of this kind may name.
   template <class T>
   static consteval bool check() {
     static_assert(T::Capabilities::areAmong(CapabilityList()),
-                  "Capabilities must hold capabilities of this kind of model only: they stand in namespace capability");
+                  "Capabilities must list only capabilities of this kind of model, from namespace capability");
     return (Names::template check<T>() && ...);
   }
   template <class... Others>

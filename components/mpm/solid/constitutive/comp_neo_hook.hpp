@@ -37,11 +37,11 @@ struct CompNeoHook {
       for (const char* tag :
            {"yield_stress", "hardening_modulus", "alpha", "yield_distrib", "yield_range", "yield_seed"})
         tags.ignored(tag, "it does not yield unless <usePlasticity> is true");
-      for (const char* tag : {"strain_limit", "reduction_factor"}) tags.ignored(tag, "of older versions of Uintah");
+      for (const char* tag : {"strain_limit", "reduction_factor"}) tags.ignored(tag, "from older versions of Uintah");
       tags.ignored("useModifiedEOS", "only Uintah's coupled fluid reads it");
       addInitialPressure(tags);
-      refuseSwitch(tags, "usePlasticity", "true makes it a UCNH");
-      refuseSwitch(tags, "reinitializeCMData", "a body keeps the state in which it starts");
+      refuseSwitch(tags, "usePlasticity", "for plasticity, use the model UCNH");
+      refuseSwitch(tags, "reinitializeCMData", "bodies keep their state from the start");
       return tags;
     }();
     return schema;

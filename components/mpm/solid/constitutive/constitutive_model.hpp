@@ -96,8 +96,8 @@ consteval bool isConstitutiveModel() {
   return true;
 }
 
-/// The stress of a solid from its deformation. A model is one file in this folder and one line in all.hpp; README.md
-/// has an example.
+/// A model of the stress of a solid as a function of its deformation. A model is one file in this folder and one line
+/// in all.hpp; README.md has an example.
 ///
 /// - `State`: internal variables of one particle; a struct of doubles and Tensors only, empty if there are none. If it
 ///   is not empty, `static constexpr std::array<StateVariable, N> stateVariables` names them in their order.

@@ -21,10 +21,10 @@ namespace tushar::mpm::solid {
 
 struct GursonPlastic;
 
-/// Metals at large strain and high rate: hypoelastic shear in axes that turn with the material, von Mises' yield
-/// surface with a flow model, radial return, and an equation of state. Simo & Hughes, Computational Inelasticity
-/// (1998), sections 3.3 and 8.2; Uintah's `elastic_plastic` and `elastic_plastic_hp`, which do not differ in Uintah
-/// either.
+/// Metals at large strains and high strain rates: hypoelastic shear in axes that rotate with the material, the von
+/// Mises yield surface with a flow model, radial return, and an equation of state. Simo & Hughes, Computational
+/// Inelasticity (1998), sections 3.3 and 8.2; Uintah's `elastic_plastic` and `elastic_plastic_hp`, which do not differ
+/// in Uintah either.
 template <bool isHp>
 struct ElasticPlastic {
   struct State {
@@ -40,7 +40,7 @@ struct ElasticPlastic {
                      capability::HeatCapacity, capability::ViscousHeat, capability::Melting, capability::PartialState>;
   static constexpr std::array<StateVariable, 9> stateVariables{
       {{"p.plasticStrain", "1", "equivalent plastic strain"},
-       {"p.plasticStrainRate", "1/s", "its rate in the last step"},
+       {"p.plasticStrainRate", "1/s", "equivalent plastic strain rate in the last step"},
        {"p.strainRate", "1/s", "equivalent strain rate in the last step"},
        {"p.energy", "J/kg", "work of the stresses since the start"},
        {"p.sigmaDev0", "Pa", "stress deviator of the Maxwell element 1", 9},
@@ -55,19 +55,19 @@ struct ElasticPlastic {
   MaterialConstants material;
   double bulkModulus = 0;           ///< K, Pa
   double shearModulus = 0;          ///< G, Pa
-  double heatedShare = 0.9;         ///< of the plastic work, Taylor & Quinney's coefficient, 1
+  double heatedShare = 0.9;         ///< heated fraction of the plastic work: the Taylor-Quinney coefficient, 1
   double initialTemperature = 294;  ///< T_0 of the equation of state, K
   DeviatorModel deviatorModel;
   FlowModel flow;
   EquationOfState equationOfState;
   ShearModel shear;
   MeltingModel melting;
-  bool computesHeat = false;  ///< else the specific heat is that of the material
+  bool computesHeat = false;  ///< otherwise the specific heat is that of the material
   SpecificHeatModel specificHeat;
   std::variant<VonMisesYield, GursonYield> yieldCondition;    ///< with GursonYield the model is GursonPlastic
-  bool poresEvolve = true;                                    ///< this and the following only with GursonYield
+  bool poresEvolve = true;                                    ///< this and the following: only with GursonYield
   double initialPorosity = 0.002, porosityDeviation = 0.002;  ///< f at the start, mean and standard deviation, 1
-  bool porositySpreads = false;                               ///< f at the start by a normal distribution
+  bool porositySpreads = false;                               ///< f at the start is normally distributed
   double nucleating = 0.1;                                    ///< f_N, 1
   double nucleationStrain = 0.3, nucleationDeviation = 0.1;   ///< e_N and s_N, 1
 
@@ -152,25 +152,27 @@ struct ElasticPlastic {
 
   static input::Schema<ElasticPlastic> makeSchema() {
     using Self = ElasticPlastic;
-    input::Schema<Self> tags{name, "Metals at large strain and high rate."};
+    input::Schema<Self> tags{name, "Metals at large strains and high strain rates."};
     tags.required("bulk_modulus", &Self::bulkModulus, "Pa", "K", input::positive())
         .required("shear_modulus", &Self::shearModulus, "Pa", "G", input::positive())
         .value("taylor_quinney_coeff", &Self::heatedShare, 0.9, "1", "fraction of the plastic work that becomes heat",
                input::between(0, 1))
         .value("initial_material_temperature", &Self::initialTemperature, 294, "K",
-               "temperature at which heat adds no pressure", input::nonNegative());
-    typedTag(tags, "flow_model", &Self::flow, "the yield stress", true);
-    typedTag(tags, "equation_of_state", &Self::equationOfState, "the mean stress; default_hyper if left out", false);
+               "temperature at which the thermal pressure vanishes", input::nonNegative());
+    typedTag(tags, "flow_model", &Self::flow, "the model of the yield stress", true);
+    typedTag(tags, "equation_of_state", &Self::equationOfState,
+             "the model of the mean stress; default_hyper if left out", false);
     typedTag(tags, "deviatoric_stress_model", &Self::deviatorModel,
-             "how the stress deviator grows; hypoElastic if left out", false);
-    typedTag(tags, "shear_modulus_model", &Self::shear, "the shear modulus; constant_shear if left out", false);
+             "the model of the stress deviator; hypoElastic if left out", false);
+    typedTag(tags, "shear_modulus_model", &Self::shear, "the model of the shear modulus; constant_shear if left out",
+             false);
     typedTag(tags, "melting_temp_model", &Self::melting,
-             "the temperature from which on there is no shear stress; constant_Tm if left out", false);
-    tags.value(
-        "compute_specific_heat", &Self::computesHeat, false, "1",
-        "the heat of plastic work and viscosity is divided by that of <specific_heat_model>; conduction takes the "
-        "<specific_heat> of the material, as in Uintah");
-    typedTag(tags, "specific_heat_model", &Self::specificHeat, "the specific heat; constant_Cp if left out", false);
+             "the model of the temperature above which there is no shear stress; constant_Tm if left out", false);
+    tags.value("compute_specific_heat", &Self::computesHeat, false, "1",
+               "the heat of plastic work and viscosity raises the temperature according to <specific_heat_model>; "
+               "conduction uses the <specific_heat> of the material, as in Uintah");
+    typedTag(tags, "specific_heat_model", &Self::specificHeat,
+             "the model of the specific heat; constant_Cp if left out", false);
     acceptWhatDoesNotMatter(tags);
     tags.check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
       if (read.maxwell() && std::holds_alternative<GursonYield>(read.yieldCondition))
@@ -186,11 +188,11 @@ struct ElasticPlastic {
         .ignored("isothermal", "Uintah does not read it either")
         .ignored("check_failure", "Uintah does not read it either")
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
-        .ignored("evolve_damage", "a <damage_model> has this effect")
-        .ignored("do_melting", "above <melt_temp> there is no shear stress, as in Uintah");
+        .ignored("evolve_damage", "use a <damage_model>")
+        .ignored("do_melting", "as in Uintah, there is no shear stress above <melt_temp>");
     declarePores(tags);
     for (const char* tag : {"critical_porosity", "check_TEPLA_failure_criterion", "check_max_stress_failure"})
-      tags.ignored(tag, "no particle fails by its pores");
+      tags.ignored(tag, "no particle fails by porosity");
     tags.custom(
         "plastic_convergence_algo",
         [](ElasticPlastic&, const input::Element& element, input::Diagnostics& diagnostics) {
@@ -202,28 +204,28 @@ struct ElasticPlastic {
         },
         {"plastic_convergence_algo"}, "radialReturn or biswajit: stresses end exactly on the yield surface with both");
     tags.forms({input::choiceForm({"plastic_convergence_algo"}, {"radialReturn", "biswajit"})});
-    typedTag(tags, "yield_condition", &ElasticPlastic::yieldCondition, "the yield surface; vonMises if left out",
-             false);
+    typedTag(tags, "yield_condition", &ElasticPlastic::yieldCondition,
+             "the model of the yield surface; vonMises if left out", false);
     refuseTypes(tags, "stability_check", {"none", "drucker", "becker", "drucker_becker"},
-                "has no effect; with an <erosion>, only none");
+                "has no effect; only none is allowed with <erosion>");
   }
 
   /// Tags that only the yield condition gurson uses.
   static void declarePores(input::Schema<ElasticPlastic>& tags) {
     using Self = ElasticPlastic;
-    tags.value("evolve_porosity", &Self::poresEvolve, true, "1", "of gurson: pores grow, close and open")
-        .value("initial_mean_porosity", &Self::initialPorosity, 0.002, "1", "of gurson: porosity at the start",
+    tags.value("evolve_porosity", &Self::poresEvolve, true, "1", "for gurson: pores grow, close and nucleate")
+        .value("initial_mean_porosity", &Self::initialPorosity, 0.002, "1", "for gurson: porosity at the start",
                input::between(0, 0.9))
-        .value("initial_std_porosity", &Self::porosityDeviation, 0.002, "1", "of gurson: its standard deviation",
+        .value("initial_std_porosity", &Self::porosityDeviation, 0.002, "1", "for gurson: standard deviation",
                input::nonNegative())
         .choice("initial_porosity_distrib", &Self::porositySpreads, {{"constant", false}, {"gauss", true}}, false,
-                "of gurson: how the porosity at the start differs from particle to particle; random numbers differ "
+                "for gurson: distribution of the porosity at the start over the particles; the random numbers differ "
                 "from Uintah's")
-        .value("frac_nucleation", &Self::nucleating, 0.1, "1", "of gurson: porosity that nucleates in all",
+        .value("frac_nucleation", &Self::nucleating, 0.1, "1", "for gurson: total porosity that nucleates",
                input::nonNegative())
         .value("meanstrain_nucleation", &Self::nucleationStrain, 0.3, "1",
-               "of gurson: mean plastic strain at which it nucleates")
-        .value("stddevstrain_nucleation", &Self::nucleationDeviation, 0.1, "1", "of gurson: its standard deviation",
+               "for gurson: mean plastic strain at which pores nucleate")
+        .value("stddevstrain_nucleation", &Self::nucleationDeviation, 0.1, "1", "for gurson: standard deviation",
                input::nonNegative());
   }
 

@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Expansion of a body by its temperature.
+/// Thermal expansion of a body.
 struct ThermalExpansion {
   double coefficient = 0;           ///< alpha, of lengths, 1/K
   double referenceTemperature = 0;  ///< T_0, K

@@ -23,7 +23,7 @@ struct FibreElasticity {
   enum class Rubber { mooneyRivlin, verondaWestmann };
 
   double bulkModulus = 0;                ///< K, Pa
-  double c1 = 0, c2 = 0, c3 = 0;         ///< Pa; c2 of Veronda & Westmann: 1
+  double c1 = 0, c2 = 0, c3 = 0;         ///< Pa; for VerondaWestmann c2 has no unit
   double c4 = 0;                         ///< 1
   double c5 = 0;                         ///< Pa
   double straight = 1;                   ///< l*, 1
@@ -56,19 +56,20 @@ struct FibreElasticity {
     tags.required("bulk_modulus", in<Model>(&FibreElasticity::bulkModulus), "Pa", "K", input::positive())
         .required("c1", in<Model>(&FibreElasticity::c1), "Pa", "first constant of the matrix", input::positive())
         .required("c2", in<Model>(&FibreElasticity::c2), "Pa", "second constant of the matrix", input::nonNegative())
-        .required("c3", in<Model>(&FibreElasticity::c3), "Pa", "of the fibres while they straighten",
+        .required("c3", in<Model>(&FibreElasticity::c3), "Pa", "factor of the stress of fibres while they straighten",
                   input::nonNegative())
-        .required("c4", in<Model>(&FibreElasticity::c4), "1", "how fast they straighten", input::nonNegative())
+        .required("c4", in<Model>(&FibreElasticity::c4), "1", "exponential growth of that stress with the stretch",
+                  input::nonNegative())
         .required("c5", in<Model>(&FibreElasticity::c5), "Pa", "modulus of straight fibres", input::nonNegative())
         .required("fiber_stretch", in<Model>(&FibreElasticity::straight), "1", "stretch at which fibres are straight",
                   input::atLeast(1))
         .custom("direction_of_symm", readFibre, {"direction_of_symm"},
-                "along the fibres at the start; its length does not matter")
+                "direction of the fibres at the start; its length does not matter")
         .forms({input::typeForm({"direction_of_symm"}, std::string(input::typeName<Vec3>), 1)})
         .ignored("max_fiber_strain", "only Uintah's failure_option 1 uses it")
         .ignored("max_matrix_strain", "only Uintah's failure_option 1 uses it")
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it");
-    refuseSwitch(tags, "failure_option", "nothing fails");
+    refuseSwitch(tags, "failure_option", "neither the fibres nor the matrix fail");
   }
 
   /// tau = 2 dev((w1 + I1 w2) B' - w2 B'²) + g dev(a a) + K ln J I, Pa: w1 and w2 the derivatives of W_m by I1 and I2,

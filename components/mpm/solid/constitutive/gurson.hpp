@@ -7,13 +7,13 @@
 
 namespace tushar::mpm::solid {
 
-/// `elastic_plastic` with the yield condition `gurson` of metals with pores. Pores grow with the plastic dilatation,
-/// df = (1 - f) dt + A de_p in tension, A = f_N exp(-((e_p - e_N)/s_N)²/2) / (s_N (2 pi)^(1/2)); Chu & Needleman, J.
-/// Eng. Mater. Technol. 102 (1980) 249. The equation of state is that of the volume without plastic dilatation.
+/// `elastic_plastic` with the yield condition `gurson`, for porous metals. Pores grow with the plastic dilatation, df =
+/// (1 - f) dt + A de_p in tension, A = f_N exp(-((e_p - e_N)/s_N)²/2) / (s_N (2 pi)^(1/2)); Chu & Needleman, J. Eng.
+/// Mater. Technol. 102 (1980) 249. The equation of state is that of the volume without plastic dilatation.
 struct GursonPlastic {
   using Base = ElasticPlasticHp;
   struct State {
-    double plasticStrain;      ///< of the metal between the pores, 1
+    double plasticStrain;      ///< plastic strain of the metal between the pores, 1
     double plasticStrainRate;  ///< 1/s
     double strainRate;         ///< 1/s
     double energy;             ///< J/kg
@@ -32,13 +32,13 @@ struct GursonPlastic {
        Base::stateVariables[2],
        Base::stateVariables[3],
        {"p.porosity", "1", "porosity"},
-       {"p.plasticDilatation", "1", "plastic change of the volume by the volume"},
-       {"p.plasticWork", "J/m^3", "work of the plastic flow in the last step"}}};
+       {"p.plasticDilatation", "1", "relative plastic change of volume"},
+       {"p.plasticWork", "J/m^3", "plastic work in the last step"}}};
 
-  Base base;  ///< the same for the metal without pores
+  Base base;  ///< the model of the metal without pores
 
   static const input::Schema<GursonPlastic>& schema() {
-    static const input::Schema<GursonPlastic> schema(name, "Metals with pores: see elastic_plastic_hp.");
+    static const input::Schema<GursonPlastic> schema(name, "Porous metals: see elastic_plastic_hp.");
     return schema;
   }
   State initialState() const { return {0, 0, 0, 0, base.initialPorosity, 0, 0}; }

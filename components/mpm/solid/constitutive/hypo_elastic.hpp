@@ -11,7 +11,7 @@
 namespace tushar::mpm::solid {
 
 /// Linear elasticity in rate form, sigma += (2 G dev D + K tr D I) dt with D = (L + Lᵀ)/2, as Uintah's `hypo_elastic`:
-/// there is no objective rate, so the stress does not turn with the material.
+/// without an objective rate, the stress does not rotate with the material.
 struct HypoElastic : IsotropicModuli {
   using State = NoState;
   using Capabilities =

@@ -28,7 +28,7 @@ struct IdealGas {
         input::Schema<IdealGas>("ideal_gas", "An ideal gas; its artificial viscosity has the coefficients 0 and 6.25.")
             .required("gamma", &IdealGas::ratio, "1", "ratio of the specific heats", input::greaterThan(1))
             .required("specific_heat", &IdealGas::specificHeat, "J/(kg K)", "c_v", input::positive())
-            .value("Pref", &IdealGas::referencePressure, 101325, "Pa", "pressure at which there is no stress");
+            .value("Pref", &IdealGas::referencePressure, 101325, "Pa", "reference pressure, at which the stress is 0");
     return schema;
   }
   State initialState() const { return {}; }

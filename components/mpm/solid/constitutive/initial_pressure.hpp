@@ -16,7 +16,7 @@ inline double volumeRatioUnder(double pressure, double bulkModulus) {
 template <class M>
 void addInitialPressure(input::Schema<M>& tags) {
   tags.value("useInitialStress", &M::startsUnderPressure, false, "1",
-             "the body starts under <initial_pressure>, in the size that it has then")
+             "the body starts under <initial_pressure>; its given size is that under pressure")
       .value("initial_pressure", &M::initialPressure, 0, "Pa", "pressure at the start, with <useInitialStress>");
 }
 

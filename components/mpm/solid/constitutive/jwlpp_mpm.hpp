@@ -22,7 +22,8 @@ struct JwlppMpm {
       CapabilityList<capability::IgnoresTemperature, capability::ConstantsOfMaterial, capability::InitialVolumeRatio,
                      capability::BulkSpeed, capability::InitialWaveSpeed>;
   static constexpr std::array<StateVariable, 2> stateVariables{
-      {{"p.progressF", "1", "fraction that has burned"}, {"p.progressdelF", "1", "fraction that burned in the step"}}};
+      {{"p.progressF", "1", "burned fraction"},
+       {"p.progressdelF", "1", "increase of the burned fraction in the step"}}};
   static constexpr std::string_view name = "jwlpp_mpm";
   static constexpr bool strainEnergyIsRate = true;
 
@@ -109,17 +110,17 @@ struct JwlppMpm {
     input::Schema<Self> tags("jwlpp_mpm", "An explosive that burns where it is compressed: JWL++.");
     tags.required("ignition_pressure", &Self::ignitionPressure, "Pa", "pressure above which a particle burns",
                   input::positive())
-        .required("murnaghan_K", &Self::compressibility, "1/Pa", "of the explosive, 1/(bulk modulus)",
-                  input::positive())
-        .required("murnaghan_n", &Self::exponent, "1", "of the explosive: exponent of the density", input::positive())
-        .required("jwl_A", &Self::a, "Pa", "of the products: factor of exp(-R1 V)", input::nonNegative())
-        .required("jwl_B", &Self::b, "Pa", "of the products: factor of exp(-R2 V)")
-        .required("jwl_C", &Self::c, "Pa", "of the products: factor of V^-(1 + om)", input::nonNegative())
-        .required("jwl_R1", &Self::r1, "1", "of the products", input::positive())
-        .required("jwl_R2", &Self::r2, "1", "of the products", input::positive())
-        .required("jwl_om", &Self::omega, "1", "of the products", input::nonNegative())
-        .required("reaction_G", &Self::rate, "1/(s Pa^b)", "factor of the rate of burning", input::nonNegative())
-        .required("reaction_b", &Self::power, "1", "exponent of the pressure in the rate", input::nonNegative())
+        .required("murnaghan_K", &Self::compressibility, "1/Pa", "compressibility of the explosive", input::positive())
+        .required("murnaghan_n", &Self::exponent, "1", "explosive: exponent of the density", input::positive())
+        .required("jwl_A", &Self::a, "Pa", "products: factor of exp(-R1 V)", input::nonNegative())
+        .required("jwl_B", &Self::b, "Pa", "products: factor of exp(-R2 V)")
+        .required("jwl_C", &Self::c, "Pa", "products: factor of V^-(1 + om)", input::nonNegative())
+        .required("jwl_R1", &Self::r1, "1", "constant in the equation of state of the products", input::positive())
+        .required("jwl_R2", &Self::r2, "1", "constant in the equation of state of the products", input::positive())
+        .required("jwl_om", &Self::omega, "1", "constant in the equation of state of the products",
+                  input::nonNegative())
+        .required("reaction_G", &Self::rate, "1/(s Pa^b)", "factor of the burn rate", input::nonNegative())
+        .required("reaction_b", &Self::power, "1", "exponent of the pressure in the burn rate", input::nonNegative())
         .value("max_burned_fraction", &Self::greatestFraction, 1, "1", "fraction at which burning stops",
                input::between(0, 1))
         .value("useInitialStress", &Self::startsUnderPressure, false, "1", "bodies start under <initial_pressure>")
@@ -127,9 +128,9 @@ struct JwlppMpm {
         .ignored("jwl_rho0", "the material's density is used, as in Uintah");
     for (const char* tag : {"max_burn_timestep_size", "doFastStressCompute", "tolerance_for_Newton_iterations",
                             "max_number_of_Newton_iterations"})
-      tags.ignored(tag, "the burning is integrated to 1e-9 of the particle, in as many parts as that takes");
+      tags.ignored(tag, "the burned fraction is integrated to an accuracy of 1e-9, in as many substeps as that takes");
     for (const char* tag : {"useTaylorSeriesForDefGrad", "num_taylor_terms"})
-      tags.ignored(tag, "as in Uintah, <minimum_subcycles_for_F> says how F follows L");
+      tags.ignored(tag, "as in Uintah, <minimum_subcycles_for_F> determines how F is integrated");
     return tags;
   }
 };

@@ -16,7 +16,7 @@ namespace tushar::mpm::solid {
 /// Largest number of particles in one call of a constitutive model.
 inline constexpr int stressGroup = 64;
 
-/// Particles one after another in memory, and the results that a caller wants for them at the end of a step.
+/// Consecutive particles in memory, and the results for them at the end of a step that a caller wants.
 struct StressPoints {
   int count = 0;
   double timeStep = 0;  ///< s
@@ -40,7 +40,7 @@ struct StressPoints {
   bool wantsWaveSpeedOnly() const { return !stress && !bulkSpeed && !temperatureChange && !strainEnergyDensity; }
 };
 
-/// A constitutive model behind one virtual call per group of particles.
+/// A constitutive model with one virtual call per group of particles.
 class Model {
  public:
   virtual ~Model() = default;
@@ -102,7 +102,7 @@ inline int offsetOf(const Model& model, std::string_view label) {
   return -1;
 }
 
-/// A constitutive model as a Model; what it can do is decided at compile time.
+/// A constitutive model as a Model, with its capabilities resolved at compile time.
 template <ConstitutiveModel M>
 class ModelOf : public Model {
  public:

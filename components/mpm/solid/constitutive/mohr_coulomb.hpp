@@ -15,9 +15,9 @@
 namespace tushar::mpm::solid {
 
 /// Linear elasticity with the yield surface of Mohr and Coulomb, (s1 - s3) + (s1 + s3) sin phi = 2 c cos phi with the
-/// principal stresses s1 >= s2 >= s3, tension positive; flow by the same with the angle psi of dilation. The stress
-/// returns to a face, an edge or the apex: de Souza Neto, Perić & Owen, Computational Methods for Plasticity (2008),
-/// section 8.2. The stress rotates with the material; Uintah's does not.
+/// principal stresses s1 >= s2 >= s3, tension positive; flow by the same function with the dilation angle psi. The
+/// stress returns to a face, an edge or the apex: de Souza Neto, Perić & Owen, Computational Methods for Plasticity
+/// (2008), section 8.2. The stress rotates with the material; Uintah's does not.
 ///
 /// With <Usetransition> c = St A1 W^-B1 max(1, g/g_ref)^beta_rate for a water content W and a rate of shear g:
 /// Boukpeti, White, Randolph & Low, Géotechnique 62 (2012) 483. With <UseWaterRetention> a suction s adds s tan PhiB to
@@ -26,13 +26,13 @@ namespace tushar::mpm::solid {
 struct MohrCoulomb : IsotropicModuli {
   struct State {
     double suction;         ///< s, Pa
-    double specificVolume;  ///< of the soil with its pores, by that of its grains, 1
+    double specificVolume;  ///< volume of the soil, pores included, over that of its grains, 1
     double cohesion;        ///< c, Pa
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::OptionalState>;
   static constexpr std::array<StateVariable, 3> stateVariables{
-      {{"p.Suction", "Pa", "suction of the water in the pores"},
-       {"p.SpecificVol", "1", "volume of the soil with its pores, by that of its grains"},
+      {{"p.Suction", "Pa", "suction of the pore water"},
+       {"p.SpecificVol", "1", "specific volume: volume of the soil, pores included, over that of its grains"},
        {"p.cohesion", "Pa", "cohesion"}}};
   static constexpr std::string_view name = "MohrCoulomb";
   static constexpr bool strainEnergyIsRate = true;
@@ -93,14 +93,15 @@ struct MohrCoulomb : IsotropicModuli {
   }
 
  private:
-  using Principal = Eigen::Vector3d;  ///< principal stresses, Pa, the greatest first
+  using Principal = Eigen::Vector3d;  ///< principal stresses, Pa, the largest first
 
   double lambda() const { return bulkModulus - 2.0 / 3.0 * shearModulus; }
   static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
   static double sine(double degrees) { return std::sin(radians(degrees)); }
   double bearable() const { return 2 * cohesion * std::cos(radians(frictionAngle)); }
 
-  /// Pa, at a rate of strain in 1/s. As in Uintah the rate of shear is (1/2 sum (D_i - D_j)² + 3/4 sum D_ij²)^(1/2).
+  /// The cohesion, Pa, at a strain rate in 1/s. As in Uintah the rate of shear is (1/2 sum (D_i - D_j)² + 3/4 sum
+  /// D_ij²)^(1/2).
   double wetCohesion(const Matrix3& rate) const {
     const double normal = std::pow(rate(0, 0) - rate(1, 1), 2) + std::pow(rate(0, 0) - rate(2, 2), 2) +
                           std::pow(rate(1, 1) - rate(2, 2), 2);
@@ -126,19 +127,19 @@ struct MohrCoulomb : IsotropicModuli {
 
   static input::Schema<MohrCoulomb> makeSchema() {
     using Self = MohrCoulomb;
-    input::Schema<Self> tags("MohrCoulomb", "Linear elasticity with the yield surface of Mohr and Coulomb.");
+    input::Schema<Self> tags("MohrCoulomb", "Linear elasticity with the Mohr-Coulomb yield surface.");
     tags.required("G", input::memberOf<Self>(&Self::shearModulus), "Pa", "shear modulus", input::positive())
         .required("K", input::memberOf<Self>(&Self::bulkModulus), "Pa", "bulk modulus", input::positive())
         .value("c", &Self::cohesion, 0, "Pa", "cohesion", input::nonNegative())
-        .value("Phi", &Self::frictionAngle, 0, "degrees", "angle of friction", input::between(0, 89))
-        .value("Psi", &Self::dilationAngle, 0, "degrees", "angle of dilation", input::between(0, 89));
+        .value("Phi", &Self::frictionAngle, 0, "degrees", "friction angle", input::between(0, 89))
+        .value("Psi", &Self::dilationAngle, 0, "degrees", "dilation angle", input::between(0, 89));
     declareWater(tags);
     tags.check(checkConstants);
     refuseOtherValues(tags, "Version", {"1", "11", "12"},
                       "stresses return to the nearest point of a surface with corners");
     for (const char* tag : {"Usemodul", "Use_softening", "Use_linear", "Use_regular", "UseRemould", "Use_friction",
                             "Use_pressure_dependence", "Usetransition1", "Use_dilation"})
-      refuseSwitch(tags, tag, "stiffness is that of <G> and <K> throughout, strength does not soften");
+      refuseSwitch(tags, tag, "<G> and <K> are constant, and the strength does not soften");
     for (const char* tag : {"m_modul", "nuy", "strain_95", "a", "y_ref", "y", "n", "tFE", "tShear", "n_nonlocalMC",
                             "l_nonlocal", "WR_Param4"})
       tags.ignored(tag, "belongs to a switch that must be false");
@@ -147,25 +148,27 @@ struct MohrCoulomb : IsotropicModuli {
   }
   static void declareWater(input::Schema<MohrCoulomb>& tags) {
     using Self = MohrCoulomb;
-    declareSwitch(tags, "Usetransition", &Self::isWet, "the cohesion is that of <A1>, <B1>, <W> and the rate, not <c>");
-    tags.value("A1", &Self::strength, 0, "Pa", "of Usetransition: cohesion at a content of water of 1",
+    declareSwitch(tags, "Usetransition", &Self::isWet,
+                  "the cohesion follows from <A1>, <B1>, <W> and the strain rate, instead of <c>");
+    tags.value("A1", &Self::strength, 0, "Pa", "with Usetransition: cohesion at a water content of 1",
                input::nonNegative())
-        .value("B1", &Self::waterExponent, 0, "1", "of Usetransition: exponent of the content of water")
-        .value("W", &Self::waterContent, 1, "1", "of Usetransition: content of water", input::positive())
-        .value("St", &Self::sensitivity, 1, "1", "of Usetransition: factor of the cohesion", input::nonNegative())
-        .value("beta_rate", &Self::rateExponent, 0, "1", "of Usetransition: exponent of the rate of shear")
-        .value("strain_ref", &Self::referenceRate, 0, "1/s", "of Usetransition: greatest rate that adds nothing",
+        .value("B1", &Self::waterExponent, 0, "1", "with Usetransition: exponent of the water content")
+        .value("W", &Self::waterContent, 1, "1", "with Usetransition: water content", input::positive())
+        .value("St", &Self::sensitivity, 1, "1", "with Usetransition: factor of the cohesion", input::nonNegative())
+        .value("beta_rate", &Self::rateExponent, 0, "1", "with Usetransition: exponent of the shear rate")
+        .value("strain_ref", &Self::referenceRate, 0, "1/s",
+               "with Usetransition: shear rate below which the cohesion does not depend on the rate",
                input::nonNegative());
-    declareSwitch(tags, "UseWaterRetention", &Self::retainsWater, "the suction of water in the pores adds cohesion");
-    tags.value("WR_Param1", &Self::retentionM, 0, "1", "of UseWaterRetention: m of van Genuchten")
-        .value("WR_Param2", &Self::retentionN, 0, "1", "of UseWaterRetention: n of van Genuchten")
-        .value("WR_Param3", &Self::retentionAlpha, 0, "1/Pa", "of UseWaterRetention: alpha of van Genuchten")
-        .value("PhiB", &Self::suctionAngle, 0, "degrees", "of UseWaterRetention: angle of the suction's cohesion",
-               input::between(0, 89))
-        .value("suction", &Self::initialSuction, 0, "Pa", "of UseWaterRetention: suction at the start",
+    declareSwitch(tags, "UseWaterRetention", &Self::retainsWater, "the suction of the pore water adds to the cohesion");
+    tags.value("WR_Param1", &Self::retentionM, 0, "1", "with UseWaterRetention: van Genuchten's m")
+        .value("WR_Param2", &Self::retentionN, 0, "1", "with UseWaterRetention: van Genuchten's n")
+        .value("WR_Param3", &Self::retentionAlpha, 0, "1/Pa", "with UseWaterRetention: van Genuchten's alpha")
+        .value("PhiB", &Self::suctionAngle, 0, "degrees",
+               "with UseWaterRetention: friction angle with respect to suction", input::between(0, 89))
+        .value("suction", &Self::initialSuction, 0, "Pa", "with UseWaterRetention: suction at the start",
                input::nonNegative())
         .value("SpecVol", &Self::initialSpecificVolume, 0, "1",
-               "of UseWaterRetention: volume of the soil by that of its grains, at the start");
+               "with UseWaterRetention: volume of the soil over that of its grains, at the start");
   }
   /// A switch that Uintah reads as a number: on if it is above 0.
   static void declareSwitch(input::Schema<MohrCoulomb>& tags, const std::string& tag, bool MohrCoulomb::*member,

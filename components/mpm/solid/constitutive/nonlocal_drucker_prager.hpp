@@ -23,16 +23,16 @@ struct NonlocalDruckerPrager {
     double plasticStrain;      ///< integral of l', 1
     double hardening;          ///< eta, Pa
     double nonlocalHardening;  ///< eta_n, Pa
-    double plasticIncrement;   ///< of the step, 1
-    double meanIncrement;      ///< of the step, within l_nonlocal, 1
+    double plasticIncrement;   ///< plastic strain of the step, 1
+    double meanIncrement;      ///< mean plastic strain of the step within l_nonlocal, 1
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::Nonlocal>;
   static constexpr std::array<StateVariable, 5> stateVariables{
-      {{"p.plasticStrain", "1", "length of the path of the plastic strain"},
-       {"p.eta", "Pa", "strength gained by the plastic strain at the point"},
-       {"p.eta_nl", "Pa", "strength gained by the plastic strain around it"},
+      {{"p.plasticStrain", "1", "accumulated plastic strain"},
+       {"p.eta", "Pa", "strength gained from the plastic strain at the point"},
+       {"p.eta_nl", "Pa", "strength gained from the plastic strain around the point"},
        {"p.plasticIncrement", "1", "plastic strain of the last step"},
-       {"p.meanPlasticIncrement", "1", "its mean within l_nonlocal"}}};
+       {"p.meanPlasticIncrement", "1", "mean of that plastic strain within l_nonlocal"}}};
   static constexpr std::string_view name = "nonlocal_drucker_prager";
   static constexpr bool strainEnergyIsRate = true;
 
@@ -45,7 +45,7 @@ struct NonlocalDruckerPrager {
   double nonlocalModulus = 0;                                   ///< h_nonlocal, Pa
   double length = 0;                                            ///< l_nonlocal, m
   double leastStrength = 0;                                     ///< Pa
-  double stressAlongX = 0, stressAlongY = 0, stressAlongZ = 0;  ///< at the start, in equilibrium, Pa
+  double stressAlongX = 0, stressAlongY = 0, stressAlongZ = 0;  ///< normal stresses at the start, Pa
 
   static const input::Schema<NonlocalDruckerPrager>& schema() {
     static const input::Schema<NonlocalDruckerPrager> schema = makeSchema();
@@ -121,21 +121,22 @@ struct NonlocalDruckerPrager {
 
   static input::Schema<NonlocalDruckerPrager> makeSchema() {
     using Self = NonlocalDruckerPrager;
-    input::Schema<Self> tags{name, "Drucker & Prager's yield surface, softening over a length."};
+    input::Schema<Self> tags{name, "The Drucker-Prager yield surface, with softening averaged over a length."};
     tags.required("bulk_modulus", &Self::bulkModulus, "Pa", "K", input::positive())
         .required("shear_modulus", &Self::shearModulus, "Pa", "G", input::positive())
-        .required("alpha", &Self::friction, "1", "how much pressure adds to the strength", input::nonNegative())
-        .required("alpha_p", &Self::dilation, "1", "how much plastic flow dilates", input::nonNegative())
+        .required("alpha", &Self::friction, "1", "coefficient of pressure in the strength", input::nonNegative())
+        .required("alpha_p", &Self::dilation, "1", "coefficient of dilation in plastic flow", input::nonNegative())
         .required("k_o", &Self::strength, "Pa", "strength at the start, in shear without pressure", input::positive())
         .value("h_local", &Self::localModulus, 0, "Pa", "growth of the strength with the plastic strain at the point")
-        .value("h_nonlocal", &Self::nonlocalModulus, 0, "Pa", "growth with its mean within l_nonlocal")
-        .value("l_nonlocal", &Self::length, 0, "m", "radius of the mean; 0 takes the point itself",
+        .value("h_nonlocal", &Self::nonlocalModulus, 0, "Pa",
+               "growth of the strength with the mean plastic strain within l_nonlocal")
+        .value("l_nonlocal", &Self::length, 0, "m", "radius of the mean; 0: only the point itself",
                input::nonNegative())
-        .value("minimum_yield_stress", &Self::leastStrength, 0, "Pa", "the strength does not fall below",
+        .value("minimum_yield_stress", &Self::leastStrength, 0, "Pa", "smallest strength after softening",
                input::nonNegative())
-        .value("initial_xstress", &Self::stressAlongX, 0, "Pa", "stress along x in which bodies rest at the start")
-        .value("initial_ystress", &Self::stressAlongY, 0, "Pa", "stress along y in which bodies rest at the start")
-        .value("initial_zstress", &Self::stressAlongZ, 0, "Pa", "stress along z in which bodies rest at the start")
+        .value("initial_xstress", &Self::stressAlongX, 0, "Pa", "normal stress along x in bodies at the start")
+        .value("initial_ystress", &Self::stressAlongY, 0, "Pa", "normal stress along y in bodies at the start")
+        .value("initial_zstress", &Self::stressAlongZ, 0, "Pa", "normal stress along z in bodies at the start")
         .ignored("hardening_type", "Uintah does not use it either");
     refuseTag(tags, "k_o_dist", "all particles have the strength k_o");
     tags.check(checkConstants);
@@ -146,8 +147,8 @@ struct NonlocalDruckerPrager {
                              input::Diagnostics& diagnostics) {
     const double softest = read.localModulus + std::min(read.nonlocalModulus, 0.0), limit = -read.stiffness();
     if (softest <= limit)
-      diagnostics.error(element, fmt::format("<h_local>, or it and <h_nonlocal>, is {:g} Pa: the strength would fall "
-                                             "faster than the stress; must be greater than {:g} Pa",
+      diagnostics.error(element, fmt::format("<h_local>, or its sum with <h_nonlocal>, is {:g} Pa: the strength would "
+                                             "fall faster than the stress; it must be greater than {:g} Pa",
                                              softest, limit));
   }
 };

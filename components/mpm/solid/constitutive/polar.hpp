@@ -42,9 +42,9 @@ struct Corotated {
     strain = seen(rate);
     stress = seen(oldStress);
   }
-  /// Components in the rotated axes of a tensor at the start of the step.
+  /// The components, in the rotated axes, of a tensor at the start of the step.
   Matrix3 seen(const Matrix3& tensor) const { return before.transpose() * tensor * before; }
-  /// Components in fixed axes, at the end of the step, of a tensor in the rotated axes.
+  /// The components, in fixed axes at the end of the step, of a tensor given in the rotated axes.
   Matrix3 turned(const Matrix3& tensor) const { return after * tensor * after.transpose(); }
 };
 

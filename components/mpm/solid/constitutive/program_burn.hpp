@@ -9,8 +9,8 @@
 
 namespace tushar::mpm::solid {
 
-/// An explosive that burns by programme: a detonation starts at a point, or at a plane to both sides, and runs at a
-/// given velocity whatever the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From t_b = T0 + |x -
+/// An explosive with programmed burn: a detonation starts at a point, or from a plane to both sides, and moves at a
+/// given velocity, whatever the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From t_b = T0 + |x -
 /// x_0| / D on, it burns a particle of mass m in the time in which it runs 1.5 (m / rho_0)^(1/3). sigma = -p I, with
 /// the pressures of Murnaghan and of Jones, Wilkins and Lee in proportion.
 struct ProgramBurn {
@@ -19,7 +19,7 @@ struct ProgramBurn {
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::PlaceAndTime, capability::BulkSpeed,
                                       capability::InitialWaveSpeed>;
-  static constexpr std::array<StateVariable, 1> stateVariables{{{"p.progressF", "1", "fraction that has burned"}}};
+  static constexpr std::array<StateVariable, 1> stateVariables{{{"p.progressF", "1", "burned fraction"}}};
   static constexpr std::string_view name = "program_burn";
   static constexpr bool strainEnergyIsRate = true;
 
@@ -70,26 +70,27 @@ struct ProgramBurn {
 
   static input::Schema<ProgramBurn> makeSchema() {
     using Self = ProgramBurn;
-    input::Schema<Self> tags("program_burn", "An explosive that a detonation of given velocity burns.");
-    tags.required("K", &Self::compressibility, "1/Pa", "of the explosive, 1/(bulk modulus)", input::positive())
-        .required("n", &Self::exponent, "1", "of the explosive: exponent of the density", input::positive())
-        .required("A", &Self::a, "Pa", "of the products: factor of exp(-R1 V)", input::nonNegative())
-        .required("B", &Self::b, "Pa", "of the products: factor of exp(-R2 V)")
-        .required("C", &Self::c, "Pa", "of the products: factor of V^-(1 + om)", input::nonNegative())
-        .required("R1", &Self::r1, "1", "of the products", input::positive())
-        .required("R2", &Self::r2, "1", "of the products", input::positive())
-        .required("om", &Self::omega, "1", "of the products", input::nonNegative())
-        .required("rho0", &Self::density, "kg/m^3", "density without pressure", input::positive())
+    input::Schema<Self> tags("program_burn", "An explosive burned by a detonation front of given velocity.");
+    tags.required("K", &Self::compressibility, "1/Pa", "compressibility of the explosive", input::positive())
+        .required("n", &Self::exponent, "1", "explosive: exponent of the density", input::positive())
+        .required("A", &Self::a, "Pa", "products: factor of exp(-R1 V)", input::nonNegative())
+        .required("B", &Self::b, "Pa", "products: factor of exp(-R2 V)")
+        .required("C", &Self::c, "Pa", "products: factor of V^-(1 + om)", input::nonNegative())
+        .required("R1", &Self::r1, "1", "constant in the equation of state of the products", input::positive())
+        .required("R2", &Self::r2, "1", "constant in the equation of state of the products", input::positive())
+        .required("om", &Self::omega, "1", "constant in the equation of state of the products", input::nonNegative())
+        .required("rho0", &Self::density, "kg/m^3", "density at zero pressure", input::positive())
         .required("D", &Self::detonationVelocity, "m/s", "velocity of the detonation", input::positive())
         .value("T0", &Self::ignitionTime, 0, "s", "time at which the detonation starts")
         .ignored("P0", "no pressure depends on it");
-    declareVector(tags, "starting_location", &Self::origin, true, "point, m, where the detonation starts");
-    declareVector(tags, "direction_if_plane", &Self::direction, false,
-                  "normal of the plane through that point where it starts; [0,0,0] if it starts at the point alone");
+    declareVector(tags, "starting_location", &Self::origin, true, "point (m) at which the detonation starts");
+    declareVector(
+        tags, "direction_if_plane", &Self::direction, false,
+        "normal of the plane through that point on which the detonation starts; [0,0,0]: it starts at the point");
     return tags;
   }
 
-  /// The fraction that has burned at the start of the step.
+  /// The burned fraction at the start of the step.
   double burnedAt(const Deformation& d) const {
     const Vec3 way = d.position - Vec3(origin[0], origin[1], origin[2]),
                normal(direction[0], direction[1], direction[2]);

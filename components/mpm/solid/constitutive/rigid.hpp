@@ -17,7 +17,7 @@ struct Rigid {
 
   static const input::Schema<Rigid>& schema() {
     static const input::Schema<Rigid> schema = [] {
-      input::Schema<Rigid> tags("rigid", "No stress at all: for bodies that a contact moves.");
+      input::Schema<Rigid> tags("rigid", "No stress: for bodies that a contact moves.");
       for (const char* tag :
            {"bulk_modulus", "shear_modulus", "K", "G", "useModifiedEOS", "alpha", "coeff_thermal_expansion"})
         tags.ignored(tag, "nothing depends on it");
@@ -27,7 +27,7 @@ struct Rigid {
   }
   State initialState() const { return {}; }
   Matrix3 updateStress(const Deformation&, const Matrix3&, State&) const { return Matrix3::Zero(); }
-  /// Slow enough that other materials limit the time step.
+  /// A wave speed so low that other materials limit the time step.
   double waveSpeed(double, const Deformation&, const Matrix3&, const State&) const { return 1e-10; }
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 };

@@ -33,18 +33,19 @@ struct ThWater {
     using Self = ThWater;
     static const input::Schema<Self> schema =
         input::Schema<Self>("TH_water", "Water of Thomsen & Hartka, without viscosity.")
-            .required("a", &Self::pressureShift, "K/Pa", "how fast pressure lowers the temperature of greatest density",
-                      input::positive())
-            .required("b", &Self::heatSlope, "J/(kg K²)", "how fast heat lowers the heat capacity")
+            .required("a", &Self::pressureShift, "K/Pa",
+                      "rate at which the temperature of largest density falls with pressure", input::positive())
+            .required("b", &Self::heatSlope, "J/(kg K²)", "rate at which the heat capacity falls with temperature")
             .required("co", &Self::specificHeat, "J/(kg K)", "heat capacity at <To> without pressure",
                       input::positive())
             .required("ko", &Self::compressibility, "1/Pa", "compressibility at <To> without pressure",
                       input::positive())
-            .required("To", &Self::densestTemperature, "K", "temperature of greatest density without pressure",
+            .required("To", &Self::densestTemperature, "K", "temperature of largest density, without pressure",
                       input::positive())
-            .required("L", &Self::curvature, "1/K²", "how fast volume grows away from <To>", input::positive())
-            .required("vo", &Self::densestVolume, "m^3/kg", "volume at <To> without pressure", input::positive())
-            .value("Pref", &Self::referencePressure, 101325, "Pa", "pressure that surrounds the bodies");
+            .required("L", &Self::curvature, "1/K²", "curvature of the volume around <To>", input::positive())
+            .required("vo", &Self::densestVolume, "m^3/kg", "volume per mass at <To>, without pressure",
+                      input::positive())
+            .value("Pref", &Self::referencePressure, 101325, "Pa", "ambient pressure");
     return schema;
   }
   State initialState() const { return {}; }

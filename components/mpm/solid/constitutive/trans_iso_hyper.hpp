@@ -18,7 +18,7 @@ struct TransIsoHyper : FibreElasticity {
   using Capabilities = CapabilityList<capability::AbsentVariables, capability::IgnoresTemperature,
                                       capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed>;
   static constexpr std::array<StateVariable, 1> stateVariables{{{"p.stretch", "1", "stretch of the fibres"}}};
-  static constexpr std::array<StateVariable, 1> absentVariables{{{"p.fail", "1", "0: nothing fails"}}};
+  static constexpr std::array<StateVariable, 1> absentVariables{{{"p.fail", "1", "0: no particle fails"}}};
   static constexpr std::string_view name = "trans_iso_hyper";
   static constexpr bool strainEnergyIsRate = false;
 

@@ -28,7 +28,7 @@ struct NeoHookPlastic {
                      capability::NominalTangent, capability::BulkSpeed, capability::InitialVolumeRatio>;
   static constexpr std::array<StateVariable, 2> stateVariables{
       {{"p.plasticStrain", "1", "equivalent plastic strain"},
-       {"p.bElBar", "1", "elastic part of the left Cauchy-Green tensor, without its volume", 9}}};
+       {"p.bElBar", "1", "isochoric elastic left Cauchy-Green tensor", 9}}};
   static constexpr std::string_view name = plasticByDefault ? "comp_neo_hook_plastic" : "UCNH";
   static constexpr bool strainEnergyIsRate = false;
 
@@ -38,8 +38,8 @@ struct NeoHookPlastic {
   std::optional<double> yieldStress;       ///< Y, Pa
   std::optional<double> hardeningModulus;  ///< H, Pa
   double initialPlasticStrain = 0;         ///< 1
-  bool yieldSpreads = false;               ///< the yield stress differs from particle to particle: see UcnhVar
-  double yieldRange = 0;                   ///< to both sides of Y, Pa
+  bool yieldSpreads = false;               ///< whether the yield stress differs between particles: see UcnhVar
+  double yieldRange = 0;                   ///< largest deviation from Y, Pa
   int yieldSeed = 0;
   bool startsUnderPressure = false;
   double initialPressure = 0;  ///< Pa
@@ -50,28 +50,30 @@ struct NeoHookPlastic {
       input::Schema<Self> tags{name, "Compressible neo-Hookean elasticity, optionally with J2 plasticity."};
       tags.required("bulk_modulus", &Self::bulkModulus, "Pa", "K", input::positive())
           .required("shear_modulus", &Self::shearModulus, "Pa", "G", input::positive())
-          .value("usePlasticity", &Self::isPlastic, plasticByDefault, "1", "whether it yields")
-          .optional("yield_stress", &Self::yieldStress, "Pa", "in uniaxial tension; needed where it yields",
-                    input::positive())
+          .value("usePlasticity", &Self::isPlastic, plasticByDefault, "1", "whether the material yields")
+          .optional("yield_stress", &Self::yieldStress, "Pa",
+                    "yield stress in uniaxial tension; needed if the material yields", input::positive())
           .optional("hardening_modulus", &Self::hardeningModulus, "Pa",
-                    "growth of the yield stress with the plastic strain; needed where it yields", input::nonNegative())
+                    "growth of the yield stress with the plastic strain; needed if the material yields",
+                    input::nonNegative())
           .value("alpha", &Self::initialPlasticStrain, 0, "1", "plastic strain at the start", input::nonNegative())
           .choice("yield_distrib", &Self::yieldSpreads, {{"constant", false}, {"uniform", true}}, false,
-                  "how the yield stress differs from particle to particle")
-          .value("yield_range", &Self::yieldRange, 0, "Pa", "of uniform: to both sides of <yield_stress>",
+                  "distribution of the yield stress over the particles")
+          .value("yield_range", &Self::yieldRange, 0, "Pa", "for uniform: largest deviation from <yield_stress>",
                  input::nonNegative())
-          .value("yield_seed", &Self::yieldSeed, 0, "1", "other numbers, other yield stresses; not those of Uintah")
+          .value("yield_seed", &Self::yieldSeed, 0, "1",
+                 "seed of the random yield stresses, which differ from Uintah's")
           .ignored("useModifiedEOS", "bodies beside a gas keep their own equation of state")
-          .ignored("strain_limit", "of older versions of Uintah")
-          .ignored("reduction_factor", "of older versions of Uintah")
+          .ignored("strain_limit", "from older versions of Uintah")
+          .ignored("reduction_factor", "from older versions of Uintah")
           .check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
             if (read.isPlastic && !(read.yieldStress && read.hardeningModulus))
-              diagnostics.error(element, "where it yields, <yield_stress> and <hardening_modulus> must be given");
+              diagnostics.error(element, "a material that yields needs <yield_stress> and <hardening_modulus>");
             if (read.yieldSpreads && read.yieldStress && read.yieldRange >= *read.yieldStress)
               diagnostics.error(element, "<yield_range> must be less than <yield_stress>");
           });
       addInitialPressure(tags);
-      refuseSwitch(tags, "reinitializeCMData", "a body keeps the state in which it starts");
+      refuseSwitch(tags, "reinitializeCMData", "bodies keep their state from the start");
       return tags;
     }();
     return schema;

@@ -8,7 +8,8 @@
 
 namespace tushar::mpm::solid {
 
-/// UCNH with constants of each particle: by its p.color, or with a yield stress drawn from [Y - range, Y + range].
+/// UCNH with constants for each particle: as functions of p.color, or with a random yield stress in [Y - range, Y +
+/// range].
 struct UcnhVar {
   using Common = NeoHookPlastic<false>;
   struct State {
@@ -33,7 +34,7 @@ struct UcnhVar {
   static constexpr bool strainEnergyIsRate = false;
   static constexpr std::size_t mostEntries = 32;
 
-  /// Constants of the particles of a color.
+  /// The constants of particles of one color.
   struct Entry {
     double color = 0, bulkModulus = 0, shearModulus = 0, yieldStress = 0, hardeningModulus = 0;
   };
@@ -43,14 +44,14 @@ struct UcnhVar {
   std::size_t count = 0;                     ///< of them
   double initialPlasticStrain = 0;           ///< 1
   double startVolumeRatio = 1;               ///< det F at the start
-  double yieldRange = 0;                     ///< of the yield stress, to both sides, Pa
+  double yieldRange = 0;                     ///< largest deviation of the yield stress, Pa
   int yieldSeed = 0;
 
   static const input::Schema<UcnhVar>& schema() {
     static const input::Schema<UcnhVar> schema = makeSchema();
     return schema;
   }
-  /// That model, with a yield stress that differs from particle to particle.
+  /// The given model with a random yield stress for each particle.
   template <class Model>
   static UcnhVar spread(const Model& model) {
     UcnhVar result;
@@ -120,31 +121,32 @@ struct UcnhVar {
 
   static const input::Schema<Table>& tableSchema() {
     static const input::Schema<Entry> entry =
-        input::Schema<Entry>("entry", "Constants of the particles of a color.")
+        input::Schema<Entry>("entry", "The constants of particles of one color.")
             .required("color", &Entry::color, "1", "p.color of the particles")
             .required("bulk_modulus", &Entry::bulkModulus, "Pa", "K", input::positive())
             .required("shear_modulus", &Entry::shearModulus, "Pa", "G", input::positive())
-            .required("yield_stress", &Entry::yieldStress, "Pa", "in uniaxial tension", input::positive())
+            .required("yield_stress", &Entry::yieldStress, "Pa", "yield stress in uniaxial tension", input::positive())
             .required("hardening_modulus", &Entry::hardeningModulus, "Pa",
                       "growth of the yield stress with the plastic strain", input::nonNegative());
     static const input::Schema<Table> schema =
-        input::Schema<Table>("variable_properties", "Constants by p.color, linear between the entries.")
-            .list("entry", &Table::entries, entry, "constants of a color, in the order of the colors", 1);
+        input::Schema<Table>("variable_properties", "Constants as a function of p.color, linear between the entries.")
+            .list("entry", &Table::entries, entry, "constants for one color, in order of increasing color", 1);
     return schema;
   }
   static void readTable(UcnhVar& read, const input::Element& element, input::Diagnostics& diagnostics) {
     const auto given = element.child("variable_properties");
-    if (!given) return diagnostics.error(element, "missing tag <variable_properties> (constants by p.color)");
+    if (!given)
+      return diagnostics.error(element, "missing tag <variable_properties> (constants as a function of p.color)");
     const Table table = tableSchema().read(*given, diagnostics);
     if (table.entries.size() > mostEntries || !growsInColor(table.entries))
-      return diagnostics.error(*given, "takes at most 32 entries, in the order of increasing <color>");
+      return diagnostics.error(*given, "takes at most 32 entries, in order of increasing <color>");
     std::copy(table.entries.begin(), table.entries.end(), read.entries.begin());
     read.count = table.entries.size();
   }
   static input::Schema<UcnhVar> makeSchema() {
-    input::Schema<UcnhVar> tags(name, "UCNH with constants of each particle by its color.");
-    tags.value("usePlasticity", &UcnhVar::isPlastic, false, "1", "whether it yields")
-        .custom("variable_properties", readTable, {"variable_properties"}, "constants by p.color",
+    input::Schema<UcnhVar> tags(name, "UCNH with constants that depend on the color of the particle.");
+    tags.value("usePlasticity", &UcnhVar::isPlastic, false, "1", "whether the material yields")
+        .custom("variable_properties", readTable, {"variable_properties"}, "constants as a function of p.color",
                 [](std::ostream& out, int indent) { tableSchema().describeContents(out, indent); })
         .forms({input::sectionForm(
             {"variable_properties"},

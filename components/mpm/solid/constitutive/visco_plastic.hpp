@@ -25,7 +25,7 @@ struct ViscoPlastic {
     double plasticStrainRate;  ///< 1/s
     double yield;              ///< Pa
     double drag;               ///< Pa
-    double failed;             ///< 1 once it has failed
+    double failed;             ///< 1 if the particle has failed
     double failureVariable;    ///< Pa, or 1
     Tensor backStress;         ///< Pa
   };
@@ -33,22 +33,22 @@ struct ViscoPlastic {
                                       capability::InitialWaveSpeed, capability::TemperatureChange>;
   static constexpr std::array<StateVariable, 7> stateVariables{
       {{"p.plasticStrain", "1", "equivalent inelastic strain"},
-       {"p.plasticStrainRate", "1/s", "its rate in the last step"},
+       {"p.plasticStrainRate", "1/s", "equivalent inelastic strain rate in the last step"},
        {"p.yield", "Pa", "yield stress"},
        {"p.drag", "Pa", "drag stress"},
-       {"p.localized", "1", "1 once it has failed"},
-       {"p.varf", "1", "stress (Pa) or strain beyond which it fails"},
+       {"p.localized", "1", "1 if the particle has failed"},
+       {"p.varf", "1", "stress (Pa) or strain above which the particle fails"},
        {"p.backstress", "Pa", "back stress", 9}}};
   static constexpr std::string_view name = "visco_plastic";
   static constexpr bool strainEnergyIsRate = true;
-  static constexpr double heatedShare = 0.9;  ///< of the inelastic work, Taylor & Quinney's coefficient, as in Uintah
+  static constexpr double heatedShare = 0.9;  ///< the Taylor-Quinney coefficient, as in Uintah, 1
 
   MaterialConstants material;
   double bulkModulus = 0;   ///< K, Pa
   double shearModulus = 0;  ///< G, Pa
   std::variant<HyperelasticVolume, HypoelasticVolume> equationOfState;
   ViscoplasticFlow flow;
-  double initialTemperature = 269.15;  ///< of the equation of state, K
+  double initialTemperature = 269.15;  ///< reference temperature of the equation of state, K
   bool canFail = false, byStress = true, byPressure = false;
   double failureVariable = 1e30;
   bool losesStress = true, losesTension = false;
@@ -136,23 +136,25 @@ struct ViscoPlastic {
     input::Schema<Self> tags{name, "Ice and salt: elasticity with creep that hardens."};
     tags.required("bulk_modulus", &Self::bulkModulus, "Pa", "K", input::positive())
         .required("shear_modulus", &Self::shearModulus, "Pa", "G", input::positive())
-        .value("initial_material_temperature", &Self::initialTemperature, 269.15, "K", "where heat adds no pressure",
-               input::nonNegative())
+        .value("initial_material_temperature", &Self::initialTemperature, 269.15, "K",
+               "temperature at which the thermal pressure vanishes", input::nonNegative())
         .value("check_failure", &Self::canFail, false, "1", "whether particles can fail")
-        .value("failure_by_stress", &Self::byStress, true, "1", "by the largest principal stress; else by the strain")
-        .value("failure_by_pressure", &Self::byPressure, false, "1", "by the mean stress instead")
+        .value("failure_by_stress", &Self::byStress, true, "1",
+               "true: particles fail by the largest principal stress; false: by strain")
+        .value("failure_by_pressure", &Self::byPressure, false, "1", "true: particles fail by the mean stress instead")
         .value("failure_variable_mean", &Self::failureVariable, 1e30, "1", "stress (Pa) or strain at which they fail")
         .value("zero_stress_upon_failure", &Self::losesStress, true, "1", "whether failed particles bear no stress")
         .value("allow_no_tension", &Self::losesTension, false, "1",
-               "whether failed particles that keep stress keep pressure only");
-    typedTag(tags, "visco_plasticity_model", &Self::flow, "the inelastic strain rate", true);
-    typedTag(tags, "equation_of_state", &Self::equationOfState, "the mean stress; default_hyper if left out", false);
+               "whether failed particles that bear stress bear only pressure");
+    typedTag(tags, "visco_plasticity_model", &Self::flow, "the model of the inelastic strain rate", true);
+    typedTag(tags, "equation_of_state", &Self::equationOfState,
+             "the model of the mean stress; default_hyper if left out", false);
     refuseSwitch(tags, "coeff_thermal_expansion", "heat does not strain the material");
     refuseSwitch(tags, "failure_variable_std", "all particles fail at the same stress or strain");
-    refuseSwitch(tags, "remove_particles", "failed particles stay");
-    refuseTypes(tags, "stability_check", {"none"}, "only none: nothing comes of it in Uintah");
+    refuseSwitch(tags, "remove_particles", "failed particles are kept");
+    refuseTypes(tags, "stability_check", {"none"}, "only none: it has no effect in Uintah");
     tags.ignored("failure_variable_distrib", "all particles fail at the same stress or strain")
-        .ignored("tolerance", "rates of strain are not rounded to 0")
+        .ignored("tolerance", "small strain rates are not rounded to 0")
         .ignored("use_polar_decomposition_RMB", "the rotation is exact to round-off")
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it");
     return tags;

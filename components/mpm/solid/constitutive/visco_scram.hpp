@@ -22,7 +22,7 @@ struct ViscoScram {
     double crackRadius;               ///< c, m
     double viscousHeating;            ///< K/s
     double crackHeating;              ///< K/s
-    double volumeHeating;             ///< taken by expansion, K/s
+    double volumeHeating;             ///< cooling by expansion, K/s
     std::array<Tensor, 5> deviators;  ///< s_n, Pa
   };
   using Capabilities = CapabilityList<capability::ConstantsOfMaterial, capability::BulkSpeed,
@@ -48,7 +48,7 @@ struct ViscoScram {
   double toughness = 0;                                          ///< K_0, Pa m^(1/2)
   double crackFriction = 0;                                      ///< mu, 1
   double initialCrackRadius = 0;                                 ///< m
-  double tensileSpeedUp = 0;                                     ///< of cracks in tension, 1
+  double tensileSpeedUp = 0;                                     ///< factor for cracks in tension, 1
   double g1 = 0, g2 = 0, g3 = 0, g4 = 0, g5 = 0;                 ///< G_n, Pa
   double rate1 = 0, rate2 = 0, rate3 = 0, rate4 = 0, rate5 = 0;  ///< 1/tau_n, 1/s
   double gruneisen = 0;                                          ///< 1
@@ -56,7 +56,7 @@ struct ViscoScram {
   double shiftTemperature = 298;  ///< T_0 of Williams, Landel & Ferry, K
   double shift1 = 6.5;            ///< C_1, 1
   double shift2 = 120;            ///< C_2, K
-  double thermalExpansion = 0;    ///< of lengths, 1/K; where it is not 0, the model is ExpandingViscoScram
+  double thermalExpansion = 0;    ///< of lengths, 1/K; if it is not 0, the model is ExpandingViscoScram
 
   static const input::Schema<ViscoScram>& schema() {
     static const input::Schema<ViscoScram> schema = makeSchema();
@@ -67,7 +67,7 @@ struct ViscoScram {
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
     return updateStress(d, oldStress, state, 0);
   }
-  /// The same, where `free` of the strain along each axis makes no stress, 1.
+  /// The same, with a strain `free` along each axis that causes no stress, 1.
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state, double free) const {
     Corotated step(d, oldStress);
     step.strain.diagonal().array() -= free;
@@ -119,8 +119,8 @@ struct ViscoScram {
     const double relative = radius / crackScale;
     return relative * relative * relative;
   }
-  /// The elements at a temperature: all times of relaxation shift by that of Williams, Landel & Ferry, J. Am. Chem.
-  /// Soc. 77 (1955) 3701.
+  /// The elements at a temperature: all relaxation times shift according to Williams, Landel & Ferry, J. Am. Chem. Soc.
+  /// 77 (1955) 3701.
   Elements elementsAt(double temperature) const {
     const double warm = temperature - shiftTemperature;
     const double faster = ratesFollowTemperature ? std::exp(shift1 * warm / (shift2 + warm)) : 1;
@@ -128,8 +128,8 @@ struct ViscoScram {
         {{g1, rate1 * faster}, {g2, rate2 * faster}, {g3, rate3 * faster}, {g4, rate4 * faster}, {g5, rate5 * faster}}};
   }
 
-  /// The greatest speed of cracks follows the strain rate: exp(-2.90178468) (1.5^(1/2) |dev D|)^.90564746, numbers of
-  /// Uintah's for PBX 9501.
+  /// The load of a step. The largest crack speed depends on the strain rate, exp(-2.90178468) (1.5^(1/2) |dev
+  /// D|)^.90564746, with Uintah's numbers for PBX 9501.
   CrackLoad crackLoadOf(const Corotated& step, double timeStep) const {
     const double mean = step.stress.trace() / 3, rate = std::sqrt(1.5) * deviator(step.strain).norm() / timeStep;
     double speed = rate > 1e-8 ? std::exp(0.90564746 * std::log(rate) - 2.90178468) : 0;
@@ -197,7 +197,7 @@ struct ViscoScram {
 
   static input::Schema<ViscoScram> makeSchema() {
     using Self = ViscoScram;
-    input::Schema<Self> tags{name, "Plastic-bonded explosive: relaxation, and cracks that grow."};
+    input::Schema<Self> tags{name, "Plastic-bonded explosive, with relaxation and growing cracks."};
     tags.required("PR", &Self::poissonRatio, "1", "Poisson's ratio", input::between(-0.999, 0.4999))
         .required("CrackParameterA", &Self::crackScale, "m", "a: cracks of this radius halve the stiffness",
                   input::positive())
@@ -206,25 +206,28 @@ struct ViscoScram {
                   input::nonNegative())
         .required("StressIntensityF", &Self::toughness, "Pa m^(1/2)", "K_0: toughness without friction",
                   input::positive())
-        .required("CrackFriction", &Self::crackFriction, "1", "friction of the faces of cracks", input::between(0, 1.2))
-        .required("InitialCrackRadius", &Self::initialCrackRadius, "m", "at the start", input::nonNegative())
-        .required("CrackGrowthRate", &Self::tensileSpeedUp, "1", "how many times as fast cracks grow in tension",
+        .required("CrackFriction", &Self::crackFriction, "1", "friction coefficient of crack faces",
+                  input::between(0, 1.2))
+        .required("InitialCrackRadius", &Self::initialCrackRadius, "m", "crack radius at the start",
                   input::nonNegative())
-        .required("Gamma", &Self::gruneisen, "1", "Grüneisen's constant: compression heats", input::nonNegative());
+        .required("CrackGrowthRate", &Self::tensileSpeedUp, "1", "factor by which cracks grow faster in tension",
+                  input::nonNegative())
+        .required("Gamma", &Self::gruneisen, "1", "Grüneisen parameter, for heating by compression",
+                  input::nonNegative());
     addElements(tags);
     tags.value("use_time_temperature_equation", &Self::ratesFollowTemperature, false, "1",
-               "whether relaxation is faster in the heat")
-        .value("T0", &Self::shiftTemperature, 298, "K", "temperature of the given rates of relaxation")
+               "whether relaxation is faster at higher temperatures")
+        .value("T0", &Self::shiftTemperature, 298, "K", "temperature at which the given relaxation rates hold")
         .value("C1", &Self::shift1, 6.5, "1", "first constant of Williams, Landel & Ferry")
         .value("C2", &Self::shift2, 120, "K", "second constant of Williams, Landel & Ferry", input::positive())
-        .value("CoeffThermalExpansion", &Self::thermalExpansion, 0, "1/K",
-               "growth of lengths with the temperature; heat strains the material", input::nonNegative())
+        .value("CoeffThermalExpansion", &Self::thermalExpansion, 0, "1/K", "thermal expansion coefficient (of lengths)",
+               input::nonNegative())
         .ignored("Beta", "Uintah does not use it either")
         .ignored("DCp_DTemperature", "Uintah does not use it either")
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
         .ignored("useObjectiveRate", "stresses always rotate with the material");
     for (const char* tag : {"Chi", "delH", "Z", "EoverR", "dynamic_coeff_friction", "volfracHE"})
-      tags.ignored(tag, "belongs to the hot spots of Uintah's visco_scram_hs");
+      tags.ignored(tag, "belongs to the hot spots in Uintah's visco_scram_hs");
     refuseSwitch(tags, "randomize_parameters", "all particles have the given moduli");
     for (const char* tag : {"useMurnahanEOS", "useBirchMurnaghanEOS", "useJWLEOS", "useJWLCEOS", "gamma", "P0",
                             "bulkPrime", "A", "B", "C", "R1", "R2", "om", "Cv"})
@@ -241,7 +244,7 @@ struct ViscoScram {
     for (int n = 0; n < 5; ++n) {
       const std::string number = std::to_string(n + 1);
       tags.required("G" + number, members[n].first, "Pa", "shear modulus of a Maxwell element", input::nonNegative());
-      tags.required("RTau" + number, members[n].second, "1/s", "its rate of relaxation", input::nonNegative());
+      tags.required("RTau" + number, members[n].second, "1/s", "relaxation rate of this element", input::nonNegative());
     }
     tags.check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
       if (read.shearModulus() <= 0) diagnostics.error(element, "one of <G1> to <G5> must be positive");
@@ -262,7 +265,7 @@ struct ExpandingViscoScram {
   static constexpr auto stateVariables = [] {
     std::array<StateVariable, ViscoScram::stateVariables.size() + 1> all;
     std::copy(ViscoScram::stateVariables.begin(), ViscoScram::stateVariables.end(), all.begin());
-    all.back() = {"p.temperatureOfStrain", "K", "temperature to which the material has expanded"};
+    all.back() = {"p.temperatureOfStrain", "K", "temperature for which the thermal expansion has been applied"};
     return all;
   }();
   static constexpr std::string_view name = ViscoScram::name;

@@ -34,7 +34,7 @@ struct ViscoTransIsoHyper : FibreElasticity {
        {"p.history4", "Pa", "stress of the Maxwell element 4 for y4 = 1", 9},
        {"p.history5", "Pa", "stress of the Maxwell element 5 for y5 = 1", 9},
        {"p.history6", "Pa", "stress of the Maxwell element 6 for y6 = 1", 9}}};
-  static constexpr std::array<StateVariable, 1> absentVariables{{{"p.fail", "1", "0: nothing fails"}}};
+  static constexpr std::array<StateVariable, 1> absentVariables{{{"p.fail", "1", "0: no particle fails"}}};
   static constexpr std::string_view name = "visco_trans_iso_hyper";
   static constexpr bool strainEnergyIsRate = false;
 
@@ -103,7 +103,7 @@ struct ViscoTransIsoHyper : FibreElasticity {
  private:
   struct Element {
     double share;  ///< y_k, 1
-    double time;   ///< t_k, s; 0: there is no such element
+    double time;   ///< t_k, s; 0: the element does not exist
   };
   Element element(int k) const {
     const std::array<Element, 6> all{{{y1, t1}, {y2, t2}, {y3, t3}, {y4, t4}, {y5, t5}, {y6, t6}}};
@@ -135,8 +135,8 @@ struct ViscoTransIsoHyper : FibreElasticity {
       const std::string number = std::to_string(k + 1);
       tags.required("y" + number, members[k].first, "1", "stiffness of a Maxwell element, relative to the elastic one",
                     input::nonNegative());
-      tags.required("t" + number, members[k].second, "s", "its time of relaxation; 0: there is no such element",
-                    input::nonNegative());
+      tags.required("t" + number, members[k].second, "s",
+                    "relaxation time of this element; 0: the element does not exist", input::nonNegative());
     }
     refuseSwitch(tags, "active", "the stress follows from the deformation alone");
     return tags;

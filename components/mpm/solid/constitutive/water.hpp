@@ -36,7 +36,7 @@ struct Water {
     stress.diagonal().array() -= bulkModulus * (stiffening(d) - 1);
     return stress;
   }
-  /// Without gamma, as in Uintah.
+  /// Wave speed at the start, without gamma, as in Uintah, m/s.
   double initialWaveSpeed(double initialDensity) const { return std::sqrt(bulkModulus / initialDensity); }
   /// c² = dp/drho
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {

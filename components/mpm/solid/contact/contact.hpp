@@ -11,18 +11,18 @@
 
 namespace tushar::mpm::solid {
 
-/// A number or vector over time, s: straight lines between its entries, constant before the first and after the last.
+/// A number or vector over time, s: linear between its entries, constant before the first and after the last.
 template <class T>
 using Profile = std::vector<std::pair<double, T>>;
 
-/// How a master is driven at a given time: it translates, and turns about an axis through a centre.
+/// The prescribed motion of a master at one time: it translates, and rotates about an axis through a centre.
 struct Motion {
   Vec3 velocity = Vec3::Zero();         ///< m/s
   Vec3 centre = Vec3::Zero();           ///< m
   Vec3 angularVelocity = Vec3::Zero();  ///< 1/s
 
-  /// Velocity of a point, m/s, that moves it in dt to its prescribed position: the chord of its circle where the axis
-  /// is nearly one of the grid's (cos > 0.99), omega x r where it is oblique, as in Uintah.
+  /// The velocity of a point, m/s, that moves it in dt to its prescribed position: along the chord of its circle if the
+  /// axis is nearly parallel to one of the grid's (cos > 0.99), otherwise omega x r, as in Uintah.
   Vec3 at(const Vec3& point, double dt) const;
 };
 
@@ -31,31 +31,31 @@ struct Contact {
   enum class Type {
     singleVelocity,     ///< they move as one: no slip, no separation
     specified,          ///< they follow a master, whose velocity may be given over time
-    friction,           ///< they part freely and slide with Coulomb's friction
+    friction,           ///< they separate freely and slide with Coulomb friction
     planeFriction,      ///< the same, along the plane that separates their particles (see SeparatingPlane)
-    specifiedFriction,  ///< they part from a master, whose velocity may be given, and slide on it along such planes
+    specifiedFriction,  ///< they separate from a master, whose velocity may be given, and slide on it along such planes
   };
 
   Type type = Type::singleVelocity;
   std::vector<int> materials;  ///< the materials that take part; empty: all
   int master = 0;
-  std::array<bool, 3> direction{false, false, true};     ///< along x, y, z the others follow the master
+  std::array<bool, 3> direction{false, false, true};     ///< whether the others follow the master along x, y, z
   bool directionIsGiven = false;                         ///< whether the scene gives it
   double stopTime = std::numeric_limits<double>::max();  ///< s
   Vec3 velocityAfterStop = Vec3::Zero();                 ///< m/s
   Profile<Vec3> profile;                                 ///< the master's velocity, m/s; empty: it is free
-  Profile<Vec3> centres, angularVelocity;                ///< m, 1/s: the master turns; empty: it does not
+  Profile<Vec3> centres, angularVelocity;                ///< m, 1/s: the rotation of the master; empty: none
 
-  bool actsTwice = true;  ///< on the velocities that came from the particles, too
+  bool actsTwice = true;  ///< whether it also acts on the velocities interpolated from the particles
   int excluded = -1;      ///< at nodes with this material, nothing follows a master or moves as one; -1: none
 
   double friction = 0;              ///< coefficient mu
   Profile<double> frictionOfColor;  ///< mu over p.color of the master instead of time; empty: mu is `friction`
-  bool onlyOnApproach = false;      ///< friction: bodies that the stress presses together may separate
+  bool onlyOnApproach = false;      ///< friction: bodies under compression may separate, too
   bool normalsInCells =
       false;              ///< friction: mass gradients are taken per cell, not per m, as axisymmetric ones in Uintah
   bool oneNormal = true;  ///< friction: bodies that meet share their normal; otherwise each has its own
-  bool keepsMomentum = false;   ///< friction: one normal for all, which are pressed if the stresses of all press
+  bool keepsMomentum = false;   ///< friction: one normal, and contact if all stresses are compressive
   double separationFactor = 0;  ///< friction: bodies farther apart than this many cells do not touch
   double volumeConstraint =
       0;  ///< friction: the fraction of the volume around a node that must be filled for a contact
@@ -73,7 +73,7 @@ struct Contact {
   std::optional<Vec3> prescribedVelocity(double time) const;
 };
 
-/// The stage of the step whose velocity the records hold.
+/// The stage of the step to which the velocity in the records belongs.
 enum class Moment {
   start,  ///< interpolated from the particles
   end,    ///< v* after the forces
@@ -85,18 +85,18 @@ using Records = std::vector<NodeView<NodeRecord>>;
 /// All materials that take part get the velocity of their centre of mass.
 template <int D>
 void moveAsOne(const Patch& patch, const Contact& contact, const Records& records);
-/// Where the master is, the others get its velocity along the contact's directions.
+/// At nodes with the master, the others get its velocity along the contact's directions.
 template <int D>
 void followMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records);
 /// The master's velocity at a node, m/s: its own unless its motion is given.
 template <int D>
 Vec<D> masterVelocity(const Patch& patch, const Contact& contact, const std::optional<Motion>& motion, double dt,
                       const Records& records, const Index<D>& node);
-/// A smaller fraction of the mass at a node is a rounding error.
+/// A smaller fraction of the mass at a node counts as a rounding error.
 inline constexpr double leastShare = 1e-14;
 
-/// Whether a material is at a node: a particle whose edge is as far from it as shape functions reach may leave 1e-30 of
-/// its mass there by rounding, which must not tie other bodies to it.
+/// Whether a material is present at a node: a particle just within reach of the node may leave 1e-30 of its mass there
+/// by rounding, which must not tie other bodies to it.
 template <int D>
 bool isPresent(const Records& records, int material, const Index<D>& node) {
   double total = 0;

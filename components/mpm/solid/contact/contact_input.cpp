@@ -62,7 +62,7 @@ struct FrictionTable {
   std::vector<FrictionEntry> entries;
 };
 
-/// The tags of every kind of contact, as they are written.
+/// The tags of all kinds of contact, as given in the scene.
 struct ContactSection {
   Kind kind = Kind::none;
   std::optional<std::vector<int>> materials;
@@ -84,9 +84,10 @@ const Schema<FrictionTable>& frictionTableSchema() {
           .required("color", &FrictionEntry::color, "1", "p.color of the master")
           .required("mu", &FrictionEntry::friction, "1", "coefficient there", input::nonNegative());
   static const Schema<FrictionTable> schema =
-      Schema<FrictionTable>("variable_friction", "Friction by the color of the master.")
+      Schema<FrictionTable>("variable_friction",
+                            "The coefficient of friction as a function of the color of the master.")
           .list("entry", &FrictionTable::entries, entry,
-                "in the order of increasing color; linear between two entries, constant beyond", 2)
+                "in order of increasing color; linear between two entries, constant beyond", 2)
           .check([](const FrictionTable& table, const Element& element, Diagnostics& diagnostics) {
             input::refuseDescent(table.entries, &FrictionEntry::color, element.children("entry"),
                                  "its color is not above that of the previous one", diagnostics);
@@ -94,18 +95,18 @@ const Schema<FrictionTable>& frictionTableSchema() {
   return schema;
 }
 
-/// Checks what contacts along planes need and cannot have.
+/// Checks the tags of contacts along planes.
 void checkPlanes(const ContactSection& read, const Element& element, Diagnostics& diagnostics) {
   const bool byColor = read.kind == Kind::colorFriction;
   if (byColor && !read.frictionTable)
-    diagnostics.error(element, "missing tag <variable_friction> in <contact>: friction_LRVar takes its mu from it");
+    diagnostics.error(element, "missing tag <variable_friction> in <contact>: friction_LRVar takes mu from this table");
   if (byColor && !element.child("master_material"))
-    diagnostics.error(element,
-                      "missing tag <master_material> in <contact>: friction_LRVar takes its mu from that color");
+    diagnostics.error(
+        element, "missing tag <master_material> in <contact>: friction_LRVar takes mu from the color of this material");
   if (!byColor && read.frictionTable)
     diagnostics.error(element.child("variable_friction").value(), "acts in contacts of type friction_LRVar only");
   if (usesPlanes(read.kind) && !byColor && !read.friction)
-    diagnostics.error(element, "missing tag <mu> in <contact>: friction needs its coefficient");
+    diagnostics.error(element, "missing tag <mu> in <contact>: friction needs a coefficient");
   if (usesPlanes(read.kind) && read.kind != Kind::specifiedFriction && read.excluded)
     diagnostics.error(element.child("ExcludeMaterial").value(),
                       "acts in contacts of type rigid, specified, specified_friction and single_velocity only");
@@ -113,7 +114,7 @@ void checkPlanes(const ContactSection& read, const Element& element, Diagnostics
 
 void checkContact(const ContactSection& read, const Element& element, Diagnostics& diagnostics) {
   if (slides(read.kind) && !read.friction)
-    diagnostics.error(element, "missing tag <mu> in <contact>: friction needs its coefficient");
+    diagnostics.error(element, "missing tag <mu> in <contact>: friction needs a coefficient");
   if (slides(read.kind) && read.excluded)
     diagnostics.error(element.child("ExcludeMaterial").value(),
                       "acts in contacts of type rigid, specified and single_velocity only");
@@ -126,61 +127,63 @@ void checkContact(const ContactSection& read, const Element& element, Diagnostic
   checkPlanes(read, element, diagnostics);
 }
 
-/// The kinds of contact, and the materials that take part.
+/// Declares the kinds of contact, and the materials that take part.
 void addKinds(Schema<ContactSection>& contact) {
   requiredChoiceOrRefusal(
       contact, "type", &ContactSection::kind, kinds, lackingKinds,
-      "no contact; as one body; they follow a master, on which no stress acts, or whose motion is prescribed (two "
-      "names for it); they separate freely and slide with friction as in Uintah, which tests the pressure of each body "
-      "by itself (two names for it); the same, but all have one normal and are pressed if the stresses of all press, "
-      "which conserves momentum; as in Uintah, but only while they approach each other; they separate freely, conserve "
-      "momentum "
-      "and slide with friction along the plane that separates their particles, found by logistic regression (Nairn, "
-      "Hammerquist & Smith 2020); the same with mu by the color of the master; they separate from such a master, and "
-      "slide on it along such planes");
-  contact.optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; else all")
+      "null: no contact. single_velocity: all move as one body. rigid: all follow a master, on which no stress acts. "
+      "specified, specified_velocity (synonyms): all follow a master with prescribed motion. friction, friction_bard "
+      "(synonyms): bodies separate freely and slide with friction, as in Uintah, which tests the pressure of each body "
+      "separately. friction_conserving: the same, but bodies share one normal and are in contact if the stresses of "
+      "all are compressive, which conserves momentum. approach: as friction, but only while bodies approach each "
+      "other. friction_LR: bodies separate freely, conserve momentum and slide with friction along the plane that "
+      "separates their particles, found by logistic regression (Nairn, Hammerquist & Smith 2020). friction_LRVar: the "
+      "same, with mu as a function of the color of the master. specified_friction: bodies separate from a master with "
+      "prescribed motion, and slide on it along such planes");
+  contact
+      .optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; all by default")
       .optional("OneOrTwoStep", &ContactSection::steps, "1",
-                "1: acts on the velocities at the end of a step only; 2: on those at its start, too. Left out: 1 with "
-                "rigid and specified, else 2; with XPIC2 always 2",
+                "1: acts only on the velocities at the end of a step; 2: also on those at its start. By default 1 for "
+                "rigid and specified, otherwise 2; with XPIC2 always 2",
                 input::between(1, 2))
       .optional("ExcludeMaterial", &ContactSection::excluded, "1",
-                "rigid, specified, single_velocity: does not act where this material is", input::nonNegative())
+                "for rigid, specified, single_velocity: does not act at nodes with this material", input::nonNegative())
       .ignored("vel_fields", "an older name of materials");
 }
 
-/// The motion of the master, for contacts that have one.
+/// Declares the motion of the master, for contacts that have one.
 void addMaster(Schema<ContactSection>& contact) {
   contact
       .optional("direction", &ContactSection::direction, "1",
-                "rigid, specified: 1 along x, y, z where the others follow the master. Left out: along z, in implicit "
-                "steps along all",
+                "for rigid, specified: 1 for each of x, y, z along which the others follow the master. By default "
+                "along z, in implicit steps along all",
                 input::between(0, 1))
-      .value("master_material", &ContactSection::master, 0, "1", "rigid, specified: number of the master",
+      .value("master_material", &ContactSection::master, 0, "1", "for rigid, specified: number of the master",
              input::nonNegative())
       .value("stop_time", &ContactSection::stopTime, std::numeric_limits<double>::max(), "s",
-             "rigid, specified: from then on all move with velocity_after_stop")
+             "for rigid, specified: time from which all move with velocity_after_stop")
       .value("velocity_after_stop", &ContactSection::velocityAfterStop, Vec3::Zero(), "m/s",
-             "rigid, specified: velocity after stop_time")
+             "for rigid, specified: velocity after stop_time")
       .value("filename", &ContactSection::profileFile, "", "1",
-             "specified: a file with a line `time vx vy vz` for each of at least two times, ascending")
+             "for specified: a file with lines `time vx vy vz` for at least two ascending times")
       .value("include_rotation", &ContactSection::turns, false, "1",
-             "specified: the master turns, too; the lines of <filename> are `time vx vy vz cx cy cz wx wy wz`, with a "
-             "point of the axis (m) and the angular velocity (1/s)")
+             "for specified: the master also rotates; the lines of <filename> are `time vx vy vz cx cy cz wx wy wz`, "
+             "with a point on the axis (m) and the angular velocity (1/s)")
       .ignored("rigid_material", "an older name of master_material");
 }
 
 void addFriction(Schema<ContactSection>& contact) {
   contact
-      .optional("mu", &ContactSection::friction, "1", "friction, approach: coefficient; needed there",
+      .optional("mu", &ContactSection::friction, "1", "coefficient of friction; needed for friction and approach",
                 input::nonNegative())
       .section("variable_friction", &ContactSection::frictionTable, frictionTableSchema())
       .value("separation_factor", &ContactSection::separationFactor, 9.9e99, "1",
-             "friction, approach (friction_LR and its like need none): bodies farther apart than this many cells do "
-             "not touch",
+             "for friction, approach (not for friction_LR and its variants): bodies farther apart than this many cells "
+             "do not touch",
              input::positive())
       .value("volume_constraint", &ContactSection::volumeConstraint, 0, "1",
-             "friction, approach (friction_LR and its like need none): share of the volume around a node that bodies "
-             "must fill to touch there",
+             "for friction, approach (not for friction_LR and its variants): fraction of the volume around a node that "
+             "bodies must fill to touch there",
              input::nonNegative());
 }
 
@@ -191,15 +194,15 @@ const Schema<ContactSection>& contactSchema() {
     addMaster(contact);
     addFriction(contact);
     contact.check(checkContact);
-    refuseSwitch(contact, "normal_only", "friction_bard with mu 0 lets bodies slip");
+    refuseSwitch(contact, "normal_only", "use friction_bard with mu 0");
     for (const char* tag : {"condition", "conditionValue", "conditionAction"})
-      refuseTag(contact, tag, "give the times of a profile by <filename>");
+      refuseTag(contact, tag, "give a profile over time by <filename>");
     return contact;
   }();
   return schema;
 }
 
-/// The numbers of a file next to the scene, `columns` a line.
+/// The numbers of a file next to the scene, `columns` per line.
 std::vector<double> readTable(const Element& tag, const std::string& path, std::size_t columns,
                               Diagnostics& diagnostics) {
   std::ifstream file(path);
@@ -216,7 +219,7 @@ std::vector<double> readTable(const Element& tag, const std::string& path, std::
   return numbers;
 }
 
-/// Gives a contact the motion of its master from a file.
+/// Reads the motion of a contact's master from a file.
 void readMotion(const Element& tag, const ContactSection& read, Contact& contact, Diagnostics& diagnostics) {
   const std::string path = (std::filesystem::path(tag.where().file).parent_path() / read.profileFile).string();
   const std::size_t columns = read.turns ? 10 : 4;

@@ -6,7 +6,7 @@ namespace tushar::mpm::solid {
 
 namespace {
 
-/// Below it a traction is round-off, Pa.
+/// A smaller traction counts as round-off, Pa.
 constexpr double leastTraction = 1e-12;
 /// Smaller mass gradients, kg/m, are not normalised.
 constexpr double leastGradient = 1e-15;
@@ -16,11 +16,11 @@ template <int D>
 struct Gathering {
   Vec<D> momentum = Vec<D>::Zero(), position = Vec<D>::Zero();
   double mass = 0, volume = 0;
-  Vec<D> normal = Vec<D>::Zero();  ///< out of the body whose mass changes most; 0 if none does
+  Vec<D> normal = Vec<D>::Zero();  ///< normal out of the body with the largest mass gradient; 0 if there is none
   std::size_t steepest = 0;        ///< that body
 };
 
-/// Whether more than one of some bodies has mass at a node.
+/// Whether more than one of these bodies has mass at a node.
 template <int D>
 bool meet(const std::vector<std::size_t>& bodies, const Records& records, const Index<D>& node) {
   int count = 0;
@@ -46,13 +46,13 @@ Gathering<D> gatherBodies(const std::vector<std::size_t>& bodies, const Records&
   return all;
 }
 
-/// Whether a body takes part in a contact at a node, with more of its mass than rounding leaves.
+/// Whether a body takes part in a contact at a node, with more mass there than rounding leaves.
 template <int D>
 bool isThere(const Contact& contact, const Records& records, double totalMass, std::size_t m, const Index<D>& node) {
   return contact.concerns(static_cast<int>(m)) && records[m][node][lane::mass] >= leastShare * totalMass;
 }
 
-/// Whether a stress pushes along a normal.
+/// Whether a stress is compressive along a normal.
 template <int D>
 bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) {
   double traction = 0;
@@ -79,7 +79,7 @@ Vec<D> normalOf(const Level& level, const Contact& contact, const Records& recor
   return size > leastGradient ? Vec<D>(normal / size) : normal;
 }
 
-/// Whether the stresses of all bodies at a node push along its normal.
+/// Whether the stresses of all bodies at a node are compressive along its normal.
 template <int D>
 bool arePressed(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
                 const Gathering<D>& all, const Index<D>& node) {
@@ -95,7 +95,7 @@ double separation(const Gathering<D>& all, const Vec<D>& position, double mass) 
   return ((all.position - position) / (all.mass - mass) - position / mass).norm();
 }
 
-/// The factor that limits the largest strain by a change of velocity in a step, over all bodies at the node, to 1/2.
+/// The factor that limits the largest strain in a step by a change of velocity, over all bodies at the node, to 1/2.
 template <int D>
 double strainLimit(const Level& level, const Vec<D>& change, double dt, double massRatio) {
   double strain = 0;

@@ -8,20 +8,20 @@ namespace tushar::mpm::solid {
 /// A node at which a body touches others.
 template <int D>
 struct Touch {
-  Vec<D> normal;    ///< out of the body
-  Vec<D> velocity;  ///< of the body less that of the centre of mass of all, m/s
-  bool isPressed;   ///< the stress presses on the surface
+  Vec<D> normal;    ///< normal out of the body
+  Vec<D> velocity;  ///< velocity of the body relative to the centre of mass of all, m/s
+  bool isPressed;   ///< whether the stress on the surface is compressive
 };
 
 /// The effect of friction on a body at a node.
 template <int D>
 struct FrictionImpulse {
-  Vec<D> change = Vec<D>::Zero();  ///< of the velocity, m/s
+  Vec<D> change = Vec<D>::Zero();  ///< change of the velocity, m/s
   double heat = 0;                 ///< kinetic energy dissipated by friction, J/kg
 };
 
-/// A body that is pressed against others or approaches them does not pass through, and slides by what friction with the
-/// coefficient mu leaves; Bardenhagen, Guilkey, Roessig, Brackbill, Witzel & Foster, CMES 2 (2001) 509, eq. 13.
+/// A body that is pressed against others or approaches them does not penetrate them, and slides as far as friction with
+/// the coefficient mu allows; Bardenhagen, Guilkey, Roessig, Brackbill, Witzel & Foster, CMES 2 (2001) 509, eq. 13.
 template <int D>
 FrictionImpulse<D> frictionImpulse(const Touch<D>& touch, double mu);
 
@@ -31,7 +31,7 @@ struct ContactSurface {
   NodeView<const Vec<D>> massGradient;  ///< sum_p m_p grad S_i: out of the body, kg/m; axisymmetric kg/m^4
   NodeView<const Vec<D>> position;      ///< sum_p S_i m_p x_p, kg m
   NodeView<const Matrix3> stress;       ///< sum_p S_i sigma_p, Pa
-  NodeView<const double> volume;        ///< sum_p S_i V_p, and its image's beyond symmetry planes, m^3
+  NodeView<const double> volume;        ///< sum_p S_i V_p, including images beyond symmetry planes, m^3
 
   static ContactSurface from(auto& take) {
     return {.massGradient = take(requiresNew(g::massGradient<D>)),

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int mostSteps = 51;
 constexpr double tolerance = 1e-7;
-/// A body's mass at a node below this is ignored, kg; as in Uintah.
+/// A smaller mass of a body at a node is ignored, kg; as in Uintah.
 constexpr double leastMass = 1e-16;
 
 template <int N>
@@ -20,7 +20,7 @@ using Square = Eigen::Matrix<double, N, N>;
 template <int N>
 using Column = Eigen::Matrix<double, N, 1>;
 
-/// The sum of a(row, i) b[i] over i from `first` to `last` - 1, the last of them first.
+/// The sum of a(row, i) b[i] over i from `last` - 1 down to `first`.
 template <int N>
 double sumInRow(const Square<N>& a, const Column<N>& b, int row, int first, int last) {
   if (first == last) return 0;
@@ -29,7 +29,7 @@ double sumInRow(const Square<N>& a, const Column<N>& b, int row, int first, int 
   return sum;
 }
 
-/// Eliminates column k below its greatest entry, which it moves to row k.
+/// Eliminates column k below its largest entry, which is moved to row k.
 template <int N>
 void eliminate(Square<N>& a, Column<N>& b, int k) {
   int pivot = k;
@@ -75,7 +75,7 @@ Column<D + 1> step(const std::vector<SidedParticle<D>>& particles, double lambda
   return solved<D + 1>(matrix, right);
 }
 
-/// The material whose body the plane at a node belongs to, or -1.
+/// The material to which the plane at a node belongs, or -1.
 template <int D>
 int foremost(const SeparatingPlanes<D>& planes, const Index<D>& node) {
   for (std::size_t m = 0; m < planes.size(); ++m)
@@ -83,7 +83,7 @@ int foremost(const SeparatingPlanes<D>& planes, const Index<D>& node) {
   return -1;
 }
 
-/// Whether a body reaches through the plane into that of the first at a node.
+/// Whether, at a node, a body extends through the plane into the first one.
 template <int D>
 bool overlaps(const SeparatingPlanes<D>& planes, int first, std::size_t m, const Index<D>& node) {
   return (*planes[m].prominence)[node] <= (*planes[first].prominence)[node];
@@ -104,7 +104,7 @@ double frictionAt(const Contact& contact, const SeparatingPlanes<D>& planes, con
   return share * next->second + (1 - share) * mu0;
 }
 
-/// Whether a body may slide on a master at a node: it takes part, and both are there and overlap.
+/// Whether a body may slide on a master at a node: it takes part, and both are present and overlap.
 template <int D>
 bool meetsMaster(const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes, int first,
                  std::size_t m, const Index<D>& node) {

@@ -12,7 +12,7 @@ namespace tushar::mpm::solid {
 template <int D>
 struct SidedParticle {
   Vec<D> x;      ///< from the node, m
-  bool isOther;  ///< of another body than the one that the normal points out of
+  bool isOther;  ///< whether it belongs to a body other than the one out of which the normal points
 };
 
 /// Normal of the plane phi . x + phi_0 = 0 that separates the particles around a node: it minimises
@@ -22,14 +22,14 @@ struct SidedParticle {
 template <int D>
 Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double width);
 
-/// The plane that separates bodies at nodes, from the side of one body.
+/// The plane that separates bodies at nodes, in the variables of one body.
 template <int D>
 struct SeparatingPlane {
   /// Unit normal out of the body, where it has the most mass of those that meet at the node; 0 elsewhere.
   std::optional<NodeView<const Vec<D>>> normal;
   /// The extent of its particles along that normal, m: the farthest of the heaviest body, the nearest of others.
   std::optional<NodeView<const double>> prominence;
-  std::optional<NodeView<const double>> color;  ///< mean of its p.color by mass
+  std::optional<NodeView<const double>> color;  ///< mass-weighted mean of its p.color
 
   static SeparatingPlane from(auto& take, bool hasPlanes, bool hasColor) {
     return {.normal = take(when(hasPlanes, requiresNew(g::separatingNormal<D>))),
@@ -41,7 +41,7 @@ struct SeparatingPlane {
 template <int D>
 using SeparatingPlanes = std::vector<SeparatingPlane<D>>;
 
-/// Prominence of a body that has no particle of its surface near a node.
+/// The prominence of a body without surface particles near a node.
 inline constexpr double noProminence = -std::numeric_limits<double>::max();
 
 /// The body with the most mass and each other one that overlaps it beyond the plane and approaches the centre of mass
@@ -49,12 +49,12 @@ inline constexpr double noProminence = -std::numeric_limits<double>::max();
 template <int D>
 void slideAlongPlanes(const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes);
 
-/// The master moves by `motion`, or freely; bodies that overlap and approach it are stopped, and slowed by friction.
+/// Moves the master by `motion`, or freely; bodies that overlap and approach it are stopped, and slowed by friction.
 template <int D>
 void slideOnMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
                    const SeparatingPlanes<D>& planes);
 
-/// As sumReaction, for the bodies that slideOnMaster will stop.
+/// Like sumReaction, for the bodies that slideOnMaster will stop.
 template <int D>
 void sumSlidingReaction(const Patch& patch, const Contact& contact, const Acceleration& acceleration, double time,
                         double dt, const Records& records, const SeparatingPlanes<D>& planes, VectorSum& reaction);

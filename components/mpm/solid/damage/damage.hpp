@@ -20,7 +20,7 @@ struct DamageConditions {
 /// Damage of one particle.
 struct DamageState {
   double damage;     ///< 1; 0 if it is intact
-  double threshold;  ///< at which damage grows: a stress, a strain or the root of an energy
+  double threshold;  ///< threshold at which damage grows: a stress, a strain or the root of an energy
   bool hasFailed;
 };
 
@@ -42,7 +42,7 @@ struct JohnsonCookDamage {
   static constexpr std::string_view name = "johnson_cook";
   double d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0;
   double initialDamage = 0, initialDeviation = 0;
-  bool startsSpread = false;   ///< damage at the start by a normal distribution
+  bool startsSpread = false;   ///< whether damage at the start has a normal distribution
   double leastDamage = 1e-10;  ///< smaller damage is set to 0
 
   static const input::Schema<JohnsonCookDamage>& schema();
@@ -61,7 +61,7 @@ struct JohnsonCookDamage {
 struct HancockMackenzieDamage {
   static constexpr std::string_view name = "hancock_mackenzie";
   double initialDamage = 0, initialDeviation = 0;
-  bool startsSpread = false;  ///< damage at the start by a normal distribution
+  bool startsSpread = false;  ///< whether damage at the start has a normal distribution
 
   static const input::Schema<HancockMackenzieDamage>& schema();
   DamageState initial(double, ParticleId id) const {
@@ -89,8 +89,8 @@ struct BrittleDamage {
   void grow(const MaterialConstants&, const DamageConditions& conditions, Matrix3& stress, DamageState& state) const;
 };
 
-/// A particle fails at once if its greatest principal stress or strain, or its stress by Mohr and Coulomb, exceeds a
-/// threshold, which may differ from particle to particle.
+/// A particle fails at once if its largest principal stress or strain, or its Mohr-Coulomb stress, exceeds a threshold,
+/// which may differ between particles.
 struct ThresholdDamage {
   enum class Criterion { principalStress, principalStrain, mohrCoulomb };
   enum class Distribution { constant, gauss, weibull, uniform };
@@ -103,11 +103,11 @@ struct ThresholdDamage {
   std::optional<double> referenceVolume;  ///< m^3
   std::optional<double> exponent;
   double frictionAngle = 0;  ///< degrees
-  double tensileCutoff = 0;  ///< share of the cohesion
+  double tensileCutoff = 0;  ///< fraction of the cohesion
   bool localizes = true;
 
   static const input::Schema<ThresholdDamage>& schema();
-  /// The threshold of a particle, from numbers drawn() by its id.
+  /// The threshold of a particle, from random numbers drawn() for its id.
   DamageState initial(double volume, ParticleId id) const;
   void grow(const MaterialConstants&, const DamageConditions& conditions, Matrix3& stress, DamageState& state) const;
 
@@ -115,7 +115,7 @@ struct ThresholdDamage {
   bool isBeyond(const DamageConditions& conditions, const Matrix3& stress, double threshold) const;
 };
 
-/// As ThresholdDamage, with a mean and a standard deviation for each p.color of the particles.
+/// Like ThresholdDamage, with a mean and a standard deviation as functions of p.color.
 struct ThresholdVarDamage : ThresholdDamage {
   static constexpr std::string_view name = "ThresholdVar";
   struct Entry {
@@ -133,9 +133,9 @@ struct ThresholdVarDamage : ThresholdDamage {
 using Damage = std::variant<NoDamage, JohnsonCookDamage, HancockMackenzieDamage, BrittleDamage, ThresholdDamage,
                             ThresholdVarDamage>;
 
-/// Principal values, the least first.
+/// Principal values, the smallest first.
 Vec3 principalValues(const Matrix3& tensor);
-/// The greatest principal value of Almansi's strain, (I - (F Fᵀ)^-1)/2.
+/// The largest principal value of the Almansi strain, (I - (F Fᵀ)^-1)/2.
 double greatestStrain(const Matrix3& deformation);
 
 }  // namespace tushar::mpm::solid

@@ -20,23 +20,23 @@ const Schema<NoDamage>& NoDamage::schema() {
 template <class Self>
 void declareStart(Schema<Self>& tags) {
   tags.value("initial_mean_scalar_damage", &Self::initialDamage, 0, "1", "damage at the start", input::between(0, 1))
-      .value("initial_std_scalar_damage", &Self::initialDeviation, 0, "1", "of gauss: standard deviation",
+      .value("initial_std_scalar_damage", &Self::initialDeviation, 0, "1", "for gauss: standard deviation",
              input::nonNegative())
       .choice("initial_scalar_damage_distrib", &Self::startsSpread, {{"constant", false}, {"gauss", true}}, false,
-              "how the damage at the start differs from particle to particle; other numbers than Uintah draws");
+              "distribution of the damage at the start over the particles; the random numbers differ from Uintah's");
 }
 
 const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
   using Self = JohnsonCookDamage;
   static const Schema<Self> schema = [] {
     Schema<Self> tags("damage_model",
-                      "Johnson and Cook's damage; a particle fails when p.damage reaches 1 (in Uintah none does).");
+                      "Johnson-Cook damage; a particle fails when p.damage reaches 1 (in Uintah no particle fails).");
     tags.required("D1", &Self::d1, "1", "fracture strain without stress")
         .required("D2", &Self::d2, "1", "factor of exp(D3 s*)")
         .required("D3", &Self::d3, "1", "factor of the triaxiality")
         .required("D4", &Self::d4, "1", "factor of the logarithm of the rate")
         .required("D5", &Self::d5, "1", "factor of the temperature")
-        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller damage is none",
+        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller damage counts as 0",
                input::nonNegative());
     declareStart(tags);
     return tags;
@@ -47,9 +47,8 @@ const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
 const Schema<HancockMackenzieDamage>& HancockMackenzieDamage::schema() {
   using Self = HancockMackenzieDamage;
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("damage_model",
-                      "Hancock and Mackenzie's damage, p.damage; as in Uintah no particle fails by it.");
-    tags.ignored("critical_scalar_damage", "as in Uintah no particle fails by this damage");
+    Schema<Self> tags("damage_model", "Hancock-Mackenzie damage, p.damage; as in Uintah, no particle fails by it.");
+    tags.ignored("critical_scalar_damage", "as in Uintah, no particle fails by this damage");
     declareStart(tags);
     return tags;
   }();
@@ -63,7 +62,7 @@ const Schema<BrittleDamage>& BrittleDamage::schema() {
     tags.value("brittle_damage_initial_threshold", &Self::threshold, 57, "Pa^(1/2)", "r_0", input::positive())
         .value("brittle_damage_fracture_energy", &Self::fractureEnergy, 11.2, "J/m^2", "G_f", input::positive())
         .value("brittle_damage_constant_D", &Self::shape, 0.1, "1", "shape of the softening", input::positive())
-        .value("brittle_damage_max_damage_increment", &Self::greatestStep, 0.1, "1", "greatest growth in one step",
+        .value("brittle_damage_max_damage_increment", &Self::greatestStep, 0.1, "1", "largest growth in one step",
                input::positive())
         .ignored("brittle_damage_recoveryCoeff", "damage does not heal")
         .ignored("brittle_damage_printDamage", "save p.damage");
@@ -73,7 +72,7 @@ const Schema<BrittleDamage>& BrittleDamage::schema() {
   return schema;
 }
 
-/// A member of the model that Self extends.
+/// A member of the model that Self extends, as a member of Self.
 template <class Self, class T>
 T Self::*of(T ThresholdDamage::*member) {
   return member;
@@ -96,16 +95,16 @@ void declareThreshold(Schema<Self>& tags) {
                {"gauss", Distribution::gauss},
                {"weibull", Distribution::weibull},
                {"uniform", Distribution::uniform}},
-              Distribution::constant, "how the threshold differs from particle to particle")
-      .value("failure_seed", of<Self>(&Base::seed), 0, "1", "other numbers, other thresholds; not those of Uintah")
+              Distribution::constant, "distribution of the threshold over the particles")
+      .value("failure_seed", of<Self>(&Base::seed), 0, "1", "seed of the random thresholds, which differ from Uintah's")
       .choice("scaling", of<Self>(&Base::scalesWithVolume), {{"none", false}, {"kayenta", true}}, false,
               "small particles are stronger: (reference_volume / volume)^(1/exponent)")
-      .optional("reference_volume", of<Self>(&Base::referenceVolume), "m^3", "where nothing is scaled",
+      .optional("reference_volume", of<Self>(&Base::referenceVolume), "m^3",
+                "volume of a particle whose threshold is not scaled", input::positive())
+      .optional("exponent", of<Self>(&Base::exponent), "1", "exponent of the scaling; the Weibull modulus by default",
                 input::positive())
-      .optional("exponent", of<Self>(&Base::exponent), "1", "of the scaling; Weibull's modulus if left out",
-                input::positive())
-      .value("friction_angle", of<Self>(&Base::frictionAngle), 0, "degrees", "of MohrCoulomb", input::between(0, 89))
-      .value("tensile_cutoff_fraction_of_cohesion", of<Self>(&Base::tensileCutoff), 0, "1", "of MohrCoulomb",
+      .value("friction_angle", of<Self>(&Base::frictionAngle), 0, "degrees", "for MohrCoulomb", input::between(0, 89))
+      .value("tensile_cutoff_fraction_of_cohesion", of<Self>(&Base::tensileCutoff), 0, "1", "for MohrCoulomb",
              input::nonNegative())
       .value("LocalizeParticles", of<Self>(&Base::localizes), true, "1", "whether particles fail at all");
 }
@@ -125,10 +124,10 @@ const Schema<ThresholdDamage>& ThresholdDamage::schema() {
   static const Schema<Self> schema = [] {
     Schema<Self> tags("damage_model", "A particle fails at once above a threshold.");
     declareThreshold(tags);
-    tags.required("failure_mean", &Self::mean, "Pa or 1", "mean of the threshold; the cohesion of MohrCoulomb",
+    tags.required("failure_mean", &Self::mean, "Pa or 1", "mean of the threshold; for MohrCoulomb, of the cohesion",
                   input::positive())
-        .value("failure_std", &Self::deviation, 0, "Pa or 1", "standard deviation, half width, or Weibull's modulus",
-               input::nonNegative())
+        .value("failure_std", &Self::deviation, 0, "Pa or 1",
+               "standard deviation (gauss), half width (uniform), or Weibull modulus", input::nonNegative())
         .check([](const Self& read, const Element& element, Diagnostics& diagnostics) {
           if (read.distribution == Distribution::weibull && read.deviation <= 0)
             diagnostics.error(element, "failure_distrib weibull needs <failure_std>, its modulus");
@@ -142,17 +141,17 @@ const Schema<ThresholdDamage>& ThresholdDamage::schema() {
 const Schema<ThresholdVarDamage>& ThresholdVarDamage::schema() {
   using Self = ThresholdVarDamage;
   static const Schema<Entry> entry =
-      Schema<Entry>("entry", "The threshold of the particles of a color.")
+      Schema<Entry>("entry", "The threshold of particles of one color.")
           .required("color", &Entry::color, "1", "p.color of the particles")
-          .required("mean", &Entry::mean, "Pa or 1", "mean of the threshold; the cohesion of MohrCoulomb",
+          .required("mean", &Entry::mean, "Pa or 1", "mean of the threshold; for MohrCoulomb, of the cohesion",
                     input::positive())
-          .required("std", &Entry::deviation, "Pa or 1", "standard deviation, half width, or Weibull's modulus",
-                    input::nonNegative());
+          .required("std", &Entry::deviation, "Pa or 1",
+                    "standard deviation (gauss), half width (uniform), or Weibull modulus", input::nonNegative());
   static const Schema<Table> byColor =
-      Schema<Table>("variable_properties", "Thresholds by p.color, linear between the entries.")
-          .list("entry", &Table::entries, entry, "of a color, in the order of the colors", 1);
+      Schema<Table>("variable_properties", "Thresholds as a function of p.color, linear between the entries.")
+          .list("entry", &Table::entries, entry, "the threshold for one color, in order of increasing color", 1);
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("damage_model", "A particle fails at once above a threshold by its color.");
+    Schema<Self> tags("damage_model", "A particle fails at once above a threshold that depends on its color.");
     declareThreshold(tags);
     tags.requiredSection("variable_properties", &Self::table, byColor)
         .check([](const Self& read, const Element& element, Diagnostics& diagnostics) {
@@ -187,7 +186,7 @@ const Schema<Erosion>& erosionSchema() {
   return schema;
 }
 
-/// Checks a damage model against the constitutive model, and takes its elastic constants.
+/// Checks a damage model against the constitutive model, and copies the elastic constants of the latter.
 void connect(Material& material, const Element& parent, const Element& tag, Diagnostics& diagnostics) {
   const bool isJohnsonCook = std::holds_alternative<JohnsonCookDamage>(material.damage);
   const bool needsRate = isJohnsonCook || std::holds_alternative<HancockMackenzieDamage>(material.damage);
@@ -210,7 +209,7 @@ void connect(Material& material, const Element& parent, const Element& tag, Diag
   brittle->young = 9 * *bulk * *shear / (3 * *bulk + *shear);
 }
 
-/// Refuses stability checks with erosion: in Uintah particles fail by them.
+/// Refuses stability checks with erosion, by which particles fail in Uintah.
 void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");
   const auto check = model ? model->child("stability_check") : std::nullopt;
@@ -221,7 +220,7 @@ void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagno
                                   erosion.where().line));
 }
 
-/// Notes that porosity is missing: in Uintah metals fail by it by default.
+/// Notes that particles do not fail by porosity, as metals do in Uintah by default.
 void noteWhatDoesNotFail(const Material& material, const Element& parent, const Element& erosion,
                          Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");

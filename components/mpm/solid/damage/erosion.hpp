@@ -38,7 +38,7 @@ struct Erosion {
         return stress;
     }
   }
-  /// Reduces the deformation of a step to its volume change or, without stress, to nothing.
+  /// Reduces the deformation of a step to its change of volume or, for particles without stress, to none.
   void restrain(const Matrix3& oldDeformation, Matrix3& deformation, Matrix3& velocityGradient) const {
     if (algorithm == Algorithm::zeroStress) {
       deformation = oldDeformation;

@@ -13,7 +13,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The bodies of the tasks of SolidMpm that work with shape functions, of one kind of them in D dimensions.
+/// The bodies of SolidMpm's tasks that use shape functions, for one kind of shape functions in D dimensions.
 template <int D>
 struct ExplicitTasks {
   ShapedTasks<D> shaped;

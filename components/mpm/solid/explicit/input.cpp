@@ -46,7 +46,7 @@ struct MpmSection {
   std::string deformationFile;
 };
 
-/// Artificial viscosity and damping.
+/// Declares artificial viscosity and damping.
 void addDissipation(Schema<MpmSection>& mpm) {
   mpm.value("artificial_viscosity", &MpmSection::artificialViscosity, false, "1",
             "artificial viscosity: a pressure that opposes compression")
@@ -55,84 +55,85 @@ void addDissipation(Schema<MpmSection>& mpm) {
       .value("artificial_viscosity_coeff2", &MpmSection::quadraticViscosity, 2, "1", "factor of D^2 h^2",
              input::nonNegative())
       .optional("artificial_viscosity_heating", &MpmSection::viscosityHeats, "1",
-                "the work of the artificial viscosity heats elastic_plastic and elastic_plastic_hp: true by default, "
-                "if there is one")
+                "the work of the artificial viscosity heats elastic_plastic and elastic_plastic_hp; true by default")
       .value("artificial_damping_coeff", &MpmSection::damping, 0, "1/s",
              "damping: an acceleration opposed to the velocity", input::nonNegative());
 }
 
-/// Limits for single particles and nodes.
+/// Declares limits for single particles and nodes.
 void addLimits(Schema<MpmSection>& mpm) {
   mpm.value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
             "every particle must be heavier (Uintah removes lighter ones)", input::nonNegative())
       .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
-             "lighter nodes are only accelerated by gravity", input::nonNegative())
+             "lighter nodes are accelerated only by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
                 "faster particles are slowed down to 9/10 of it", input::positive())
       .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
-             "least number of parts in which a step changes the deformation gradient; -n: uses the exponential series "
-             "of L dt up to power n instead");
+             "smallest number of substeps in which a step updates the deformation gradient; -n: uses the exponential "
+             "series of L dt up to power n instead");
 }
 
-/// When stresses are updated, and how velocities go from the grid to the particles.
+/// Declares when stresses are updated, and how velocities are transferred to the particles.
 void addUpdates(Schema<MpmSection>& mpm) {
   mpm.choice("stress_update", &MpmSection::stressUpdate,
              {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
              StressUpdate::last,
-             "stresses follow the grid's velocity at the end of the step, the particles' new velocity on the grid, or "
-             "the grid's velocity at the start")
+             "the velocity from which stresses are computed: the grid's at the end of the step (usl), the particles' "
+             "new one, interpolated to the grid (musl), or the grid's at the start (usf)")
       .ours()
-      .value("XPIC2", &MpmSection::xpic, false, "1", "velocities by extended PIC of order 2")
-      .value("UseGradientEnhancedVelocityProjection", &MpmSection::projectsGradient, false, "1",
-             "particles add their velocity gradient to the velocity that they give to nodes; without heat conduction")
+      .value("XPIC2", &MpmSection::xpic, false, "1", "particles are updated by extended PIC of order 2")
+      .value(
+          "UseGradientEnhancedVelocityProjection", &MpmSection::projectsGradient, false, "1",
+          "particles include their velocity gradient in the velocity that they give to nodes; not with heat conduction")
       .value("pic_fraction", &MpmSection::picFraction, 0, "1",
              "fraction of PIC in the velocity update of particles; the rest is FLIP", input::between(0, 1))
       .ours()
-      .value("apic", &MpmSection::affine, false, "1",
-             "affine particle-in-cell: particles take the grid's velocity and a moment of it that keeps rotation")
+      .value(
+          "apic", &MpmSection::affine, false, "1",
+          "affine particle-in-cell: particles take the grid's velocity and its first moment, which preserves rotation")
       .ours()
       .value("UseMomentumForm", &MpmSection::momentumForm, false, "1",
-             "of older versions of Uintah: true is <stress_update> musl");
+             "from older versions of Uintah: true means <stress_update> musl");
 }
 
-/// Prescribed deformation of bodies.
+/// Declares the prescribed deformation of bodies.
 void addPrescribedDeformation(Schema<MpmSection>& mpm) {
   mpm.value("UsePrescribedDeformation", &MpmSection::prescribesDeformation, false, "1",
             "all bodies move as <PrescribedDeformationFile> prescribes, whatever their stress")
       .value("PrescribedDeformationFile", &MpmSection::deformationFile, "time_defgrad_rotation", "1",
-             "a file of points in time, each 14 numbers: time (s), the components of the deformation gradient row by "
-             "row, and the angle (degrees) and axis of a rotation on the way there");
-  refuseSwitch(mpm, "exactDeformation", "give <Time> a delt_max no longer than from point to point");
+             "a file with 14 numbers per point in time: time (s), the components of the deformation gradient row by "
+             "row, and the angle (degrees) and axis of a rotation since the previous point");
+  refuseSwitch(mpm, "exactDeformation", "give <Time> a delt_max that does not exceed the time between points");
 }
 
-/// Geometry, external loads, and heat.
+/// Declares geometry, external loads and heat.
 void addSurroundings(Schema<MpmSection>& mpm) {
   mpm.value("axisymmetric", &MpmSection::axisymmetric, false, "1",
             "x is the radius and y the axis; mass, energy and forces are per radian")
-      .value(
-          "DoPressureStabilization", &MpmSection::sharesVolume, false, "1",
-          "the particles of a cell change their volume as one, so that a nearly incompressible body can bend and shear")
+      .value("DoPressureStabilization", &MpmSection::sharesVolume, false, "1",
+             "F-bar: the particles of a cell share one change of volume, so that a nearly incompressible body can bend "
+             "and shear")
       .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
       .value("computeColinearNormals", &MpmSection::oneNormal, true, "1",
-             "contacts of type friction, friction_bard and approach: the bodies that meet at a node share one normal; "
-             "false: each slides along its own surface")
+             "for contacts of type friction, friction_bard and approach: true: bodies that meet at a node share one "
+             "normal; false: each slides along its own surface")
       .value("use_CBDI_boundary_condition", &MpmSection::loadsAtCorners, false, "1",
-             "pressures act at the corners of the faces of particles, and grow with these (Sadeghirad, Brannon & "
-             "Guilkey 2013). As in Uintah a particle without a face within 26 degrees of the surface bears none, and a "
-             "<torque> acts only where a pressure does, and counts four times")
+             "pressures act at the corners of the faces of particles, whose area changes with F (Sadeghirad, Brannon & "
+             "Guilkey 2013). As in Uintah, a particle without a face within 26 degrees of the surface bears no "
+             "pressure, and a <torque> acts only where a pressure acts, and counts four times")
       .value("keepPressBCNormalToSurface", &MpmSection::turnsPressures, false, "1",
              "pressures turn with the particles they act on; otherwise they keep their initial direction")
       .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
       .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
-             "friction between materials heats them, where heat is conducted")
+             "friction between materials heats them, if heat is conducted")
       .choice("RunMMSProblem", &MpmSection::manufactured,
               {{"none", ""},
                {"AxisAligned", "AxisAligned"},
                {"ExpandingRing", "ExpandingRing"},
                {"GeneralizedVortex", "GeneralizedVortex"}},
-              "", "start as a manufactured solution, under its body force")
+              "", "start from a manufactured solution, and apply its body force")
       .value("withColor", &MpmSection::withColor, false, "1",
-             "accepted for Uintah's sake: p.color exists if it is saved");
+             "accepted for compatibility with Uintah: p.color exists if it is saved");
 }
 
 void checkDissipation(const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
@@ -143,20 +144,20 @@ void checkDissipation(const MpmSection& read, const Element& element, Diagnostic
 void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
   const bool isSpline = read.interpolator == Interpolator::quadratic || read.interpolator == Interpolator::cubic;
   if (read.axisymmetric && isSpline)
-    diagnostics.error(element, "axisymmetric: only with the interpolators linear, gimp and cpdi");
+    diagnostics.error(element, "axisymmetric: is available only with the interpolators linear, gimp and cpdi");
   if (read.affine && (read.axisymmetric || read.interpolator == Interpolator::cpdi))
-    diagnostics.error(element, "apic: neither with axisymmetric nor with the interpolator cpdi; use XPIC2");
+    diagnostics.error(element, "apic: is not available with axisymmetric or the interpolator cpdi; use XPIC2");
   if (read.projectsGradient && (read.affine || read.axisymmetric || read.stressUpdate != StressUpdate::last))
     diagnostics.error(element,
-                      "UseGradientEnhancedVelocityProjection: only with stress_update usl, without "
+                      "UseGradientEnhancedVelocityProjection: is available only with stress_update usl, without "
                       "axisymmetric and apic");
   if (read.projectsGradient && read.conductsHeat)
     diagnostics.error(element,
                       "UseGradientEnhancedVelocityProjection: temperatures are interpolated without their gradients; "
                       "set <DoExplicitHeatConduction> to false");
   if (read.affine && read.stressUpdate != StressUpdate::last)
-    diagnostics.error(element, "apic: only with stress_update usl");
-  if (read.momentumForm && read.affine) diagnostics.error(element, "UseMomentumForm: not with apic");
+    diagnostics.error(element, "apic: is available only with stress_update usl");
+  if (read.momentumForm && read.affine) diagnostics.error(element, "UseMomentumForm: is not available with apic");
   if (read.affine + read.xpic + (read.picFraction > 0) > 1)
     diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to update the velocity: choose one");
 }
@@ -179,8 +180,9 @@ constexpr std::array implicitOnly{"with_gauss_solver",
                                   "delT_increase_factor",
                                   "temperature_solve"};
 
-/// Uintah shrinks domains with a corner farther from the middle than `cpdi_lcrit` cells, except for axisymmetric ones.
-/// Here none reaches farther than a cell along an axis, so that its corners are at most 3^(1/2) cells away.
+/// Refuses a short `cpdi_lcrit`: Uintah shrinks domains with a corner farther from the centre than that many cells,
+/// except for axisymmetric ones. Here none reaches farther than a cell along an axis, so that its corners are at most
+/// 3^(1/2) cells away.
 void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("cpdi_lcrit");
   if (!given || read.interpolator != Interpolator::cpdi) return;
@@ -189,17 +191,17 @@ void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& d
   if (read.axisymmetric) return diagnostics.note(*given, "does nothing with axisymmetric, as in Uintah");
   if (*longest < std::numbers::sqrt3)
     diagnostics.error(*given,
-                      "less than 3^(1/2) is not available; a domain of cpdi that reaches farther than a cell "
-                      "from its middle along an axis is shrunk to that");
+                      "less than 3^(1/2) is not available; a cpdi domain that extends farther than a cell from its "
+                      "centre along an axis is shrunk to one cell");
 }
 
 /// Tags of Uintah for features that this method lacks, or always has.
 void addForeign(Schema<MpmSection>& mpm) {
   addForeignTags(mpm);
   for (const char* tag : implicitOnly) mpm.ignored(tag, "belongs to the implicit method");
-  requireSwitch(mpm, "do_grid_reset", "the grid returns to its place after each step");
+  requireSwitch(mpm, "do_grid_reset", "the grid is reset after each step");
   mpm.custom("cpdi_lcrit", refuseShortDomains, {"cpdi_lcrit"},
-             "at least 3^(1/2): no domain of cpdi reaches farther than a cell from its middle along an axis")
+             "at least 3^(1/2): no cpdi domain extends farther than a cell from its centre along an axis")
       .forms({input::typeForm({"cpdi_lcrit"}, std::string(input::typeName<double>))});
 }
 
@@ -207,10 +209,10 @@ const Schema<MpmSection>& mpmSchema() {
   static const Schema<MpmSection> schema = [] {
     Schema<MpmSection> mpm("MPM", "The Material Point Method for solids.");
     mpm.choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0,
-               "how time advances; implicit is another method, sus --describe impm")
+               "the time integrator; for implicit, see sus --describe impm")
         .choice("interpolator", &MpmSection::interpolator, interpolators, Interpolator::linear,
-                "shape functions: linear, generalised interpolation, convected particle domains (fast_cpdi is another "
-                "word for them), quadratic or cubic B-splines");
+                "shape functions: linear, generalised interpolation (gimp), convected particle domains (cpdi, "
+                "fast_cpdi), quadratic or cubic B-splines");
     addDissipation(mpm);
     addLimits(mpm);
     addUpdates(mpm);
@@ -251,34 +253,36 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   return method;
 }
 
-/// The motion of all bodies, where the scene prescribes one.
+/// The motion of all bodies, if the scene prescribes one.
 std::shared_ptr<const PrescribedDeformation> readMotion(const MpmSection& read, const Element& root,
                                                         Diagnostics& diagnostics) {
   if (!read.prescribesDeformation) return {};
   const auto file = root.child("MPM")->child("PrescribedDeformationFile");
   if (read.axisymmetric)
-    diagnostics.error(root.child("MPM")->child("axisymmetric").value(), "not with UsePrescribedDeformation");
+    diagnostics.error(root.child("MPM")->child("axisymmetric").value(),
+                      "is not available with UsePrescribedDeformation");
   const auto motion =
       readPrescribedDeformation(read.deformationFile, (file ? *file : *root.child("MPM")).where(), diagnostics);
   return motion ? std::make_shared<PrescribedDeformation>(*motion) : nullptr;
 }
 
-/// Throws InputError where a scene whose <MPM> stands at `where` leaves out an axis along which bodies are deformed.
+/// Throws InputError, at the place of <MPM>, if the grid leaves out an axis along which bodies are deformed.
 void refuseFlat(const Level& level, const Location& where) {
   if (level.dimension() < 3)
     throw InputError({{where, "MPM/UsePrescribedDeformation",
                        "needs a grid in three dimensions: more than one cell along x, y and z"}});
 }
 
-/// With use_CBDI_boundary_condition pressures specify the faces of particles on which they act.
+/// Checks that, with use_CBDI_boundary_condition, pressures specify the faces of particles on which they act.
 void checkCorners(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const auto loads = root.child("PhysicalBC");
   if (!problem.method.loadsAtCorners || !loads) return;
   if (problem.method.turnsPressures)
     diagnostics.error(root.child("MPM")->child("keepPressBCNormalToSurface").value(),
-                      "not with <use_CBDI_boundary_condition>");
+                      "is not available with <use_CBDI_boundary_condition>");
   if (!problem.start.loads.bodies.empty())
-    diagnostics.error(*loads, "force: not with <use_CBDI_boundary_condition>, where pressures and torques act alone");
+    diagnostics.error(
+        *loads, "force: is not available with <use_CBDI_boundary_condition>, which takes only pressures and torques");
   for (const Element& pressure : loads->child("MPM").value().children("pressure"))
     if (!pressure.child("outward_normal"))
       diagnostics.error(pressure, "missing tag <outward_normal>: needed with <use_CBDI_boundary_condition>");
@@ -289,10 +293,11 @@ void checkContactsOfMethod(const Problem& problem, const Element& root, Diagnost
   for (const Contact& contact : problem.contacts) {
     if (problem.start.axisymmetric && contact.volumeConstraint > 0 && !contact.usesPlanes())
       diagnostics.error(root.child("MPM")->child("axisymmetric").value(),
-                        "volume_constraint of <contact> compares volumes, which are per radian here: leave it out");
+                        "volume_constraint of <contact> compares volumes, which are per radian here: remove it");
     if (problem.method.stressUpdate == StressUpdate::first && contact.usesPlanes())
-      diagnostics.error(root.child("MPM")->child("stress_update").value(),
-                        "contacts of type friction_LR, friction_LRVar and specified_friction only with usl and musl");
+      diagnostics.error(
+          root.child("MPM")->child("stress_update").value(),
+          "contacts of type friction_LR, friction_LRVar and specified_friction are available only with usl and musl");
   }
 }
 
@@ -300,7 +305,7 @@ void checkContactsOfMethod(const Problem& problem, const Element& root, Diagnost
 void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const Loads& loads = problem.start.loads;
   if (problem.start.solution && (loads.hasForces() || loads.hasHeat()))
-    diagnostics.error(root.child("PhysicalBC").value(), "<RunMMSProblem> has loads of its own: take these out");
+    diagnostics.error(root.child("PhysicalBC").value(), "<RunMMSProblem> applies loads of its own: remove these");
   for (const SurfaceLoad& load : loads.surfaces)
     if (load.material >= static_cast<int>(problem.materials.size()))
       diagnostics.error(root.child("PhysicalBC").value(),
@@ -345,7 +350,7 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
   for (const Material& material : problem.materials) {
     if (problem.start.solution && material.model->name() != "cnh_mms")
       diagnostics.error(root.child("MPM")->child("RunMMSProblem").value(),
-                        "is made for the constitutive model cnh_mms, but '" + material.name + "' is " +
+                        "needs the constitutive model cnh_mms, but '" + material.name + "' is " +
                             std::string(material.model->name()));
   }
   if (diagnostics.size() > before) return {};

@@ -18,10 +18,10 @@ struct TasksOfShapes {
   const ExplicitTasks<3>* space = nullptr;
 };
 
-/// The method with these shape functions on a grid of `dimension`; loads their module.
+/// The method with these shape functions on a grid of a dimension; loads their module.
 std::unique_ptr<Solids> makeSolids(Interpolator interpolator, int dimension, const Problem& problem);
 
-/// The module of an interpolator calls this when it is loaded.
+/// To be called by the module of an interpolator when it is loaded.
 void defineShapes(Interpolator interpolator, const TasksOfShapes& shapes, const TasksOfShapes& axisymmetric = {});
 
 }  // namespace tushar::mpm::solid

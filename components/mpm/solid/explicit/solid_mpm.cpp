@@ -115,14 +115,14 @@ void SolidMpm<D>::scheduleUpdateParticles(TaskList& tasks) const {
   scheduleDamage(tasks);
 }
 
-/// The motion apart from the stress, in which the particles of a cell share their change of volume.
+/// The motion without the stress, if the particles of a cell share their change of volume.
 template <int D>
 void SolidMpm<D>::scheduleUpdateInCells(TaskList& tasks) const {
   scheduleMoveParticles(tasks, readsOld);
   scheduleComputeStressTensor(tasks, g::record);
 }
 
-/// x and v alone; `shaped` reads the F that shape functions follow.
+/// Only x and v; `shaped` reads the F that shape functions follow.
 template <int D>
 void SolidMpm<D>::scheduleMoveParticles(TaskList& tasks, Reads shaped) const {
   tasks.perMaterial("mpm::interpolateToParticlesAndUpdate", bodies_->moveParticles, problem_.materials,
@@ -170,7 +170,7 @@ void SolidMpm<D>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) con
   schedulePrescribedMotion(tasks, g::stressRecord);
 }
 
-/// F and the stress, apart from the motion, with the velocity of `record`.
+/// F and the stress, separately from the motion, with the velocity in `record`.
 template <int D>
 void SolidMpm<D>::scheduleComputeStressTensor(TaskList& tasks, const NodeLabel<NodeRecord>& record) const {
   const auto body = problem_.method.sharesVolume ? bodies_->computeSharedStressTensor : bodies_->computeStressTensor;

@@ -46,7 +46,7 @@ class SolidMpm : public SolidsOf<D> {
   void scheduleUpdateParticles(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
 
-  /// The F by which shape functions deform, if they do; `reads` selects the old or the new one.
+  /// The F with which shape functions deform, if they do; `reads` selects the old or the new one.
   auto shapedBy(Reads reads, int ghost = 0) const { return when(shapes_.deform, reads(p::deformationMeasure, ghost)); }
 
   const ExplicitTasks<D>* bodies_;

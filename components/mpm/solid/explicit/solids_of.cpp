@@ -115,7 +115,7 @@ void SolidsOf<D>::scheduleDamage(TaskList& tasks) const {
   if (is_damageable_) solid::scheduleDamage(tasks, problem_.materials, state_);
 }
 
-/// Contacts other than friction by stresses, on the velocities of a record.
+/// Contacts other than stress-based friction, for the velocities in a record.
 template <int D>
 void SolidsOf<D>::scheduleContact(TaskList& tasks, const std::string& name, Moment moment,
                                   const NodeLabel<NodeRecord>& record) const {
@@ -134,7 +134,7 @@ void SolidsOf<D>::scheduleContactAtEnd(TaskList& tasks) const {
                         when(transmitsForce(), computes(g::transmittedForce<D>)));
 }
 
-/// Behind the forces and stresses of a step: what follows from the motion.
+/// The tasks after the forces and stresses of a step, which follow from the motion.
 template <int D>
 void SolidsOf<D>::scheduleEndOfStep(TaskList& tasks) const {
   if (problem_.method.maximumParticleVelocity)

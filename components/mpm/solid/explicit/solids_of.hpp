@@ -68,7 +68,7 @@ class SolidsOf : public Solids {
     return std::any_of(problem_.materials.begin(), problem_.materials.end(),
                        [](const Material& material) { return material.transmitsForce; });
   }
-  /// Whether nodes that no particle touches must be 0, because tasks other than the solids' own read them.
+  /// Whether untouched nodes must be 0, because tasks other than the solids' own read them.
   bool clearsAllNodes() const {
     return !problem_.contacts.empty() || problem_.method.loadsAtCorners || problem_.surroundings;
   }

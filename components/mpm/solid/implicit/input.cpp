@@ -47,79 +47,79 @@ struct Section {
 void declareSteps(Schema<Section>& schema) {
   schema
       .value("convergence_criteria_disp", &Section::displacement, 1e-10, "1",
-             "Newton's iteration ends once the square of the last change of the displacement over that of the largest "
+             "Newton's iteration ends when the square of the last change of displacement, relative to that of the "
+             "largest change, is below this",
+             input::positive())
+      .value("convergence_criteria_energy", &Section::energy, 4e-10, "1",
+             "and when the product of the last change and the residual before it, relative to the first such product, "
              "is below this",
              input::positive())
-      .value(
-          "convergence_criteria_energy", &Section::energy, 4e-10, "1",
-          "and the product of the last change and the residual before it, over the first such product, is below this",
-          input::positive())
       .value("iters_before_timestep_restart", &Section::maxIterations, 25, "1",
-             "most iterations of Newton's method; beyond it, the step is repeated with half the time step",
+             "largest number of Newton iterations; if more are needed, the step is repeated with half the time step",
              input::atLeast(1))
       .value("num_iters_to_decrease_delT", &Section::decrease, 12, "1",
-             "with this many iterations or more, the next time step is shorter", input::atLeast(1))
+             "after this many iterations or more, the next time step is shorter", input::atLeast(1))
       .value("num_iters_to_increase_delT", &Section::increase, 4, "1",
-             "with at most this many, the next time step grows", input::nonNegative())
-      .value("delT_decrease_factor", &Section::decreaseFactor, 0.6, "1", "factor by which it is shorter",
+             "after at most this many iterations, the next time step is longer", input::nonNegative())
+      .value("delT_decrease_factor", &Section::decreaseFactor, 0.6, "1", "factor of a shorter time step",
              input::between(0.1, 1))
-      .value("delT_increase_factor", &Section::increaseFactor, 2, "1", "factor by which it grows", input::atLeast(1));
+      .value("delT_increase_factor", &Section::increaseFactor, 2, "1", "factor of a longer time step",
+             input::atLeast(1));
 }
 
-/// In Uintah, nodes then keep the temperatures of the first step, from which every step conducts anew.
+/// Notes that nodes do not keep the temperatures of the first step, from which every step conducts heat anew in Uintah.
 void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("interpolateParticleTempToGridEveryStep");
   const auto conducts = element.child("DoImplicitHeatConduction");
   if (given && given->text() == "false" && conducts && conducts->text() == "true")
     diagnostics.note(*given,
-                     "heat is conducted from the temperatures that the particles have in each step, not from those of "
-                     "the first step as in Uintah");
+                     "heat is conducted from the temperatures of the particles in each step, not from those in the "
+                     "first step, as in Uintah");
 }
 
 /// Tags for behaviour that is always on here.
 void addFixedHeat(Schema<Section>& mpm) {
   mpm.custom("interpolateParticleTempToGridEveryStep", noteFrozenTemperature,
              {"interpolateParticleTempToGridEveryStep"},
-             "true or false: temperatures of nodes come from the particles in every step")
+             "true or false: in either case, nodes take their temperatures from the particles in every step")
       .forms({input::choiceForm({"interpolateParticleTempToGridEveryStep"}, {"true", "false"})});
-  requireSwitch(mpm, "DoMechanics", "solids move; heat alone is conducted by the component implicit_heat");
+  requireSwitch(mpm, "DoMechanics", "solids move; for heat conduction alone, use the component implicit_heat");
 }
 
 const Schema<Section>& sectionSchema() {
   static const Schema<Section> schema = [] {
     Schema<Section> mpm("MPM", "The Material Point Method for solids, with implicit time steps.");
-    mpm.choice("time_integrator", &Section::integrator, {{"implicit", 0}}, 0, "how time advances")
+    mpm.choice("time_integrator", &Section::integrator, {{"implicit", 0}}, 0, "the time integrator")
         .choice("interpolator", &Section::gimp, {{"linear", false}, {"gimp", true}}, false,
                 "shape functions: linear, or generalised interpolation")
         .value("axisymmetric", &Section::axisymmetric, false, "1",
                "x is the radius and y the axis; mass, energy and forces are per radian")
         .value("dynamic", &Section::dynamic, true, "1",
-               "Newmark's method; false: no inertia, each step ends in equilibrium");
+               "true: Newmark's method; false: no inertia, each step ends in equilibrium");
     mpm.value("do_grid_reset", &Section::resetsGrid, true, "1",
-              "false: the grid moves with the solid, particles keep their places in it, and p.displacement gives their "
-              "positions")
-        .value(
-            "DoPressureStabilization", &Section::sharesVolume, false, "1",
-            "F-bar: the particles of a cell share one change of volume, against locking of incompressible materials; "
-            "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic");
+              "false: the grid moves with the solid, particles keep their positions relative to it, and p.displacement "
+              "gives their true ones")
+        .value("DoPressureStabilization", &Section::sharesVolume, false, "1",
+               "F-bar: the particles of a cell share one change of volume, so that nearly incompressible materials do "
+               "not lock; for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic");
     declareSteps(mpm);
     mpm.choice("solver", &Section::solver, {{"petsc", 0}, {"simple", 0}, {"amgx", 0}}, 0,
                "the linear solver: PETSc, under any of three names")
-        .section("Solver", &Section::linear, solvers::tangentSchema(),
-                 "its settings, also for the conduction of heat, whose default is conjugate gradients")
+        .section(
+            "Solver", &Section::linear, solvers::tangentSchema(),
+            "settings of the linear solver, also for heat conduction, for which the default is conjugate gradients")
         .ours()
         .value("use_load_curves", &Section::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
         .value("withColor", &Section::withColor, false, "1",
-               "accepted for Uintah's sake: p.color exists if it is saved")
+               "accepted for compatibility with Uintah: p.color exists if it is saved")
         .value("DoImplicitHeatConduction", &Section::heat, false, "1", "heat is conducted, by backward Euler")
-        .ignored("DoExplicitHeatConduction", "heat is conducted implicitly, where DoImplicitHeatConduction says so")
-        .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0,
-                "heat spreads in time, by conduction")
+        .ignored("DoExplicitHeatConduction", "heat is conducted implicitly, if DoImplicitHeatConduction is true")
+        .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0, "conduction is transient")
         .ignored("artificial_damping_coeff", "as in Uintah, only explicit steps are damped")
         .ignored("minimum_particle_mass", "no particle is removed")
         .ignored("maximum_particle_velocity", "no particle is slowed down");
-    refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have one");
-    refuseSwitch(mpm, "UsePrescribedDeformation", "explicit steps can be driven through a deformation");
+    refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have artificial viscosity");
+    refuseSwitch(mpm, "UsePrescribedDeformation", "only explicit steps can follow a prescribed deformation");
     refuseSwitch(mpm, "keepPressBCNormalToSurface", "a pressure keeps the direction of its surface at the start");
     refuseSwitch(mpm, "temperature_solve", "nodes take the mean temperature of their particles");
     for (const char* tag :
@@ -136,13 +136,13 @@ const Schema<Section>& sectionSchema() {
   return schema;
 }
 
-/// Without a <direction>, a contact follows its master along all axes.
+/// Sets the directions of contacts: without a <direction>, they follow their master along all axes.
 void settleDirections(std::vector<Contact>& contacts) {
   for (Contact& contact : contacts)
     if (!contact.directionIsGiven) contact.direction = {true, true, true};
 }
 
-/// A material with <is_rigid> is the master of all contacts of type rigid and specified.
+/// Makes a material with <is_rigid> the master of all contacts of type rigid and specified.
 void settleMasters(const Element& root, std::vector<Contact>& contacts, Diagnostics& diagnostics) {
   const std::vector<Element> materials = root.child("MaterialProperties")->child("MPM")->children("material");
   const auto isSpecified = [](const Contact& contact) { return contact.type == Contact::Type::specified; };
@@ -150,7 +150,7 @@ void settleMasters(const Element& root, std::vector<Contact>& contacts, Diagnost
   for (std::size_t m = 0; m < materials.size(); ++m) {
     const auto rigid = materials[m].child("is_rigid");
     if (!rigid || rigid->text() != "true") continue;
-    if (isKnown) diagnostics.error(*rigid, "only one material can be rigid, the master of the contacts");
+    if (isKnown) diagnostics.error(*rigid, "only one material can be rigid: the master of the contacts");
     if (std::none_of(contacts.begin(), contacts.end(), isSpecified))
       diagnostics.error(*rigid, "needs a <contact> of type rigid or specified, with this material as its master");
     isKnown = true;
@@ -165,16 +165,16 @@ bool isMaster(const Problem& problem, int material) {
   });
 }
 
-/// Implicit steps need the tangent of every material except the masters of contacts, which do not deform.
+/// Refuses materials without a tangent, except masters of contacts, which do not deform.
 void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Material& material : problem.materials)
     if (!material.model->hasTangent() && !isMaster(problem, material.index))
-      diagnostics.error(root.child("MaterialProperties").value(),
-                        "'" + material.name + "' is " + std::string(material.model->name()) +
-                            ", which has no tangent: implicit time steps need one; take comp_neo_hook, "
-                            "comp_mooney_rivlin, trans_iso_hyper, visco_trans_iso_hyper, hypo_elastic, UCNH or "
-                            "elastic_plastic, or make it the "
-                            "master of a <contact> of type rigid or specified");
+      diagnostics.error(
+          root.child("MaterialProperties").value(),
+          "'" + material.name + "' is " + std::string(material.model->name()) +
+              ", which has no tangent, as implicit time steps need; use comp_neo_hook, comp_mooney_rivlin, "
+              "trans_iso_hyper, visco_trans_iso_hyper, hypo_elastic, UCNH or elastic_plastic, or make the material the "
+              "master of a <contact> of type rigid or specified");
 }
 
 /// Whether a damage model counts damage without weakening the material.
@@ -188,29 +188,27 @@ void refuseVolumesOfStates(const Problem& problem, const Element& root, Diagnost
   for (const Material& material : problem.materials)
     if (!material.model->supportsFBar() && !isMaster(problem, material.index))
       diagnostics.error(root.child("MPM")->child("DoPressureStabilization").value(),
-                        "with <time_integrator> implicit only for comp_neo_hook, comp_mooney_rivlin, UCNH and "
-                        "comp_neo_hook_plastic; '" +
+                        "is available with <time_integrator> implicit only for comp_neo_hook, comp_mooney_rivlin, UCNH "
+                        "and comp_neo_hook_plastic; '" +
                             material.name + "' is " + std::string(material.model->name()));
 }
 
-/// Features that only explicit time steps have.
+/// Refuses features that are available only with explicit time steps.
 void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const Element where = root.child("MaterialProperties").value();
   for (const Material& material : problem.materials)
     if (material.erosion.acts() || !onlyCounts(material.damage))
       diagnostics.error(where,
                         "'" + material.name +
-                            "' may lose strength: only with "
-                            "<time_integrator> explicit; here <damage_model> hancock_mackenzie and johnson_cook only "
-                            "accumulate damage, without <erosion>");
+                            "' may lose strength, which needs <time_integrator> explicit; implicit steps take only "
+                            "<damage_model> hancock_mackenzie or johnson_cook without <erosion>, to accumulate damage");
   for (const Contact& contact : problem.contacts) {
     if (contact.type == Contact::Type::friction || contact.usesPlanes())
-      diagnostics.error(where,
-                        "contact: friction only with <time_integrator> explicit; here all materials move as one");
+      diagnostics.error(
+          where, "contact: friction needs <time_integrator> explicit; in implicit steps all materials move as one");
     if (!contact.angularVelocity.empty())
-      diagnostics.error(where, "contact: include_rotation only with <time_integrator> explicit");
-    if (contact.excluded >= 0)
-      diagnostics.error(where, "contact: ExcludeMaterial only with <time_integrator> explicit");
+      diagnostics.error(where, "contact: include_rotation needs <time_integrator> explicit");
+    if (contact.excluded >= 0) diagnostics.error(where, "contact: ExcludeMaterial needs <time_integrator> explicit");
     for (const Material& material : problem.materials)
       if (contact.type == Contact::Type::specified && !contact.concerns(material.index))
         diagnostics.error(where, "contact: '" + material.name +
@@ -218,35 +216,36 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
                                      "implicit all materials move as one");
   }
   if (problem.start.loads.hasHeat())
-    diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: only with <time_integrator> explicit");
+    diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <time_integrator> explicit");
 }
 
-/// In Uintah's implicit steps heat strains metals, beside what the equation of state makes of it.
+/// Notes that heat does not strain metals, as it does in Uintah's implicit steps in addition to the equation of state.
 void noteThermalStrain(const Element& root, Diagnostics& diagnostics) {
   for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material")) {
     const auto model = material.child("constitutive_model");
     const auto given = model ? model->child("coeff_thermal_expansion") : std::nullopt;
     if (given && input::parse<double>(given->text()).value != 0.0)
       diagnostics.note(*given,
-                       "heat acts on the stress by the equation of state alone; in Uintah's implicit steps it "
-                       "strains the metal as well");
+                       "heat acts on the stress through the equation of state alone; in Uintah's implicit steps it "
+                       "also strains the metal");
   }
 }
 
-/// Boundary conditions that implicit steps would ignore: those of one material out of several, and a heat flux.
+/// Refuses boundary conditions that implicit steps would ignore: those of one of several materials, and a heat flux.
 void refuseConditions(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const std::string id = condition.attribute("id").value_or("all");
     if (id != "all" && problem.materials.size() > 1)
-      diagnostics.error(condition, "id: found '" + id +
-                                       "'; with <time_integrator> implicit materials share their nodes, and "
-                                       "a condition holds for all of them");
+      diagnostics.error(
+          condition,
+          "id: found '" + id +
+              "'; with <time_integrator> implicit, materials share their nodes, and a condition holds for all of them");
     const auto value = condition.child("value");
     const bool flows = value && input::parse<double>(value->text()).value != 0.0;
     if (condition.attribute("label") == boundary::temperature.name &&
         condition.attribute("var") == nameOf(grid::BoundaryKind::neumann) && flows)
       diagnostics.error(condition,
-                        "var: Neumann for Temperature only with <time_integrator> explicit, unless its value is 0");
+                        "var: Neumann for Temperature needs <time_integrator> explicit, unless its value is 0");
   }
 }
 

@@ -37,7 +37,7 @@ struct PointRun {
   int from, count;
 };
 
-/// Updates deformation gradients and stresses to the end of a step.
+/// Computes deformation gradients and stresses at the end of a step.
 class PointStates {
  public:
   PointStates(std::size_t count, int stateSize, double dt, bool sharesVolume)
@@ -51,8 +51,8 @@ class PointStates {
         f_bar_(count) {}
 
   std::vector<Matrix3> deformation, stress;  ///< F, 1; Cauchy stress, Pa
-  std::vector<Matrix3> gradient;             ///< of the displacement in the step, by the position at its start, 1
-  std::vector<double> stretch;               ///< the model gets F-bar = stretch F, 1
+  std::vector<Matrix3> gradient;  ///< of the displacement, with respect to the position at the start of the step, 1
+  std::vector<double> stretch;    ///< factor of F in F-bar, which the model gets, 1
 
   /// Whether F-bar applies to the points of a run: only for models that support it.
   bool sharesVolume(const PointRun& run) const { return shares_volume_ && run.group->material->model->supportsFBar(); }
@@ -106,8 +106,8 @@ class PointStates {
       f_bar_[at] = stretch[at] * deformation[at];
     }
   }
-  /// Calls `work(k, points)` for up to stressGroup points at once, k the first, with their state at the start of the
-  /// step.
+  /// Calls `work(k, points)` for up to stressGroup points at once, with their state at the start of the step; k is the
+  /// first.
   template <class Work>
   void forEachChunk(const PointRun& run, Work&& work) {
     const PointGroup& group = *run.group;

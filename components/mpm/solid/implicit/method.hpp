@@ -7,14 +7,14 @@ namespace tushar::mpm::solid::implicit {
 
 /// Settings of implicit steps; names and defaults are Uintah's.
 struct ImplicitMethod {
-  bool dynamic = true;        ///< Newmark's method; else without inertia, and each step ends at rest
-  bool resetsGrid = true;     ///< else the grid moves with the solid: shape functions at the starting positions
-  bool sharesVolume = false;  ///< F-bar: the particles of a cell are compressed as one, against locking
+  bool dynamic = true;        ///< Newmark's method; otherwise no inertia, and each step ends in equilibrium
+  bool resetsGrid = true;     ///< otherwise the grid moves with the solid, and shape functions stay
+  bool sharesVolume = false;  ///< F-bar: the particles of a cell share one change of volume, so that they do not lock
   solvers::NewtonSettings newton;
   bool conductsHeat = false;
   solvers::LinearSettings heat;   ///< where heat is conducted
-  int iterationsToDecrease = 12;  ///< a step with at least this many makes the next one shorter
-  int iterationsToIncrease = 4;   ///< a step that took no more makes the next one longer
+  int iterationsToDecrease = 12;  ///< after a step with at least this many iterations, the next one is shorter
+  int iterationsToIncrease = 4;   ///< after a step with at most this many iterations, the next one is longer
   double decreaseFactor = 0.6;
   double increaseFactor = 2;
 
@@ -30,9 +30,8 @@ using namespace solid::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> acceleration{"p.acceleration", "m/s^2", "acceleration at the end of the step"};
 template <int D>
-inline constexpr ParticleLabel<Vec<D>> deformedPosition{"p.xx", "m",
-                                                        "position; p.x is that at the start if "
-                                                        "do_grid_reset is false"};
+inline constexpr ParticleLabel<Vec<D>> deformedPosition{
+    "p.xx", "m", "position; if do_grid_reset is false, p.x is the position at the start"};
 }  // namespace p
 namespace g {
 using namespace solid::g;
@@ -43,13 +42,14 @@ inline constexpr NodeLabel<Vec<D>> newAcceleration{"g.newAcceleration", "m/s^2",
 }  // namespace g
 namespace total {
 using namespace solid::total;
-inline constexpr ReductionLabel<Maximum> newtonIterations{"NewtonIterations", "1", "of the last step"};
-inline constexpr ReductionLabel<Maximum> newtonResidual{"NewtonResidual", "1",
-                                                        "at the end of the last step over the greatest on the way"};
+inline constexpr ReductionLabel<Maximum> newtonIterations{"NewtonIterations", "1",
+                                                          "Newton iterations of the last step"};
+inline constexpr ReductionLabel<Maximum> newtonResidual{
+    "NewtonResidual", "1", "residual at the end of the last step, relative to the largest in that step"};
 inline constexpr ReductionLabel<Maximum> krylovIterations{"KrylovIterations", "1",
-                                                          "of all linear solves of the last step"};
+                                                          "iterations of all linear solves in the last step"};
 inline constexpr ReductionLabel<Minimum> nextTimeStep{"nextTimeStep", "s",
-                                                      "what Newton's iterations allow the next step"};
+                                                      "next time step, by the number of Newton iterations"};
 }  // namespace total
 
 }  // namespace tushar::mpm::solid::implicit

@@ -30,7 +30,7 @@ struct SolidParticles {
   Placed<D> placed;
   ParticleView<const double> mass;
   ParticleView<const Vec<D>> velocity;
-  OptionalView<const Vec<D>> acceleration;  ///< none if a run starts
+  OptionalView<const Vec<D>> acceleration;  ///< none at the start of a run
   ParticleView<const Vec<D>> externalForce;
   ParticleView<const double> temperature;
   ParticleView<const Matrix3> deformation, stress;

@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// Gives the solid the velocity prescribed at a face, and keeps it from crossing a symmetry plane.
+/// Gives the solid the velocity prescribed at faces, and prevents it from crossing symmetry planes.
 template <int D>
 void prescribeFaces(ImplicitSystem<D>& system, double dt) {
   const Level& level = system.nodes().level();

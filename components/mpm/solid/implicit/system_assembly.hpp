@@ -67,7 +67,7 @@ void ImplicitSystem<D>::findNodes(const RankPatches& patches) {
     if (touch_[k].node >= 0) touch_[k].node = map_(images[k]);
 }
 
-/// grad S = F_old^-T grad_0 S
+/// Computes grad S = F_old^-T grad_0 S.
 template <int D>
 void ImplicitSystem<D>::carrySlopes() {
   const Level& level = map_.level();
@@ -155,7 +155,8 @@ void ImplicitSystem<D>::measureStiffness() {
   stiffest_ = map_.ranks().max(stiffest_) / (h * h);
 }
 
-/// A node with less than a millionth of a cell's volume of material may have almost no stiffness along some axis.
+/// Supports nodes with less than a millionth of a cell's volume of material, as they may have almost no stiffness along
+/// some axis.
 template <int D>
 void ImplicitSystem<D>::supportNodes() {
   for (Node& node : node_)
@@ -224,7 +225,7 @@ bool ImplicitSystem<D>::residual(std::span<const double> u, std::span<double> r)
   return admissible;
 }
 
-/// False if a point would be turned inside out.
+/// Adds the internal forces; false if a point would be inverted.
 template <int D>
 bool ImplicitSystem<D>::addInternalForces(std::span<const double> u, std::span<double> r) {
   bool admissible = true;

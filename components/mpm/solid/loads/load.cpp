@@ -186,7 +186,7 @@ void refuseIdle(const std::vector<SurfaceLoad>& loads) {
   std::vector<InputProblem> problems;
   for (const SurfaceLoad& load : loads)
     if (load.particles == 0)
-      problems.push_back({load.where, "PhysicalBC/MPM", "no particle of a body lies along the surface of this load"});
+      problems.push_back({load.where, "PhysicalBC/MPM", "no particle lies along the surface of this load"});
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 

@@ -10,7 +10,7 @@
 
 namespace tushar::mpm::solid {
 
-/// A load over time: straight lines between points, constant before the first and after the last.
+/// A load over time: linear between points, constant before the first and after the last.
 struct LoadCurve {
   std::vector<std::pair<double, double>> points;  ///< s, and the unit of the load
 

@@ -39,7 +39,7 @@ struct PhysicalBC {
 /// The box of a load; unlike that of a body it may be flat.
 const Schema<input::Box>& boxSchema() {
   static const Schema<input::Box> schema = Schema<input::Box>("box", "A flat or thin box.")
-                                               .foreignAttribute("label", "its name")
+                                               .foreignAttribute("label", "name")
                                                .required("min", &input::Box::min, "m", "lower corner")
                                                .required("max", &input::Box::max, "m", "upper corner");
   return schema;
@@ -50,7 +50,8 @@ void readSurface(SurfaceSection& load, const Element& parent, Diagnostics& diagn
   const auto object = parent.child("geom_object");
   const auto shapes = object ? object->children() : std::vector<Element>{};
   if (object) input::refuseAttributes(*object, {}, diagnostics);
-  if (shapes.size() != 1) return diagnostics.error(parent, "needs one <geom_object> with one shape: where it acts");
+  if (shapes.size() != 1)
+    return diagnostics.error(parent, "needs one <geom_object> with one shape, where the load acts");
   if (shapes[0].name() == "box" && shapes[0].child("min")) {
     load.surface = boxSchema().read(shapes[0], diagnostics);
     return;
@@ -90,16 +91,17 @@ std::vector<input::Alternative> placeAlternatives() {
 }
 
 const Schema<CurveSection>& curveSchema() {
-  static const Schema<TimePoint> point = Schema<TimePoint>("time_point", "A load at a time.")
-                                             .required("time", &TimePoint::time, "s", "when")
-                                             .required("load", &TimePoint::load, "SI unit of the load", "how much");
+  static const Schema<TimePoint> point =
+      Schema<TimePoint>("time_point", "The load at one time.")
+          .required("time", &TimePoint::time, "s", "time")
+          .required("load", &TimePoint::load, "SI unit of the load", "load at this time");
   static const Schema<CurveSection> schema =
-      Schema<CurveSection>("load_curve", "A load over time, straight between its points.")
-          .value("id", &CurveSection::id, 1, "1", "its number; loads are numbered from 1 in the order of the scene",
-                 input::positive())
-          .optional("material", &CurveSection::material, "1", "number of the material that it acts on; else all",
-                    input::nonNegative())
-          .list("time_point", &CurveSection::points, point, "a load at a time", 1)
+      Schema<CurveSection>("load_curve", "A load over time, linear between its points.")
+          .value("id", &CurveSection::id, 1, "1",
+                 "number of the load; loads are numbered from 1 in the order of the scene", input::positive())
+          .optional("material", &CurveSection::material, "1",
+                    "number of the material on which the load acts; all by default", input::nonNegative())
+          .list("time_point", &CurveSection::points, point, "the load at one time", 1)
           .check([](const CurveSection& curve, const Element& element, Diagnostics& diagnostics) {
             input::refuseDescent(curve.points, &TimePoint::time, element.children("time_point"),
                                  "its time is not after that of the previous one", diagnostics);
@@ -110,14 +112,14 @@ const Schema<CurveSection>& curveSchema() {
 Schema<SurfaceSection> surfaceSchema(const std::string& name, const std::string& sentence) {
   return Schema<SurfaceSection>(name, sentence)
       .custom("geom_object", readSurface, {"geom_object"},
-              "a thin box, a cylinder or a sphere: particles along it and at the surface of their body are loaded")
+              "a thin box, a cylinder or a sphere: the load acts on particles along its surface that are also at the "
+              "surface of their body")
       .forms({input::onceForm("geom_object", placeAlternatives, 1)})
       .requiredSection("load_curve", &SurfaceSection::curve, curveSchema())
       .optional("outward_normal", &SurfaceSection::outwardNormal, "1",
-                "needed for a pressure with <use_CBDI_boundary_condition>, where it acts on the faces of particles "
-                "towards the normal of the shape, or (false) on the opposite ones; otherwise the sign of "
-                "the load decides")
-      .ignored("res", "particles are counted");
+                "needed for a pressure with <use_CBDI_boundary_condition>: true: it acts on the faces of particles "
+                "towards the normal of the shape; false: on the opposite ones. Otherwise the sign of the load decides")
+      .ignored("res", "the number of loaded particles is counted");
 }
 
 /// The number of a load curve must be the position of its load in the scene, because Uintah uses one for the other.
@@ -139,12 +141,12 @@ const Schema<PhysicalBC>& loadsSchema() {
       surfaceSchema("torque", "A torque about the axis of a cylinder, shared evenly among the particles at its side.")
           .check([](const SurfaceSection& read, const Element& element, Diagnostics& diagnostics) {
             if (read.surface && !std::holds_alternative<input::Cylinder>(*read.surface))
-              diagnostics.error(element, "a torque acts on the side of a <cylinder> only");
+              diagnostics.error(element, "a torque acts only on the side of a <cylinder>");
           });
   static const Schema<SurfaceSection> heatFlux =
       surfaceSchema("heat_flux", "Heat per area and time, shared evenly among the particles at a surface of a body.");
   static const Schema<BodyLoad> force =
-      Schema<BodyLoad>("force", "A force on the particles that start in a box, or a particle's spacing beyond it.")
+      Schema<BodyLoad>("force", "A force on the particles that start in a box, or within one particle spacing of it.")
           .required("lower", &BodyLoad::lower, "m", "lower corner of the box")
           .required("upper", &BodyLoad::upper, "m", "upper corner of the box")
           .required("force_density", &BodyLoad::forceDensity, "N/kg", "force per mass");
@@ -152,16 +154,18 @@ const Schema<PhysicalBC>& loadsSchema() {
     Schema<LoadsSection> loads("MPM", "Loads on particles.");
     loads.list("pressure", &LoadsSection::pressures, pressure, "force per area on a surface")
         .list("torque", &LoadsSection::torques, torque,
-              "N m; a positive one turns a right-handed screw from the top of the cylinder to its bottom, as in Uintah")
-        .list("heat_flux", &LoadsSection::heatFluxes, heatFlux, "heat per area and time through a surface, inwards")
+              "torque, N m; a positive one turns a right-handed screw from the top of the cylinder to its bottom, as "
+              "in Uintah")
+        .list("heat_flux", &LoadsSection::heatFluxes, heatFlux,
+              "heat per area and time into the body through a surface")
         .list("force", &LoadsSection::forces, force, "force per mass, at all times")
         .check([](const LoadsSection& read, const Element& element, Diagnostics& diagnostics) {
           checkNumbers(element, diagnostics);
           if (read.pressures.size() + read.torques.size() + read.heatFluxes.size() + read.forces.size() > 127)
             diagnostics.error(element, "there can be at most 127 loads");
         });
-    refuseTag(loads, "pressure_pts", "there are pressure, torque, force and heat_flux");
-    for (const char* tag : {"arches_heat_flux", "scalar_flux"}) refuseTag(loads, tag, "there is heat_flux");
+    refuseTag(loads, "pressure_pts", "use pressure, torque, force or heat_flux");
+    for (const char* tag : {"arches_heat_flux", "scalar_flux"}) refuseTag(loads, tag, "use heat_flux");
     return loads;
   }();
   static const Schema<PhysicalBC> schema =

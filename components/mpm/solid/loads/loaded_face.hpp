@@ -13,15 +13,15 @@ namespace tushar::mpm::solid {
 /// The face of a particle on which a pressure acts.
 struct LoadedFace {
   std::array<Vec3, 4> corners;  ///< m
-  double stretch;               ///< its area over that at the start
+  double stretch;               ///< ratio of its area to that at the start
 };
 
-/// A particle as a parallelepiped: its middle, and its edges at the start and now, one a column, m.
+/// A particle as a parallelepiped: its centre, and its edges at the start and now, one per column, m.
 struct ParticleBox {
   Vec3 middle;
   Matrix3 startEdges, edges;
 
-  /// The face towards a normal, if there is one whose edge is at an angle to it with a cosine above 0.9.
+  /// The face towards a normal, if there is one whose edge forms an angle with it with a cosine above 0.9.
   std::optional<LoadedFace> face(const Vec3& normal) const;
 };
 

@@ -13,7 +13,7 @@ constexpr double pi = std::numbers::pi;
 
 double barSpeed(const Elastic& e) { return std::sqrt(e.young / e.density); }
 
-/// u_i = A sin(pi X_i) sin(pi (phi_i + c t)): each axis independently; the sides of the unit cube stay where they are.
+/// u_i = A sin(pi X_i) sin(pi (phi_i + c t)): each axis independently; the sides of the unit cube stay in place.
 class AxisAligned : public Manufactured {
  public:
   double farthestAtStart() const override { return amplitude; }
@@ -47,8 +47,8 @@ class AxisAligned : public Manufactured {
   static double phase(const Elastic& e, int d, double time) { return pi * (2.0 / 3.0 * d + barSpeed(e) * time); }
 };
 
-/// A ring from R = .4 to .6 that breathes: x = X (1 + A s(t) g(R)), s = sin(pi c t / (2 R_b)), with no traction on
-/// either side.
+/// A ring from R = .4 to .6 that expands and contracts: x = X (1 + A s(t) g(R)), s = sin(pi c t / (2 R_b)), with no
+/// traction on either side.
 class ExpandingRing : public Manufactured {
  public:
   Vec3 displacement(const Elastic& e, const Vec3& start, double time) const override {

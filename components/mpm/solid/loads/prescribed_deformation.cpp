@@ -74,8 +74,8 @@ void checkNumbers(const Numbers& numbers, const std::string& path, const Locatio
   const std::size_t left = numbers.values.size() % pointSize, count = numbers.values.size() / pointSize;
   if (left > 0)
     diagnostics.error({path, numbers.lineOf(count), 0}, {},
-                      fmt::format("found {} numbers, expected 14 for a point: time, 9 components of F row by row, "
-                                  "angle, 3 components of its axis",
+                      fmt::format("found {} numbers, expected 14 per point: time, 9 components of F row by row, angle, "
+                                  "3 components of the axis",
                                   left));
   else if (count < 2)
     diagnostics.error(named, "MPM/PrescribedDeformationFile",

@@ -21,8 +21,8 @@ struct Start {
   bool axisymmetric = false;
   Loads loads;
   std::shared_ptr<const Manufactured> solution;  ///< null: none
-  bool domainsDeform = false;                    ///< by F, so that p.size stays as it was before any deformation
-  double leastMass = 0;                          ///< every particle must have more, kg
+  bool domainsDeform = false;  ///< whether domains deform with F, so that p.size stays the undeformed one
+  double leastMass = 0;        ///< every particle must have more, kg
 };
 
 /// The numbers of the loads on a particle, 1 for the first, packed as p.loadCurveID says. Throws InputError where there
@@ -93,7 +93,7 @@ struct NewParticles {
   }
 
  private:
-  /// Moves the last particle to where the manufactured solution has it at time 0.
+  /// Moves the last particle to its position in the manufactured solution at time 0.
   void deform(const Level& level, const Start& start, const Material& material, const Vec3& point) const {
     const Manufactured& solution = *start.solution;
     const Elastic elastic = elasticOf(material);
@@ -125,8 +125,8 @@ inline int cellsMovedAtStart(const Level& level, const Start& start) {
   return static_cast<int>(std::ceil(farthest / level.minSpacing()));
 }
 
-/// Where a particle of a body starts among some cells of the finest level, and its part of a cell; none if there is no
-/// such particle.
+/// The initial position of some particle of a body in these cells of the finest level, and its part of a cell; none if
+/// there is no such particle.
 template <int D>
 std::optional<std::pair<Vec<D>, Seed>> particleIn(const Level& finest, const Body& body, const Box& cells) {
   std::optional<std::pair<Vec<D>, Seed>> found;
@@ -151,8 +151,8 @@ std::optional<std::pair<Vec<D>, Seed>> particleIn(const Level& finest, const Bod
   return found;
 }
 
-/// In a cell of a coarser level, one particle of each body that has some in the finest cells there: so the finest cells
-/// come into being, or the scene is refused. Points of the coarser cell itself would miss a thin body.
+/// Puts one particle of each body into a cell of a coarser level whose finest cells would have some, so that these
+/// cells get refined, or the scene is refused. Points of the coarser cell itself would miss a thin body.
 template <int D>
 void standIn(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
              const NewParticles<D>& particles) {

@@ -51,7 +51,7 @@ struct DamageGrowth {
   ParticleView<const double> temperature, oldDamage, oldThreshold;
   ParticleView<const int> oldLocalized;
   ParticleView<const double> oldFailureTime;
-  ParticleView<const Matrix3> deformation;  ///< at the end of the step, as all below
+  ParticleView<const Matrix3> deformation;  ///< at the end of the step, like all below
   ParticleView<const double> volume;
   OptionalView<const double> state;  ///< internal variables, if any model keeps some
   ParticleView<Matrix3> stress;

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// A side of the grid has a given temperature (Dirichlet), or its given fall per metre outwards (Neumann).
+/// Applies the conditions of a side: a given temperature (Dirichlet), or its given fall per metre outwards (Neumann).
 template <int D>
 void setTemperature(const Patch& patch, int material, NodeView<double> field) {
   for (int d = 0; d < D; ++d)
@@ -179,12 +179,12 @@ void updateTemperature(const Patch& patch, const Material&, const Vec3& commonSi
   });
 }
 
-/// T_p changes by the work of the step, after conduction.
+/// Changes T_p by the work of the step, after conduction.
 inline void addWorkOfStep(const Patch&, const Material&, ParticleView<const double> change,
                           ParticleView<double> temperature) {
   for (int p = 0; p < change.owned(); ++p) temperature[p] += change[p];
 }
-/// T_p changes by the work of the step alone.
+/// Changes T_p by the work of the step, without conduction.
 inline void heatByWorkOfStep(const Patch&, const Material&, ParticleView<const double> change,
                              ParticleView<const double> oldTemperature, ParticleView<double> temperature) {
   for (int p = 0; p < change.owned(); ++p) temperature[p] = oldTemperature[p] + change[p];

@@ -13,7 +13,7 @@ inline constexpr ParticleLabel<double> plasticIncrement{"p.nonlocalSource", "1",
                                                         "plastic strain that acts on other particles"};
 }  // namespace p
 
-/// Index among the numbers of the State of a variable of a nonlocal model; -1 for other models.
+/// The index of a variable among the numbers of the State, for a nonlocal model; -1 for other models.
 inline int nonlocalOffset(const Material& material, std::string_view label) {
   return material.model->nonlocalLength() > 0 ? offsetOf(*material.model, label) : -1;
 }

@@ -6,9 +6,9 @@
 
 namespace tushar::mpm::solid {
 
-/// The bodies of tasks that work with shape functions, of one kind of them in D dimensions; those of explicit and
-/// implicit time steps alike. Their parameters depend on D alone, so that one schedule fits all kinds: it takes the
-/// bodies from here, and is compiled once for each D.
+/// The bodies of tasks that use shape functions, in explicit and implicit steps, for one kind of shape functions in D
+/// dimensions. Their parameters depend on D alone, so that one schedule fits all kinds: it takes the bodies from here,
+/// and is compiled once for each D.
 template <int D>
 struct ShapedTasks {
   ShapeTraits shape;

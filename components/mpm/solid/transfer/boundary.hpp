@@ -30,7 +30,7 @@ void setSymmetry(const Patch& patch, int material, const data::TouchedRows& rows
     }
 }
 
-/// The velocity is given on a face, and on the nodes beyond it, as far as particles touch them.
+/// Sets a given velocity on a face, and on the nodes beyond it that particles touch.
 template <int D>
 void setVelocity(const Patch& patch, int material, const data::TouchedRows& rows, NodeView<NodeRecord> record) {
   for (int d = 0; d < D; ++d)

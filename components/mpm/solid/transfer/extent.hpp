@@ -37,11 +37,11 @@ struct KeptSizes {
   constexpr KeptSizes(bool keepsEach = false, bool keepsDomains = false) : each(keepsEach), domains(keepsDomains) {}
 };
 
-/// The sizes of particles at the start, in cells: where there is neither view, all share one.
+/// The sizes of particles at the start, in cells; without either view, all particles share one size.
 template <int D>
 struct Sizes {
   OptionalView<const Vec<D>> each;
-  OptionalView<const Matrix3> domain;  ///< edges, one a column
+  OptionalView<const Matrix3> domain;  ///< its columns are the edges
 
   Sizes(std::nullopt_t = std::nullopt) {}
   Sizes(ParticleView<const Vec<D>> eachSize) : each(std::move(eachSize)) {}
@@ -57,7 +57,7 @@ struct Sizes {
 template <class Shape>
 inline constexpr bool sharesNodes = Shape::ghostNodes == 0;
 
-/// Asks for the values of `count` particles from `first` on before they are read or, if they are not const, written.
+/// Prefetches the values of `count` particles from `first` on, for reading or, if they are not const, for writing.
 template <class T>
 [[gnu::always_inline]] inline void prefetch(T* values, int first, int count) {
   constexpr std::size_t line = 64;

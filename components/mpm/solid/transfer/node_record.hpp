@@ -73,7 +73,7 @@ class Octet {
 #endif
 };
 
-/// Where in a NodeRecord what begins.
+/// The first lane of each quantity in a NodeRecord.
 namespace lane {
 inline constexpr int velocity = 0, mass = 3, force = 4, before = 4, volume = 7;
 }

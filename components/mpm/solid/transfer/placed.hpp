@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The properties of shape functions on which the schedule depends: otherwise it is the same for all of a dimension.
+/// The properties of shape functions on which the schedule depends; nothing else about them changes it.
 struct ShapeTraits {
   bool haveSizes = false;  ///< they depend on the sizes of particles
   bool deform = false;     ///< they follow F

@@ -211,7 +211,7 @@ TEST(MaterialInput, SaysWhatThereIsInsteadOfAModelOfUintah) {
 
 TEST(MaterialInput, AsksForWhatAPlasticModelNeeds) {
   expectProblem(sceneOf("comp_neo_hook_plastic", moduli),
-                "where it yields, <yield_stress> and <hardening_modulus> must be given");
+                "a material that yields needs <yield_stress> and <hardening_modulus>");
   expectProblem(sceneOf("elastic_plastic_hp", moduli), "missing tag <flow_model>");
   expectProblem(sceneOf("elastic_plastic_hp", moduli + std::string("<flow_model type='linear'/>")),
                 "attribute 'type': found 'linear', expected 'isotropic_hardening', 'johnson_cook', ");

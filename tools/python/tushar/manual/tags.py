@@ -134,8 +134,8 @@ def _presence_of(tag):
     """The sentence of a tag that a function reads states what it accepts."""
     if tag.sentence.startswith("only "):
         tag.status = "limited"
-    elif tag.sentence.startswith("not there: "):
-        tag.status, tag.sentence = "absent", tag.sentence.removeprefix("not there: ")
+    elif tag.sentence.startswith("not available: "):
+        tag.status, tag.sentence = "absent", tag.sentence.removeprefix("not available: ")
     return ""
 
 

@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// Adds the term of one cell in (9), P_c V_c grad S_i in the centre of the cell, to the force on its nodes.
+/// Adds the term of one cell in (9), P_c V_c grad S_i at the centre of the cell, to the force on its nodes.
 template <int D>
 void addPressureForce(const Level& level, const Index<D>& cell, double pressureTimesVolume, NodeView<Vec<D>> force) {
   for (int k = 0; k < Linear<D>::nodes; ++k) {

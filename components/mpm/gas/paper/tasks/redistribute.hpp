@@ -8,17 +8,17 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// How particles are redistributed where a cell holds too few or too many.
+/// The redistribution of particles in cells with too few or too many.
 struct Redistribution {
   enum class Mode {
-    splitMerge,  ///< halve the large ones, join neighbours
-    reseed,      ///< put new ones at the midpoints of equal parts of the cell
+    splitMerge,  ///< halve large ones, join close ones
+    reseed,      ///< put new ones at the centres of equal parts of the cell
   };
   Location where;  ///< in the scene
   Mode mode = Mode::splitMerge;
   int minParticles = 2;     ///< per cell
   int maxParticles = 16;    ///< per cell
-  int targetParticles = 4;  ///< per cell, of `reseed`; along each axis its D-th root, rounded up
+  int targetParticles = 4;  ///< number per cell for `reseed`; its D-th root, rounded up, along each axis
 
   /// Particles along each axis of a reseeded cell.
   int seededAlongAxis(int dimension) const {
@@ -28,7 +28,7 @@ struct Redistribution {
   }
 };
 
-/// A particle as redistribution sees it.
+/// The properties of a particle for redistribution.
 template <int D>
 struct Piece {
   ParticleId id = 0;
@@ -38,7 +38,7 @@ struct Piece {
   double density() const { return mass / volume; }
 };
 
-/// Where a cell lies, and for `reseed` the slopes of its mean density, velocity and pressure along each axis, per
+/// The geometry of a cell and, for `reseed`, the slopes of its mean density, velocity and pressure along each axis, per
 /// metre.
 template <int D>
 struct CellShape {
@@ -89,7 +89,7 @@ template <int D>
 struct OldParticles {
   ParticleView<const ParticleId> ids;
   ParticleView<const Vec<D>> x, velocity;
-  std::optional<ParticleView<const double>> mass;  ///< where particles keep it
+  std::optional<ParticleView<const double>> mass;  ///< if particles keep it
   ParticleView<const double> density, internalEnergy, divergence;
 
   static OldParticles from(auto& take, bool keepsMass, int ghost) {

@@ -20,7 +20,7 @@ struct CellNodes {
     for (std::size_t k = 1; k < s.size(); ++k) sum += s[k] * values[k];
     return sum;
   }
-  /// sum_i f_i . grad S_i in the centre of the cell: the divergence of f there.
+  /// sum_i f_i . grad S_i at the centre of the cell: the divergence of f there.
   double divergence(const Level& level) const {
     double sum = 0;
     for (int k = 0; k < Linear<D>::nodes; ++k)
@@ -34,7 +34,7 @@ template <int D>
 struct ParticleUpdate {
   // Particles at t_n.
   ParticleView<const Vec<D>> x, velocity;
-  std::optional<ParticleView<const double>> mass;  ///< where particles keep it
+  std::optional<ParticleView<const double>> mass;  ///< if particles keep it
   ParticleView<const double> density, internalEnergy, pressure;
   // The grid.
   NodeView<const Vec<D>> acceleration;  ///< a_i at t_n

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid::arenisca {
 
-/// A stress by its invariants, in the axes of its deviator.
+/// A stress in terms of its invariants, in the axes of its deviator.
 struct Invariants {
   double i1, rootJ2;  ///< Pa
   LodeAngle theta;
@@ -26,8 +26,7 @@ struct Invariants {
   Invariants(double i1_, double rootJ2_, LodeAngle theta_) : i1(i1_), rootJ2(rootJ2_), theta(theta_) {}
 };
 
-/// The root of f, which rises from below 0 to above, by bisection to all but the last few bits; an end if there is
-/// none.
+/// The root of an increasing f, by bisection to all but the last few bits; an end of the interval if there is no root.
 template <class F>
 double crossing(double low, double high, const F& f) {
   const double width = 1e-14 * std::max(std::abs(low), std::abs(high));
@@ -38,7 +37,7 @@ double crossing(double low, double high, const F& f) {
   return 0.5 * (low + high);
 }
 
-/// The minimum of f, which falls to it and rises again: the golden section.
+/// The minimum of a unimodal f, by the golden-section search.
 template <class F>
 double least(double low, double high, const F& f) {
   constexpr double golden = std::numbers::phi - 1;
@@ -99,7 +98,7 @@ class ClosestPoint {
     if (!isOutside || root3 * z < surface_.branch()) return onEllipse(at, radius, theta);
     return {root3 * z + surface_.zeta(), steepness * ahead / stretch_, theta};
   }
-  /// On the cap (-a cos phi, b sin phi) about its middle, where the distance stops falling with phi.
+  /// On the cap (-a cos phi, b sin phi) about its centre, the point at which the distance stops falling with phi.
   Invariants onEllipse(double at, double radius, LodeAngle theta) const {
     const double a = surface_.capLength() / root3, b = surface_.capHeight() * stretch_;
     const double middle = surface_.end() / root3 + a, away = at - middle;

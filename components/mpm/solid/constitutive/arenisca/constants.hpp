@@ -13,16 +13,17 @@ namespace tushar::mpm::solid::arenisca {
 struct Constants {
   double peakI1 = 0;         ///< I1 at the vertex of the yield surface, Pa
   double vertexSlope = 0;    ///< FSLOPE: -d(sqrt J2)/dI1 at the vertex, 1
-  double strength = 0;       ///< STREN: sqrt J2 of the limit of strength, Pa; 0: there is none
+  double strength = 0;       ///< STREN: sqrt J2 of the limit surface at high pressure, Pa; 0: none
   double pressureSlope = 0;  ///< YSLOPE: -d(sqrt J2)/dI1 at high pressure, 1
-  double flowFactor = 1;     ///< beta: of the deviator in the space of closest points; 1: associated flow
-  double b0 = 0, b1 = 0;     ///< bulk modulus at low pressure, and what high pressure adds, Pa
-  double b2 = 0;             ///< the pressure for that, times 3, Pa
-  double b3 = 0, b4 = 0;     ///< reduction of the bulk modulus by plastic compaction, Pa; the strain for that, 1
+  double flowFactor = 1;     ///< beta, factor of the deviator in the space of closest points; 1: associated flow
+  double b0 = 0, b1 = 0;     ///< bulk modulus at low pressure, and its increase at high pressure, Pa
+  double b2 = 0;             ///< the pressure at which it increases, times 3, Pa
+  double b3 = 0,
+         b4 = 0;             ///< its reduction by plastic compaction, Pa, and the strain for that, 1
   double g0 = 0;             ///< shear modulus, Pa
-  double g1 = 0, g2 = 0;     ///< Poisson's ratio at low pressure, and what high pressure adds, 1; 0: G = g0
+  double g1 = 0, g2 = 0;     ///< Poisson's ratio at low pressure, and its increase at high pressure, 1; 0: G = g0
   double p0 = 0;             ///< I1 at which pores begin to collapse, Pa
-  double p1 = 0;             ///< of the crush curve, 1/Pa
+  double p1 = 0;             ///< constant of the crush curve, 1/Pa
   double p3 = 0;             ///< volumetric strain at which all pores have collapsed, 1
   double capRatio = 0;       ///< CR: (vertex - start of the cap) / (vertex - end of the cap)
   double fluidBulk = 0;      ///< K_f, Pa; 0: pores are empty
@@ -30,26 +31,26 @@ struct Constants {
   double t1 = 0, t2 = 0;     ///< relaxation time t1 |D|^-t2, s for |D| in 1/s
   double capShape = 0;       ///< CR of Arenisca: height over length of the ellipse of a tangent cap; 0: capRatio
   double mostSubsteps = 256;
-  int lodeType = 0;      ///< of Lode's angle: 0 none, 1 Gudehus, 3 Mohr and Coulomb
+  int lodeType = 0;      ///< dependence on the Lode angle: 0 none, 1 Gudehus, 3 Mohr-Coulomb
   double lodeRatio = 1;  ///< psi: strength in triaxial compression over that in extension
 
-  /// Whether Poisson's ratio is given; else G = g0.
+  /// Whether Poisson's ratio is given; otherwise G = g0.
   bool hasPoissonRatio() const { return g1 != 0 && g2 != 0; }
   /// Whether the cap is an ellipse that touches the cone, and the moduli are constant: Arenisca without a number.
   bool hasTangentCap() const { return capShape > 0; }
   /// K_m: bulk modulus of the grains, Pa.
   double matrixBulk() const { return b0 + b1; }
-  /// phi_0: share of pores at the start.
+  /// phi_0: porosity at the start.
   double porosity() const { return 1 - std::exp(-p3); }
   /// C_1 = K_f (1 - phi_0) + K_m phi_0, Pa
   double mixedBulk() const { return fluidBulk * (1 - porosity()) + matrixBulk() * porosity(); }
-  /// Whether a fluid fills the pores at a volumetric strain: beyond that, it is under tension and tears.
+  /// Whether a fluid fills the pores at a volumetric strain; at larger strains it is under tension and tears.
   bool isSaturated(double strain) const {
     return fluidBulk != 0 && strain <= mixedBulk() * fluidPressure / (fluidBulk * matrixBulk());
   }
 };
 
-/// Whether the four constants of the limit of strength have one of the forms that YieldSurface supports.
+/// Whether the four constants of the limit surface have one of the forms that YieldSurface supports.
 inline bool hasLimit(const Constants& c) {
   const bool cone = c.vertexSlope > 0 && c.peakI1 >= 0 && c.strength == 0 && c.pressureSlope == 0;
   const bool cylinder = c.vertexSlope == 0 && c.peakI1 == 0 && c.strength > 0 && c.pressureSlope == 0;
@@ -62,11 +63,10 @@ inline bool hasLimit(const Constants& c) {
 template <class M>
 void check(const M& c, const input::Element& element, input::Diagnostics& diagnostics) {
   if (!hasLimit(c))
-    diagnostics.error(
-        element,
-        "PEAKI1, FSLOPE, STREN and YSLOPE define no limit of strength; allowed: FSLOPE > 0, the other two "
-        "0 (a cone); STREN > 0 alone (a cylinder); FSLOPE and STREN > 0, the other two 0; FSLOPE > YSLOPE "
-        "> 0 and STREN > YSLOPE PEAKI1");
+    diagnostics.error(element,
+                      "PEAKI1, FSLOPE, STREN and YSLOPE define no limit surface; allowed: FSLOPE > 0, STREN and YSLOPE "
+                      "0 (a cone); STREN > 0 alone (a cylinder); FSLOPE and STREN > 0, the other two 0; FSLOPE > "
+                      "YSLOPE > 0 and STREN > YSLOPE PEAKI1");
   if (c.p0 >= 0) diagnostics.error(element, "p0_crush_curve: must be below 0, as pores collapse under compression");
   if (c.p1 == 0) diagnostics.error(element, "p1_crush_curve: is 0, so no pressure would collapse the pores");
   if (c.hasPoissonRatio())
@@ -79,7 +79,7 @@ void check(const M& c, const input::Element& element, input::Diagnostics& diagno
   if ((c.t1 > 0) != (c.t2 > 0))
     diagnostics.error(element, "T1_rate_dependence and T2_rate_dependence: must both be 0 or both be positive");
   if (c.lodeType != 0 && c.lodeType != 1 && c.lodeType != 3)
-    diagnostics.error(element, "J3_type: allowed are 0, 1 (Gudehus) and 3 (Mohr and Coulomb)");
+    diagnostics.error(element, "J3_type: allowed are 0, 1 (Gudehus) and 3 (Mohr-Coulomb)");
 }
 
 /// Declares tags of a model for members of its Constants.
@@ -97,69 +97,73 @@ struct Tags {
   }
 };
 
-/// A cone with a cap, the crush curve, and the dependence on the rate.
+/// Tags of the cone with a cap, the crush curve, and the rate dependence.
 template <class M>
 void addConeTags(input::Schema<M>& schema) {
   const Tags<M> tags{schema};
   tags.require("PEAKI1", &Constants::peakI1, "Pa", "trace of the stress at the vertex of the yield surface",
                input::nonNegative());
-  tags.require("FSLOPE", &Constants::vertexSlope, "1", "slope of the limit of strength at the vertex",
+  tags.require("FSLOPE", &Constants::vertexSlope, "1", "slope of the limit surface at the vertex",
                input::nonNegative());
   tags.require("B0", &Constants::b0, "Pa", "bulk modulus at low pressure", input::positive());
   tags.require("G0", &Constants::g0, "Pa", "shear modulus", input::positive());
   tags.require("p0_crush_curve", &Constants::p0, "Pa", "trace of the stress at which pores begin to collapse, below 0");
-  tags.require("p1_crush_curve", &Constants::p1, "1/Pa", "how fast the stress rises while pores collapse");
+  tags.require("p1_crush_curve", &Constants::p1, "1/Pa", "sets how fast the stress rises while pores collapse");
   tags.require("p3_crush_curve", &Constants::p3, "1", "volumetric strain at which all pores have collapsed",
                input::positive());
   tags.value("T1_rate_dependence", &Constants::t1, 0, "s", "relaxation time at a strain rate of 1/s",
              input::nonNegative());
-  tags.value("T2_rate_dependence", &Constants::t2, 0, "1", "power of the strain rate by which it falls",
-             input::nonNegative());
+  tags.value("T2_rate_dependence", &Constants::t2, 0, "1",
+             "exponent with which the relaxation time falls with the strain rate", input::nonNegative());
   tags.require("fluid_B0", &Constants::fluidBulk, "Pa", "bulk modulus of the fluid in the pores; 0: they are empty",
                input::nonNegative());
   schema.ignored("gruneisen_parameter", "as in Uintah, nothing depends on it").check(check<M>);
 }
 
-/// The curved limit of strength, nonlinear elasticity and the fluid.
+/// Tags of the curved limit surface, nonlinear elasticity and the fluid.
 template <class M>
 void addSoilTags(input::Schema<M>& schema) {
   const Tags<M> tags{schema};
   tags.require("CR", &Constants::capRatio, "1", "where the cap begins, between the vertex (0) and its end (1)",
                input::between(0, 1));
-  tags.value("subcycling_characteristic_number", &Constants::mostSubsteps, 256, "1",
-             "most parts into which a step is divided", input::positive());
+  tags.value("subcycling_characteristic_number", &Constants::mostSubsteps, 256, "1", "largest number of substeps",
+             input::positive());
   tags.require("STREN", &Constants::strength, "Pa", "strength in shear at high pressure", input::nonNegative());
-  tags.require("YSLOPE", &Constants::pressureSlope, "1", "slope of the limit of strength at high pressure",
+  tags.require("YSLOPE", &Constants::pressureSlope, "1", "slope of the limit surface at high pressure",
                input::nonNegative());
   tags.require("BETA_nonassociativity", &Constants::flowFactor, "1", "1: plastic flow is normal to the yield surface",
                input::positive());
-  tags.require("B1", &Constants::b1, "Pa", "increase of the bulk modulus by high pressure", input::nonNegative());
-  tags.require("B2", &Constants::b2, "Pa", "trace of the stress that this takes", input::nonNegative());
+  tags.require("B1", &Constants::b1, "Pa", "increase of the bulk modulus at high pressure", input::nonNegative());
+  tags.require("B2", &Constants::b2, "Pa", "scale of the trace of the stress in the increase <B1>",
+               input::nonNegative());
   tags.require("B3", &Constants::b3, "Pa", "reduction of the bulk modulus by plastic compaction", input::nonNegative());
-  tags.require("B4", &Constants::b4, "1", "volumetric strain that this takes", input::nonNegative());
+  tags.require("B4", &Constants::b4, "1", "scale of the volumetric plastic strain in the reduction <B3>",
+               input::nonNegative());
   tags.require("G1", &Constants::g1, "1", "Poisson's ratio at low pressure, instead of <G0>");
-  tags.require("G2", &Constants::g2, "1", "increase by high pressure; if one of both is 0, <G0> is used");
+  tags.require("G2", &Constants::g2, "1",
+               "increase of Poisson's ratio at high pressure; if <G1> or <G2> is 0, <G0> is used");
   for (const char* unused : {"G3", "G4", "p2_crush_curve"})
     schema.ignored(unused, "as in Uintah, nothing depends on it");
-  tags.require("fluid_pressure_initial", &Constants::fluidPressure, "Pa", "its pressure at the start",
+  tags.require("fluid_pressure_initial", &Constants::fluidPressure, "Pa", "pressure of the fluid at the start",
                input::nonNegative());
 }
 
-/// The cap that touches the cone: Arenisca without a number alone has it.
+/// Tags of the cap that touches the cone: Arenisca without a number alone has it.
 template <class M>
 void addTangentCapTags(input::Schema<M>& schema) {
   const Tags<M> tags{schema};
-  tags.require("CR", &Constants::capShape, "1", "height of the ellipse of the cap over its length, in r over z",
+  tags.require("CR", &Constants::capShape, "1", "ratio of height (along r) to length (along z) of the elliptical cap",
                input::positive());
   tags.value("p4_fluid_effect", &Constants::b1, 0, "Pa", "bulk modulus of the grains less <B0>", input::nonNegative());
   tags.value("fluid_pressure_initial", &Constants::fluidPressure, 0, "Pa", "pressure of the fluid at the start",
              input::nonNegative());
   tags.value("subcycling_characteristic_number", &Constants::mostSubsteps, 1, "1",
-             "into how many parts a step is divided for every 0.1 % of strain", input::positive());
+             "number of substeps for every 0.1 % of strain", input::positive());
   for (const char* unused : {"FSLOPE_p", "hardening_modulus", "kinematic_hardening_constant"})
-    schema.ignored(unused, "as in Uintah, nothing depends on it: the flow is associated and the cone stays");
+    schema.ignored(unused,
+                   "as in Uintah, nothing depends on it: plastic flow is associated, and the cone does not harden");
   for (const char* unused : {"internal_variable_model", "useTaylorSeriesForDefGrad", "num_taylor_terms"})
-    schema.ignored(unused, "of an older Uintah; other tags here have the same meaning");
+    schema.ignored(unused, "from an older Uintah, in which the other tags have the same meaning");
 }
 
 /// Lode's angle: Arenisca4 alone has it.
@@ -167,10 +171,10 @@ template <class M>
 void addLodeTags(input::Schema<M>& schema) {
   schema
       .value("J3_type", static_cast<int M::*>(&Constants::lodeType), 0, "1",
-             "dependence on Lode's angle: 0 none, 1 Gudehus, 3 Mohr and Coulomb", input::nonNegative())
+             "dependence on the Lode angle: 0 none, 1 Gudehus, 3 Mohr-Coulomb", input::nonNegative())
       .value("J3_psi", static_cast<double M::*>(&Constants::lodeRatio), 1, "1",
-             "strength in triaxial compression over that in extension; convex for J3_type 1 from 7/9 to 9/7, for 3 "
-             "from 1/2 to 2",
+             "ratio of the strengths in triaxial compression and extension; the surface is convex from 7/9 to 9/7 for "
+             "J3_type 1, from 1/2 to 2 for J3_type 3",
              input::between(0.5, 2))
       .ignored("principal_stress_cutoff", "as in Uintah, nothing depends on it");
 }

@@ -64,9 +64,8 @@ inline Moduli moduli(const Constants& c, double i1, double plasticStrain) {
   return result;
 }
 
-/// The greatest shear modulus of moduli(), Pa: that of a pressure between none and all, where g1 and g2 count. With
-/// u = 1 + nu, which is linear in exp(b2 / I1), it is 3/2 (a + b u) (3 / u - 2), whose slope vanishes at
-/// u² = -3/2 a / b.
+/// The largest shear modulus of moduli(), Pa; with g1 and g2, it is reached at an intermediate pressure. With u = 1 +
+/// nu, which is linear in exp(b2 / I1), it is 3/2 (a + b u) (3 / u - 2), whose slope vanishes at u² = -3/2 a / b.
 inline double greatestShear(const Constants& c) {
   if (!c.hasPoissonRatio()) return c.g0;
   const auto shear = [&](double pressed) {

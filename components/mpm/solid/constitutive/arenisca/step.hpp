@@ -6,17 +6,17 @@
 
 namespace tushar::mpm::solid::arenisca {
 
-/// The quantities that a step changes, in axes that rotate with the material.
+/// The state that a step changes, in axes that rotate with the material.
 struct Point {
   Matrix3 stress;         ///< quasistatic, Pa
   Matrix3 plasticStrain;  ///< 1
   double cap;             ///< X, end of the cap, Pa
-  double zeta;            ///< trace of the stress that the fluid bears, Pa
+  double zeta;            ///< trace of the stress in the fluid, Pa
 
   Moduli moduli(const Constants& c) const { return arenisca::moduli(c, stress.trace(), plasticStrain.trace()); }
 };
 
-/// One part of a step, with the moduli at its start: elastic, or with a return to a yield surface that moves with the
+/// One substep, with the moduli at its start: elastic, or with a return to a yield surface that moves with the
 /// volumetric plastic strain. How far it moves is found by bisection on the share of the plastic strain of the return
 /// to the surface at rest, until the strain that moved the surface is that of the return. Homel, Guilkey & Brannon,
 /// Comput. Mech. 56 (2015) 565.
@@ -52,7 +52,7 @@ class Substep {
   };
 
   bool contains(const YieldSurface& surface) const { return surface.contains(trial_.i1, trial_.rootJ2, trial_.theta); }
-  /// A fluid under tension tears.
+  /// At most 0: the fluid carries no tension.
   double zetaAfter(double volume) const { return std::min(start_.zeta + stiffness_ * volume, 0.0); }
   YieldSurface surfaceAfter(double volume) const { return {c_, capEnd(c_, start_volume_ + volume), zetaAfter(volume)}; }
   bool moves(const Return& atRest) const {
@@ -131,10 +131,10 @@ class Substep {
   Matrix3 trial_stress_;
   Invariants trial_;
   double start_volume_;  ///< volumetric plastic strain
-  double stiffness_;     ///< of the fluid, Pa
+  double stiffness_;     ///< stiffness of the fluid, Pa
 };
 
-/// Number of parts of a step that leaves the yield surface with a tangent cap: `mostSubsteps` for every 0.1 % of
+/// Number of substeps of a step that leaves the yield surface with a tangent cap: `mostSubsteps` for every 0.1 % of
 /// strain, or for every length of the surface if that is less stress. A step that stays within needs no parts.
 inline int substepsOfTangentCap(const Constants& c, const Point& start, const Matrix3& strain) {
   const Matrix3 change = Moduli{c.b0, c.g0}.stress(strain);
@@ -146,8 +146,8 @@ inline int substepsOfTangentCap(const Constants& c, const Point& start, const Ma
   return int(std::ceil(std::clamp(c.mostSubsteps * (std::floor(change.norm() / size) + 1), 1.0, most)));
 }
 
-/// Number of parts of a step: more than one where the bulk modulus changes by more than its value, or the stress by
-/// more than 1/`sharpness` of the size of the yield surface.
+/// Number of substeps: more than one if the bulk modulus changes by more than its value, or the stress by more than
+/// 1/`sharpness` of the size of the yield surface.
 inline int substeps(const Constants& c, const Point& start, const Matrix3& strain, double sharpness) {
   if (c.hasTangentCap()) return substepsOfTangentCap(c, start, strain);
   const Matrix3 change = Moduli{c.matrixBulk(), c.g0}.stress(strain);

@@ -58,7 +58,7 @@ struct MaxwellDeviator {
               readElements(read, element, diagnostics);
             },
             {"mu", "tau"},
-            "shear moduli (Pa) and times of relaxation (s) of up to " + std::to_string(greatestCount) + " elements")
+            "shear moduli (Pa) and relaxation times (s) of up to " + std::to_string(greatestCount) + " elements")
         .forms({input::typeForm({"mu", "tau"}, std::string(input::typeName<std::vector<double>>), 1)});
     return tags;
   }

@@ -58,10 +58,13 @@ struct MieGruneisen {
 
   static const input::Schema<MieGruneisen>& schema() {
     static const input::Schema<MieGruneisen> schema =
-        input::Schema<MieGruneisen>("equation_of_state", "Mie and Grüneisen's, with the heat given by the temperature.")
+        input::Schema<MieGruneisen>(
+            "equation_of_state",
+            "The Mie-Grüneisen equation of state, with the thermal energy taken from the temperature.")
             .required("C_0", &MieGruneisen::soundSpeed, "m/s", "speed of a weak shock", input::positive())
-            .required("Gamma_0", &MieGruneisen::gruneisen, "1", "Grüneisen's constant", input::nonNegative())
-            .required("S_alpha", &MieGruneisen::slope, "1", "dU/du of a shock", input::nonNegative());
+            .required("Gamma_0", &MieGruneisen::gruneisen, "1", "Grüneisen parameter", input::nonNegative())
+            .required("S_alpha", &MieGruneisen::slope, "1", "slope of the shock velocity over the particle velocity",
+                      input::nonNegative());
     return schema;
   }
   double meanStress(const VolumeState& s) const {
@@ -85,12 +88,14 @@ struct MieGruneisenEnergy {
   static const input::Schema<MieGruneisenEnergy>& schema() {
     using Self = MieGruneisenEnergy;
     static const input::Schema<Self> schema =
-        input::Schema<Self>("equation_of_state", "Mie and Grüneisen's, with the energy that a particle gained.")
+        input::Schema<Self>("equation_of_state",
+                            "The Mie-Grüneisen equation of state, with the energy that a particle has gained.")
             .required("C_0", &Self::soundSpeed, "m/s", "speed of a weak shock", input::positive())
-            .required("Gamma_0", &Self::gruneisen, "1", "Grüneisen's constant", input::nonNegative())
-            .required("S_alpha", &Self::s1, "1", "dU/du of a weak shock", input::nonNegative())
-            .value("S_2", &Self::s2, 0, "1", "next term of the shock velocity")
-            .value("S_3", &Self::s3, 0, "1", "last term of the shock velocity");
+            .required("Gamma_0", &Self::gruneisen, "1", "Grüneisen parameter", input::nonNegative())
+            .required("S_alpha", &Self::s1, "1",
+                      "slope of the shock velocity over the particle velocity, for a weak shock", input::nonNegative())
+            .value("S_2", &Self::s2, 0, "1", "second-order coefficient of the shock velocity")
+            .value("S_3", &Self::s3, 0, "1", "third-order coefficient of the shock velocity");
     return schema;
   }
   double meanStress(const VolumeState& s) const {

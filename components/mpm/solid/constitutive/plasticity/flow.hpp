@@ -25,8 +25,8 @@ struct IsotropicHardening {
   static const input::Schema<IsotropicHardening>& schema() {
     static const input::Schema<IsotropicHardening> schema =
         input::Schema<IsotropicHardening>("flow_model", "A yield stress that grows with the plastic strain.")
-            .required("sigma_Y", &IsotropicHardening::yieldStress, "Pa", "at the start", input::positive())
-            .required("K", &IsotropicHardening::modulus, "Pa", "its growth with the plastic strain",
+            .required("sigma_Y", &IsotropicHardening::yieldStress, "Pa", "yield stress at the start", input::positive())
+            .required("K", &IsotropicHardening::modulus, "Pa", "growth of the yield stress with the plastic strain",
                       input::nonNegative());
     return schema;
   }
@@ -51,15 +51,16 @@ struct JohnsonCook {
 
   static const input::Schema<JohnsonCook>& schema() {
     static const input::Schema<JohnsonCook> schema =
-        input::Schema<JohnsonCook>("flow_model", "The yield stress of Johnson and Cook.")
+        input::Schema<JohnsonCook>("flow_model", "The Johnson-Cook yield stress.")
             .required("A", &JohnsonCook::a, "Pa", "yield stress at the start", input::positive())
             .required("B", &JohnsonCook::b, "Pa", "factor of e_p^n", input::nonNegative())
-            .required("C", &JohnsonCook::c, "1", "factor of the logarithm of the rate", input::nonNegative())
+            .required("C", &JohnsonCook::c, "1", "factor of the logarithm of the strain rate", input::nonNegative())
             .required("n", &JohnsonCook::n, "1", "exponent of the plastic strain", input::positive())
             .required("m", &JohnsonCook::m, "1", "exponent of the temperature", input::positive())
-            .value("epdot_0", &JohnsonCook::referenceRate, 1, "1/s", "rate of the constants", input::positive())
-            .value("T_r", &JohnsonCook::roomTemperature, 298, "K", "temperature of the constants", input::nonNegative())
-            .value("T_m", &JohnsonCook::meltTemperature, 1793, "K", "temperature without strength", input::positive())
+            .value("epdot_0", &JohnsonCook::referenceRate, 1, "1/s", "reference strain rate", input::positive())
+            .value("T_r", &JohnsonCook::roomTemperature, 298, "K", "reference temperature", input::nonNegative())
+            .value("T_m", &JohnsonCook::meltTemperature, 1793, "K", "temperature above which there is no strength",
+                   input::positive())
             .check([](const JohnsonCook& read, const input::Element& element, input::Diagnostics& diagnostics) {
               if (read.meltTemperature <= read.roomTemperature)
                 diagnostics.error(element, "T_m must be greater than T_r");
@@ -101,17 +102,19 @@ struct ZerilliArmstrong {
   static const input::Schema<ZerilliArmstrong>& schema() {
     using Self = ZerilliArmstrong;
     static const input::Schema<Self> schema =
-        input::Schema<Self>("flow_model", "The yield stress of Zerilli and Armstrong.")
+        input::Schema<Self>("flow_model", "The Zerilli-Armstrong yield stress.")
             .custom("c_0", readConstantPart, {"c_0", "sigma_g", "k_H", "sqrt_l_inv"},
-                    "constant part, Pa; or <sigma_g> + <k_H> <sqrt_l_inv>, by the size of the grains")
+                    "constant part, Pa; or <sigma_g> + <k_H> <sqrt_l_inv>, from the grain size")
             .forms({input::typeForm({"c_0", "sigma_g", "k_H", "sqrt_l_inv"}, std::string(input::typeName<double>))})
             .required("B", &Self::b, "Pa", "part without hardening", input::nonNegative())
             .required("beta_0", &Self::beta0, "1/K", "its fall with the temperature", input::nonNegative())
-            .required("beta_1", &Self::beta1, "1/K", "and with the logarithm of the rate", input::nonNegative())
-            .required("B_0", &Self::b0, "Pa", "part that grows with the root of the plastic strain",
+            .required("beta_1", &Self::beta1, "1/K", "its growth with the logarithm of the strain rate",
+                      input::nonNegative())
+            .required("B_0", &Self::b0, "Pa", "part that grows with the square root of the plastic strain",
                       input::nonNegative())
             .required("alpha_0", &Self::alpha0, "1/K", "its fall with the temperature", input::nonNegative())
-            .required("alpha_1", &Self::alpha1, "1/K", "and with the logarithm of the rate", input::nonNegative())
+            .required("alpha_1", &Self::alpha1, "1/K", "its growth with the logarithm of the strain rate",
+                      input::nonNegative())
             .required("K", &Self::k, "Pa", "factor of e_p^n", input::nonNegative())
             .required("n", &Self::n, "1", "exponent of the plastic strain", input::nonNegative());
     return schema;

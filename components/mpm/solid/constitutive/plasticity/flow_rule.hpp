@@ -9,7 +9,7 @@
 
 namespace tushar::mpm::solid {
 
-/// State of a material point that its yield stress depends on.
+/// The state of a material point on which its yield stress depends.
 struct FlowState {
   double plasticStrain;          ///< equivalent plastic strain, 1
   double strainRate;             ///< equivalent strain rate, 1/s
@@ -17,7 +17,7 @@ struct FlowState {
   double shearModulus;           ///< Pa
   double density = 0;            ///< kg/m^3
   double meltTemperature = 0;    ///< K
-  double plasticStrainRate = 0;  ///< mean of the step, 1/s
+  double plasticStrainRate = 0;  ///< mean over the step, 1/s
 };
 
 namespace capability {
@@ -31,8 +31,7 @@ struct Hardening {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<Flow, Hardening>;
     constexpr bool isAbsent = requires { &Both<Flow, Name>::hardening; };
-    static_assert(isNamed || isAbsent,
-                  "a member hardening is used only by a flow model that names capability::Hardening");
+    static_assert(isNamed || isAbsent, "a member hardening is used only if the flow model names capability::Hardening");
     constexpr bool fits = requires { Member<Flow, double, const FlowState&>{&Flow::hardening}; };
     static_assert(!isNamed || fits,
                   "capability::Hardening needs the public member `double hardening(const FlowState&) const`");
@@ -51,7 +50,7 @@ struct PlasticRate {
     constexpr bool isNamed = providesCapability<Flow, PlasticRate>;
     constexpr bool isAbsent = requires { &Both<Flow, Name>::dependsOnPlasticRate; };
     static_assert(isNamed || isAbsent,
-                  "a member dependsOnPlasticRate is used only by a flow model that names capability::PlasticRate");
+                  "a member dependsOnPlasticRate is used only if the flow model names capability::PlasticRate");
     constexpr bool fits = requires { Member<Flow, bool>{&Flow::dependsOnPlasticRate}; };
     static_assert(!isNamed || fits,
                   "capability::PlasticRate needs the public member `bool dependsOnPlasticRate() const`");

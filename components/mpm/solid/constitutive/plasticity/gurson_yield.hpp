@@ -15,13 +15,14 @@ namespace tushar::mpm::solid {
 struct VonMisesYield {
   static constexpr std::string_view name = "vonMises";
   static const input::Schema<VonMisesYield>& schema() {
-    static const input::Schema<VonMisesYield> schema("yield_condition", "The equivalent stress is the yield stress.");
+    static const input::Schema<VonMisesYield> schema(
+        "yield_condition", "The material yields if the equivalent stress reaches the yield stress.");
     return schema;
   }
 };
 
-/// Metals with pores, (q/sigma_y)² + 2 q1 f* cosh(3 q2 p / (2 sigma_y)) = 1 + q3 f*² with the equivalent stress q, the
-/// mean stress p (tension positive) and the porosity f, f* = f up to f_c and f_c + k (f - f_c) beyond: Gurson, J. Eng.
+/// Porous metals, (q/sigma_y)² + 2 q1 f* cosh(3 q2 p / (2 sigma_y)) = 1 + q3 f*² with the equivalent stress q, the mean
+/// stress p (tension positive) and the porosity f, f* = f up to f_c and f_c + k (f - f_c) beyond: Gurson, J. Eng.
 /// Mater. Technol. 99 (1977) 2; Tvergaard & Needleman, Acta Metall. 32 (1984) 157.
 struct GursonYield {
   static constexpr std::string_view name = "gurson";
@@ -31,10 +32,10 @@ struct GursonYield {
 
   static const input::Schema<GursonYield>& schema() {
     static const input::Schema<GursonYield> schema =
-        input::Schema<GursonYield>("yield_condition", "Of metals with pores: Gurson, Tvergaard and Needleman.")
+        input::Schema<GursonYield>("yield_condition", "Porous metals: Gurson, Tvergaard and Needleman.")
             .required("q1", &GursonYield::q1, "1", "factor of the porosity", input::positive())
             .required("q2", &GursonYield::q2, "1", "factor of the mean stress", input::positive())
-            .required("q3", &GursonYield::q3, "1", "factor of the square of the porosity, q1^2 as a rule",
+            .required("q3", &GursonYield::q3, "1", "factor of the square of the porosity, usually q1^2",
                       input::nonNegative())
             .required("k", &GursonYield::acceleration, "1", "factor on the porosity above f_c, where pores coalesce",
                       input::positive())
@@ -46,8 +47,8 @@ struct GursonYield {
   double effective(double f) const {
     return std::min(f > criticalPorosity ? criticalPorosity + acceleration * (f - criticalPorosity) : f, greatest());
   }
-  /// The smallest root of 1 + q3 f*² = 2 q1 f*, at which no strength is left, 1/q1 if q3 = q1²; without a root, the
-  /// minimum.
+  /// The smallest root of 1 + q3 f*² = 2 q1 f*, at which no strength is left: 1/q1 if q3 = q1²; without a root, the
+  /// position of the minimum.
   double greatest() const { return q3 > q1 * q1 ? q1 / q3 : 1 / (q1 + std::sqrt(q1 * q1 - q3)); }
   /// (q/sigma_y)² on the yield surface, at p by sigma_y; negative where it bears no q.
   double square(double p, double f) const {
@@ -59,11 +60,11 @@ struct GursonYield {
   double dilatancy(double p, double f) const { return 3 * q1 * q2 * effective(f) * std::sinh(argument(p)); }
 
  private:
-  /// Limited so that cosh does not overflow; no metal bears that.
+  /// The argument of cosh, limited so that it does not overflow, to a value that no metal bears.
   double argument(double p) const { return std::clamp(1.5 * q2 * p, -300.0, 300.0); }
 };
 
-/// Some metal is left: the equations divide by 1 - f.
+/// Largest porosity: some metal must be left, as the equations divide by 1 - f.
 inline constexpr double greatestPorosity = 0.999;
 
 /// Return to Gurson's surface with associated flow: Aravas, Int. J. Numer. Meth. Engng 24 (1987) 1395. `yieldStress(x)`

@@ -55,30 +55,30 @@ struct MechanicalThreshold {
         .required("mu_0", &Self::shearModulus, "Pa", "shear modulus at 0 K", input::positive())
         .required("koverbcubed", &Self::boltzmann, "Pa/K", "Boltzmann's constant over Burgers' vector cubed",
                   input::positive())
-        .required("g_0i", &Self::energyI, "1", "activation energy of interstitial obstacles", input::nonNegative())
-        .required("g_0e", &Self::energyE, "1", "of dislocations", input::positive())
-        .required("edot_0i", &Self::rateI, "1/s", "reference rate of interstitial obstacles", input::nonNegative())
-        .required("edot_0e", &Self::rateE, "1/s", "of dislocations", input::positive())
+        .required("g_0i", &Self::energyI, "1", "activation energy for interstitial obstacles", input::nonNegative())
+        .required("g_0e", &Self::energyE, "1", "activation energy for dislocations", input::positive())
+        .required("edot_0i", &Self::rateI, "1/s", "reference rate for interstitial obstacles", input::nonNegative())
+        .required("edot_0e", &Self::rateE, "1/s", "reference rate for dislocations", input::positive())
         .required("p_i", &Self::pI, "1", "exponent; 0: no interstitial obstacles", input::nonNegative())
         .required("q_i", &Self::qI, "1", "exponent", input::nonNegative())
         .required("p_e", &Self::pE, "1", "exponent", input::positive())
         .required("q_e", &Self::qE, "1", "exponent", input::positive())
         .required("sigma_i", &Self::sigmaI, "Pa", "threshold of interstitial obstacles", input::nonNegative());
     tags.required("a_0", &Self::a0, "Pa", "hardening at the start")
-        .required("a_1", &Self::a1, "Pa", "its growth with the logarithm of the rate")
-        .required("a_2", &Self::a2, "Pa s^(1/2)", "and with the root of the rate")
-        .required("a_3", &Self::a3, "Pa/K", "its fall with the temperature")
-        .required("alpha", &Self::alpha, "1", "how it ends", input::positive())
+        .required("a_1", &Self::a1, "Pa", "growth of the hardening with the logarithm of the rate")
+        .required("a_2", &Self::a2, "Pa s^(1/2)", "growth of the hardening with the square root of the rate")
+        .required("a_3", &Self::a3, "Pa/K", "fall of the hardening with the temperature")
+        .required("alpha", &Self::alpha, "1", "shape of the saturation of hardening", input::positive())
         .required("edot_es0", &Self::rateSaturated, "1/s", "reference rate of saturation", input::positive())
         .required("g_0es", &Self::energySaturated, "1", "activation energy of saturation", input::positive())
         .required("sigma_es0", &Self::sigmaSaturated, "Pa", "saturated threshold at 0 K", input::positive())
-        .ignored("theta_IV", "as in Uintah, the hardening ends at 0")
-        .ignored("D", "the <shear_modulus_model> has it")
-        .ignored("T_0", "the <shear_modulus_model> has it");
+        .ignored("theta_IV", "as in Uintah, hardening falls to 0 at saturation")
+        .ignored("D", "it is part of the <shear_modulus_model>")
+        .ignored("T_0", "it is part of the <shear_modulus_model>");
     refuseTag(tags, "T_c", "there is one phase");
     tags.check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
       if (read.pI > 0 && !(read.energyI > 0 && read.rateI > 0 && read.qI > 0))
-        diagnostics.error(element, "g_0i, edot_0i and q_i must be greater than 0 where p_i is");
+        diagnostics.error(element, "g_0i, edot_0i and q_i must be greater than 0 if p_i is");
     });
     return tags;
   }

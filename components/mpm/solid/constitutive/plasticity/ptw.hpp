@@ -24,23 +24,23 @@ struct PrestonTonksWallace {
   static const input::Schema<PrestonTonksWallace>& schema() {
     using Self = PrestonTonksWallace;
     static const input::Schema<Self> schema =
-        input::Schema<Self>("flow_model", "The yield stress of Preston, Tonks and Wallace.")
+        input::Schema<Self>("flow_model", "The Preston-Tonks-Wallace yield stress.")
             .required("theta", &Self::theta, "1", "hardening", input::positive())
-            .required("p", &Self::p, "1", "how it ends", input::positive())
+            .required("p", &Self::p, "1", "shape of the saturation of hardening", input::positive())
             .required("s0", &Self::s0, "1", "saturated stress at 0 K", input::positive())
-            .required("sinf", &Self::sInfinite, "1", "and near melting", input::nonNegative())
+            .required("sinf", &Self::sInfinite, "1", "saturated stress near melting", input::nonNegative())
             .required("kappa", &Self::kappa, "1", "softening with the temperature", input::nonNegative())
-            .required("gamma", &Self::gamma, "1", "rate of reference", input::positive())
+            .required("gamma", &Self::gamma, "1", "factor of the reference strain rate", input::positive())
             .required("y0", &Self::y0, "1", "yield stress at 0 K", input::nonNegative())
-            .required("yinf", &Self::yInfinite, "1", "and near melting", input::nonNegative())
-            .required("y1", &Self::y1, "1", "yield stress of strong shocks", input::nonNegative())
-            .required("y2", &Self::y2, "1", "its exponent", input::nonNegative())
-            .required("beta", &Self::beta, "1", "exponent of the saturated stress of strong shocks",
+            .required("yinf", &Self::yInfinite, "1", "yield stress near melting", input::nonNegative())
+            .required("y1", &Self::y1, "1", "yield stress in strong shocks", input::nonNegative())
+            .required("y2", &Self::y2, "1", "exponent of the yield stress in strong shocks", input::nonNegative())
+            .required("beta", &Self::beta, "1", "exponent of the saturated stress in strong shocks",
                       input::nonNegative())
             .required("M", &Self::atomicMass, "u", "mass of an atom", input::positive())
-            .ignored("G0", "the <shear_modulus_model> has it")
-            .ignored("alpha", "the <shear_modulus_model> has it")
-            .ignored("alphap", "the <shear_modulus_model> has it")
+            .ignored("G0", "it is part of the <shear_modulus_model>")
+            .ignored("alpha", "it is part of the <shear_modulus_model>")
+            .ignored("alphap", "it is part of the <shear_modulus_model>")
             .check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
               if (read.y0 >= read.s0) diagnostics.error(element, "y0 must be less than s0");
             });

@@ -32,7 +32,7 @@ struct SteinbergCochranGuinan {
     using Self = SteinbergCochranGuinan;
     static const input::Schema<Self> schema =
         input::Schema<Self>("flow_model", "The yield stress of Steinberg, Cochran, Guinan and Lund.")
-            .required("mu_0", &Self::shearModulus, "Pa", "shear modulus of the constants", input::positive())
+            .required("mu_0", &Self::shearModulus, "Pa", "shear modulus in the reference state", input::positive())
             .required("sigma_0", &Self::yieldStress, "Pa", "yield stress without hardening", input::positive())
             .required("Y_max", &Self::greatest, "Pa", "yield stress that hardening never passes", input::positive())
             .required("beta", &Self::beta, "1", "factor of the plastic strain", input::nonNegative())
@@ -40,16 +40,16 @@ struct SteinbergCochranGuinan {
             .value("epsilon_p0", &Self::initialStrain, 0, "1", "plastic strain at the start", input::nonNegative())
             .value("C1", &Self::c1, 0, "1/s", "rate of thermal activation; 0: the rate does not matter",
                    input::nonNegative())
-            .value("C2", &Self::c2, 0, "Pa s", "drag of dislocations", input::nonNegative())
+            .value("C2", &Self::c2, 0, "Pa s", "drag coefficient of dislocations", input::nonNegative())
             .value("energy_to_form_kink_pair", &Self::kinkEnergy, 0, "eV", "U_k", input::nonNegative())
             .value("Boltzmann_constant", &Self::boltzmann, 8.617333262e-5, "eV/K", "k", input::positive())
-            .value("Peierls_stress", &Self::peierls, 0, "Pa", "greatest stress of thermal activation",
+            .value("Peierls_stress", &Self::peierls, 0, "Pa", "largest stress from thermal activation",
                    input::nonNegative())
-            .ignored("A", "the <shear_modulus_model> has it")
-            .ignored("B", "the <shear_modulus_model> has it")
-            .ignored("T_m0", "the <melting_temp_model> has it")
-            .ignored("Gamma_0", "the <melting_temp_model> has it")
-            .ignored("a", "the <melting_temp_model> has it")
+            .ignored("A", "it is part of the <shear_modulus_model>")
+            .ignored("B", "it is part of the <shear_modulus_model>")
+            .ignored("T_m0", "it is part of the <melting_temp_model>")
+            .ignored("Gamma_0", "it is part of the <melting_temp_model>")
+            .ignored("a", "it is part of the <melting_temp_model>")
             .check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
               if (read.c1 > 0 && read.peierls <= 0) diagnostics.error(element, "<C1> needs <Peierls_stress>");
             });
@@ -59,7 +59,7 @@ struct SteinbergCochranGuinan {
     return (thermal(state) + std::min(hardened(state), greatest)) * state.shearModulus / shearModulus;
   }
   bool dependsOnPlasticRate() const { return c1 > 0; }
-  /// At a constant rate.
+  /// The slope of the flow stress at a constant rate.
   double hardening(const FlowState& state) const {
     if (hardened(state) >= greatest) return 0;
     return beta * n * hardened(state) / base(state) * state.shearModulus / shearModulus;

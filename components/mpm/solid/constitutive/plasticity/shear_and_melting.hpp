@@ -21,7 +21,8 @@ struct Compression {
 struct ConstantShear {
   static constexpr std::string_view name = "constant_shear";
   static const input::Schema<ConstantShear>& schema() {
-    static const input::Schema<ConstantShear> schema("shear_modulus_model", "The <shear_modulus>.");
+    static const input::Schema<ConstantShear> schema("shear_modulus_model",
+                                                     "The constant <shear_modulus> of the model.");
     return schema;
   }
   double modulus(const Compression&, double initial) const { return initial; }
@@ -37,8 +38,8 @@ struct ScgShear {
 
   static const input::Schema<ScgShear>& schema() {
     static const input::Schema<ScgShear> schema =
-        input::Schema<ScgShear>("shear_modulus_model", "That of Steinberg, Cochran and Guinan.")
-            .required("mu_0", &ScgShear::initial, "Pa", "at 300 K without pressure", input::positive())
+        input::Schema<ScgShear>("shear_modulus_model", "The Steinberg-Cochran-Guinan shear modulus.")
+            .required("mu_0", &ScgShear::initial, "Pa", "shear modulus at 300 K without pressure", input::positive())
             .required("A", &ScgShear::byPressure, "1/Pa", "its growth with the pressure", input::nonNegative())
             .required("B", &ScgShear::byTemperature, "1/K", "its fall with the temperature", input::nonNegative());
     return schema;
@@ -57,10 +58,11 @@ struct MtsShear {
 
   static const input::Schema<MtsShear>& schema() {
     static const input::Schema<MtsShear> schema =
-        input::Schema<MtsShear>("shear_modulus_model", "That of Varshni, of the mechanical threshold stress.")
+        input::Schema<MtsShear>("shear_modulus_model",
+                                "Varshni's shear modulus, which belongs to the mechanical threshold stress.")
             .required("mu_0", &MtsShear::initial, "Pa", "at 0 K", input::positive())
             .required("D", &MtsShear::fall, "Pa", "its fall with the temperature", input::nonNegative())
-            .required("T_0", &MtsShear::temperature, "K", "where it begins to fall", input::positive());
+            .required("T_0", &MtsShear::temperature, "K", "temperature at which it begins to fall", input::positive());
     return schema;
   }
   double modulus(const Compression& c, double) const {
@@ -80,9 +82,9 @@ struct NpShear {
 
   static const input::Schema<NpShear>& schema() {
     static const input::Schema<NpShear> schema =
-        input::Schema<NpShear>("shear_modulus_model", "That of Nadal and Le Poac, which falls to 0 at melting.")
-            .required("mu_0", &NpShear::initial, "Pa", "at 0 K without pressure", input::positive())
-            .required("zeta", &NpShear::zeta, "1", "width of the fall at melting", input::positive())
+        input::Schema<NpShear>("shear_modulus_model", "The Nadal-Le Poac shear modulus, which falls to 0 at melting.")
+            .required("mu_0", &NpShear::initial, "Pa", "shear modulus at 0 K without pressure", input::positive())
+            .required("zeta", &NpShear::zeta, "1", "width of its fall at melting", input::positive())
             .required("slope_mu_p_over_mu0", &NpShear::byPressure, "1/Pa", "its growth with the pressure")
             .required("C", &NpShear::lindemann, "1", "Lindemann's constant", input::positive())
             .required("m", &NpShear::atomicMass, "u", "mass of an atom", input::positive());
@@ -119,10 +121,11 @@ struct ScgMelting {
 
   static const input::Schema<ScgMelting>& schema() {
     static const input::Schema<ScgMelting> schema =
-        input::Schema<ScgMelting>("melting_temp_model", "That of Steinberg, Cochran and Guinan.")
-            .required("T_m0", &ScgMelting::initial, "K", "without pressure", input::positive())
-            .required("Gamma_0", &ScgMelting::gruneisen, "1", "Grüneisen's constant", input::nonNegative())
-            .required("a", &ScgMelting::a, "1", "fall of Grüneisen's constant with the density", input::nonNegative());
+        input::Schema<ScgMelting>("melting_temp_model", "The Steinberg-Cochran-Guinan melting temperature.")
+            .required("T_m0", &ScgMelting::initial, "K", "melting temperature without pressure", input::positive())
+            .required("Gamma_0", &ScgMelting::gruneisen, "1", "Grüneisen parameter", input::nonNegative())
+            .required("a", &ScgMelting::a, "1", "fall of the Grüneisen parameter with the density",
+                      input::nonNegative());
     return schema;
   }
   double temperature(const Compression& c, double) const {

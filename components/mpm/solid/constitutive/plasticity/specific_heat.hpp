@@ -37,14 +37,16 @@ struct CopperHeat {
   static const input::Schema<CopperHeat>& schema() {
     using Self = CopperHeat;
     static const input::Schema<Self> schema =
-        input::Schema<Self>("specific_heat_model", "A cubic in T below a temperature, a straight line above: copper.")
-            .value("T_transition", &Self::transition, 270, "K", "temperature at which they meet", input::positive())
-            .value("A_LowT", &Self::a0, 0.0000416, "J/(kg K^4)", "factor of T^3, below")
-            .value("B_LowT", &Self::b0, 0.027, "J/(kg K^3)", "factor of -T^2, below")
-            .value("C_LowT", &Self::c0, 6.21, "J/(kg K^2)", "factor of T, below")
-            .value("D_LowT", &Self::d0, 142.6, "J/(kg K)", "constant that is subtracted, below")
-            .value("A_HighT", &Self::a1, 0.1009, "J/(kg K^2)", "factor of T, above")
-            .value("B_HighT", &Self::b1, 358.4, "J/(kg K)", "constant that is added, above");
+        input::Schema<Self>(
+            "specific_heat_model",
+            "For copper: a cubic polynomial in T below a transition temperature, and a linear one above.")
+            .value("T_transition", &Self::transition, 270, "K", "transition temperature", input::positive())
+            .value("A_LowT", &Self::a0, 0.0000416, "J/(kg K^4)", "factor of T^3 below the transition")
+            .value("B_LowT", &Self::b0, 0.027, "J/(kg K^3)", "factor of -T^2 below the transition")
+            .value("C_LowT", &Self::c0, 6.21, "J/(kg K^2)", "factor of T below the transition")
+            .value("D_LowT", &Self::d0, 142.6, "J/(kg K)", "constant subtracted below the transition")
+            .value("A_HighT", &Self::a1, 0.1009, "J/(kg K^2)", "factor of T above the transition")
+            .value("B_HighT", &Self::b1, 358.4, "J/(kg K)", "constant added above the transition");
     return schema;
   }
   double specificHeat(const HeatState& s, double) const {
@@ -64,16 +66,16 @@ struct SteelHeat {
   static const input::Schema<SteelHeat>& schema() {
     using Self = SteelHeat;
     static const input::Schema<Self> schema =
-        input::Schema<Self>("specific_heat_model", "With the peak at the transition of iron: steel.")
+        input::Schema<Self>("specific_heat_model", "For steel, with the peak at the transition of iron.")
             .value("T_transition", &Self::transition, 1040, "K", "T_c, where t = T/T_c - 1 is 0", input::positive())
-            .value("A_LowT", &Self::a0, 190.14, "J/(kg K)", "constant part, below")
-            .value("B_LowT", &Self::b0, 273.75, "J/(kg K)", "factor of t, below")
-            .value("C_LowT", &Self::c0, 418.3, "J/(kg K)", "factor of |t|^-n, below")
-            .value("n_LowT", &Self::n0, 0.2, "1", "n, below")
-            .value("A_HighT", &Self::a1, 465.21, "J/(kg K)", "constant part, above")
-            .value("B_HighT", &Self::b1, 267.52, "J/(kg K)", "factor of t, above")
-            .value("C_HighT", &Self::c1, 58.16, "J/(kg K)", "factor of |t|^-n, above")
-            .value("n_HighT", &Self::n1, 0.35, "1", "n, above");
+            .value("A_LowT", &Self::a0, 190.14, "J/(kg K)", "constant part below the transition")
+            .value("B_LowT", &Self::b0, 273.75, "J/(kg K)", "factor of t below the transition")
+            .value("C_LowT", &Self::c0, 418.3, "J/(kg K)", "factor of |t|^-n below the transition")
+            .value("n_LowT", &Self::n0, 0.2, "1", "n below the transition")
+            .value("A_HighT", &Self::a1, 465.21, "J/(kg K)", "constant part above the transition")
+            .value("B_HighT", &Self::b1, 267.52, "J/(kg K)", "factor of t above the transition")
+            .value("C_HighT", &Self::c1, 58.16, "J/(kg K)", "factor of |t|^-n above the transition")
+            .value("n_HighT", &Self::n1, 0.35, "1", "n above the transition");
     return schema;
   }
   /// At T_c itself the value one kelvin below it, as in Uintah.
@@ -97,14 +99,15 @@ struct CubicHeat {
   static const input::Schema<CubicHeat>& schema() {
     using Self = CubicHeat;
     static const input::Schema<Self> schema =
-        input::Schema<Self>("specific_heat_model", "Debye's cube of the temperature, which saturates.")
-            .value("a", &Self::a, 1, "1", "constant part of Grüneisen's coefficient")
-            .value("b", &Self::b, 1, "1", "its part that grows with the volume")
+        input::Schema<Self>("specific_heat_model",
+                            "A Debye law: proportional to T^3 at low temperatures, and saturating at high ones.")
+            .value("a", &Self::a, 1, "1", "constant part of the Grüneisen parameter")
+            .value("b", &Self::b, 1, "1", "part of the Grüneisen parameter that grows with the volume")
             .value("beta", &Self::expansion, 0, "1/K", "growth of the volume with the temperature")
-            .required("c0", &Self::c0, "kg K^4/J", "c_v = u^3 / (c0 + c1 u + c2 u^2 + c3 u^3), u = T/theta in K")
-            .required("c1", &Self::c1, "kg K^3/J", "the same")
-            .required("c2", &Self::c2, "kg K^2/J", "the same")
-            .required("c3", &Self::c3, "kg K/J", "the same");
+            .required("c0", &Self::c0, "kg K^4/J", "in c_v = u^3 / (c0 + c1 u + c2 u^2 + c3 u^3), u = T/theta in K")
+            .required("c1", &Self::c1, "kg K^3/J", "see c0")
+            .required("c2", &Self::c2, "kg K^2/J", "see c0")
+            .required("c3", &Self::c3, "kg K/J", "see c0");
     return schema;
   }
   double specificHeat(const HeatState& s, double) const {

@@ -126,7 +126,8 @@ struct SuvicI {
 
   static input::Schema<SuvicI> makeSchema() {
     using Self = SuvicI;
-    input::Schema<Self> tags("visco_plasticity_model", "SUVIC: creep and plasticity of ice in one strain rate.");
+    input::Schema<Self> tags("visco_plasticity_model",
+                             "SUVIC: creep and plasticity of ice, unified in one inelastic strain rate.");
     const auto stress = [&](const char* tag, double Self::*member, const char* sentence) {
       tags.value(tag, member, Self().*member, "Pa", sentence, input::positive());
     };
@@ -134,20 +135,20 @@ struct SuvicI {
       tags.value(tag, member, Self().*member, "1", sentence, input::positive());
     };
     stress("coeff_backstress_evol", &Self::backGrowth, "A1: growth of the back stress with the strain");
-    stress("coeff_saturation_backstress", &Self::backSaturation, "B0: greatest back stress at the rate e0");
-    exponent("exponent_backstress", &Self::backExponent, "n: of the rate in the greatest back stress");
+    stress("coeff_saturation_backstress", &Self::backSaturation, "B0: largest back stress at the rate e0");
+    exponent("exponent_backstress", &Self::backExponent, "n: exponent of the rate in the largest back stress");
     tags.value("ref_strainrate", &Self::referenceRate, 7.794e-8, "1/s", "e0", input::positive())
         .value("normalizing_inelastic_strainrate", &Self::rateFactor, 5e9, "1/s", "A", input::positive())
         .value("activation_energy", &Self::activationEnergy, 67500, "J/mol", "Q", input::nonNegative())
         .value("universal_gas_constant", &Self::gasConstant, 8.3144, "J/(mol K)", "R_u", input::positive())
-        .value("temperature", &Self::temperature, 269.15, "K", "T; that of the particles does not matter",
+        .value("temperature", &Self::temperature, 269.15, "K", "T; the temperature of the particles has no effect",
                input::positive());
-    exponent("exponent_inelastic_strainrate", &Self::rateExponent, "N: of the stress in the strain rate");
-    stress("coeff_yieldstress_saturation", &Self::yieldSaturation, "R0: greatest yield stress at the rate e0");
-    exponent("exponent_yieldstress", &Self::yieldExponent, "m: of the rate in the greatest yield stress");
+    exponent("exponent_inelastic_strainrate", &Self::rateExponent, "N: exponent of the stress in the strain rate");
+    stress("coeff_yieldstress_saturation", &Self::yieldSaturation, "R0: largest yield stress at the rate e0");
+    exponent("exponent_yieldstress", &Self::yieldExponent, "m: exponent of the rate in the largest yield stress");
     stress("coeff_yieldstress_evol", &Self::yieldGrowth, "A3: growth of the yield stress with the strain");
     stress("coeff_dragstress_evol", &Self::dragGrowth, "A5: growth of the drag stress with the strain");
-    stress("coeff_stress_saturation", &Self::stressSaturation, "S0: greatest stress at the rate e0");
+    stress("coeff_stress_saturation", &Self::stressSaturation, "S0: largest stress at the rate e0");
     stress("intial_drag", &Self::initialDrag, "drag stress at the start (Uintah's spelling)");
     tags.value("initial_yield", &Self::initialYield, 0, "Pa", "yield stress at the start", input::nonNegative())
         .ignored("exponent_backstress_evol", "Uintah does not use it either")

@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::solid {
 
-/// A contact other than friction by stresses, on the velocities that the records hold.
+/// Applies a contact other than stress-based friction to the velocities in the records.
 template <int D>
 void applyContact(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
                   const SeparatingPlanes<D>& planes) {
@@ -15,7 +15,7 @@ void applyContact(const Patch& patch, const Contact& contact, double time, doubl
   if (contact.type == Contact::Type::specifiedFriction) slideOnMaster<D>(patch, contact, time, dt, records, planes);
 }
 
-/// Contacts other than friction by stresses, on velocities of the start of a step or of its end: Uintah's
+/// Applies contacts other than stress-based friction, to velocities at the start of a step or at its end: Uintah's
 /// exMomInterpolated.
 template <int D>
 void exchangeMomentum(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
@@ -25,11 +25,11 @@ void exchangeMomentum(const Patch& patch, const std::vector<Material>&, const st
     if (contact.actsTwice || moment == Moment::end) applyContact<D>(patch, contact, time, dt, records, planes);
 }
 
-/// A force on the nodes, N, of each material; none if no material transmits force.
+/// By material, a force on the nodes, N; empty if no material transmits force.
 template <int D>
 using TransmittedForces = std::vector<std::optional<NodeView<Vec<D>>>>;
 
-/// Adds `share` of the momentum that the materials of a contact have at the nodes where its master is, kg m/s.
+/// Adds `share` times the momentum of a contact's materials at the nodes with its master, kg m/s.
 template <int D>
 void addMomentum(const Contact& contact, const Records& records, double share, NodeView<Vec<D>> sum) {
   forEach<D>(sum.box(), [&](const Index<D>& node) {

@@ -16,7 +16,7 @@ struct SurfaceSources {
   Sizes<D> size;
   ParticleView<const double> mass;
   ParticleView<const Matrix3> deformation;
-  OptionalView<const Matrix3> particleStress;  ///< where it is not a function of F alone
+  OptionalView<const Matrix3> particleStress;  ///< if the stress is not a function of F alone
   NodeView<Vec<D>> massGradient, position;
   NodeView<Matrix3> stress;
   NodeView<double> volume;
@@ -76,7 +76,7 @@ void computeSurface(const Patch& patch, const Material& material, const Vec3& co
   mirrorSurface<D>(patch, material, u.massGradient, u.volume);
 }
 
-/// Friction between materials that touch, and the heat that it makes, J, where a scene has it.
+/// Applies friction between materials in contact, and computes its heat, J, if the scene needs it.
 template <int D>
 void exchangeByFriction(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
                         Moment moment, double dt, const Surfaces<D>& surfaces, const Records& records,

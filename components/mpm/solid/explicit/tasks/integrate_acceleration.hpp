@@ -26,7 +26,7 @@ void computeAndIntegrateAcceleration(const Patch& patch, const Material& materia
   });
 }
 
-/// v*_i on the sides of the grid, where particles touch them.
+/// Sets v*_i at the sides of the grid, at nodes that particles touch.
 template <int D>
 void setGridBoundaryConditions(const Patch& patch, const Material& material, int ghostNodes,
                                ParticleView<const Vec<D>> x, NodeView<NodeRecord> record) {

@@ -14,16 +14,16 @@
 
 namespace tushar::mpm::solid {
 
-/// Mass and momentum of particles, as far as shape functions reach.
+/// Mass and momentum of the particles within reach of shape functions.
 template <int D>
 struct MomentumSources {
   ParticleView<const Vec<D>> x;
   Sizes<D> size;
   ParticleView<const double> mass;
   ParticleView<const Vec<D>> velocity;
-  OptionalView<const Matrix3> deformation;  ///< F, where shape functions or stresses follow it
+  OptionalView<const Matrix3> deformation;  ///< F, if shape functions or stresses depend on it
 
-  /// `velocity` and `deformation` are accesses of those two.
+  /// `velocity` and `deformation` are the accesses to these two variables.
   static MomentumSources from(auto& take, int reach, KeptSizes keepsSizes, auto velocity, auto deformation) {
     return {.x = take(requiresOld(p::x<D>, reach)),
             .size = Sizes<D>::from(take, keepsSizes, reach),
@@ -37,7 +37,7 @@ struct MomentumSources {
 template <int D>
 struct ForceSources {
   OptionalView<const double> volume;
-  OptionalView<const Matrix3> stress;  ///< where it is not a function of F alone
+  OptionalView<const Matrix3> stress;  ///< if the stress is not a function of F alone
   OptionalView<const double> viscosity;
   OptionalView<const Vec<D>> externalForce;
 
@@ -50,8 +50,8 @@ struct ForceSources {
   }
 };
 
-/// Brings the particles of a material to the nodes around them; `forces` is null for mass and momentum alone. Holds
-/// pointers, not views: its loops are those of every step.
+/// Scatters the particles of a material to their nodes; `forces` is null for mass and momentum only. Holds pointers,
+/// not views: its loops are those of every step.
 template <class Shape>
 class Scatter {
  public:
@@ -75,7 +75,7 @@ class Scatter {
     has_stress_ = !material.isRigid;
   }
 
-  /// The particles of cells of the patch. `moments` is room for numbers of each.
+  /// Adds the particles of cells of the patch. `moments` is room for numbers of each.
   void addCells(const CellRun<D>& cells, std::vector<Matrix3>& moments) const {
     moments.resize(std::max(moments.size(), static_cast<std::size_t>(cells.count())));
     cells.forEachGroup([&](int k, int count) { forceMoments(cells.first() + k, count, moments.data() + k); });
@@ -83,7 +83,7 @@ class Scatter {
       addParticles<false>(cell, range.first, range.size(), moments.data() + (range.first - cells.first()));
     });
   }
-  /// The particles of a ghost cell: those that touch the patch's own nodes. The stresses of those between the first and
+  /// Adds the particles of a ghost cell that touch the patch's own nodes. The stresses of those between the first and
   /// the last of a group come along, as several cost as much as one.
   void addGhostCell(const Index<D>& cell, const data::ParticleRange& range) const {
     if (hasOwnNode(cell)) {
@@ -112,7 +112,7 @@ class Scatter {
     for (int d = 0; d < D; ++d) has &= (cell[d] + 1 >= nodes.lower[d]) & (cell[d] < nodes.upper[d]);
     return has;
   }
-  /// Whether a particle touches a node of the view's box, or nearly.
+  /// Whether a particle touches, or almost touches, a node of the view's box.
   bool touchesOwn(const CellFrame<D>& frame, const Index<D>& cell, int p) const {
     constexpr double rounding = 1e-6;
     const Box& nodes = record_.box();
@@ -140,7 +140,7 @@ class Scatter {
       moments[k].diagonal().array() -= volume * viscosity_[p];
     }
   }
-  /// Those of up to stressGroup particles of a ghost cell that have their bit in `touching`.
+  /// Adds those of up to stressGroup particles of a ghost cell whose bit in `touching` is set.
   void addTouching(const Index<D>& cell, int first, int count, Touching touching) const {
     std::array<Matrix3, stressGroup> moments;
     forceMoments(first, count, moments.data());
@@ -166,7 +166,7 @@ class Scatter {
         scatter(stencil, windowOf<NodeRecord>(record_, stencil), share.value, share.slope, share.hoop);
     });
   }
-  /// All that touch the nodes of their cell alone, whose records stay in registers meanwhile.
+  /// Adds particles that touch only the nodes of their cell, whose records stay in registers meanwhile.
   void addTogether(const CellFrame<D>& frame, const Index<D>& cell, int first, int count, const Matrix3* moments) const
       requires(sharesNodes<Shape>) {
     CellRecords<D> records(windowFrom(record_, cell));
@@ -176,7 +176,8 @@ class Scatter {
     });
     records.store();
   }
-  /// What a particle brings: m v, m and its force with S_i, -V sigma with its gradient and S_i / r.
+  /// The contribution of a particle: m v, m and its force, weighted with S_i; -V sigma, with the gradient of S_i and
+  /// S_i / r.
   struct Share {
     NodeRecord value;
     std::array<Quad, D> slope;
@@ -189,7 +190,7 @@ class Scatter {
             .slope = slopes(moment),
             .hoop = Quad{-moment(2, 2), 0, 0, 0}};
   }
-  /// -V sigma by its columns along the axes of the kernel.
+  /// The columns of -V sigma along the kernel axes.
   [[gnu::always_inline]] std::array<Quad, D> slopes(const Matrix3& moment) const {
     std::array<Quad, D> slope;
     for (int d = 0; d < D; ++d) {
@@ -212,7 +213,7 @@ class Scatter {
   const NodeView<NodeRecord>& record_;
 };
 
-/// The cells whose particles touch nodes of a box: those of the nodes, and `ghostNodes` beyond.
+/// The cells whose particles touch nodes of a box: those at the nodes, and `ghostNodes` beyond.
 template <int D>
 Box cellsThatTouch(Box nodes, int ghostNodes) {
   for (int d = 0; d < D; ++d) {

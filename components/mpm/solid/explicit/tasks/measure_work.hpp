@@ -31,14 +31,14 @@ void startWork(const Patch&, const Material&, ParticleView<const double> mass, P
   }
 }
 
-/// The velocity that the records hold now.
+/// Copies the current velocity of the records.
 template <int D>
 void keepVelocity(const Patch&, const Material&, NodeView<const NodeRecord> record, NodeView<Vec<D>> kept) {
   forEach<D>(kept.box(), [&](const Index<D>& node) { kept[node] = lanes<D>(record[node], lane::velocity); });
 }
 
-/// w of the nodes, and the work on a unit of their mass: of gravity, of the sides of the grid, of contact, and what
-/// damping takes.
+/// Computes w at the nodes, and the work per mass there: of gravity, of the sides of the grid, of contact, and of
+/// damping.
 template <int D>
 void computeNodalWork(const Patch& patch, const Material&, const Method& method, double dt,
                       NodeView<const NodeRecord> record, NodeView<const Vec<D>> ofForces,
@@ -61,7 +61,7 @@ struct ParticleWork {
   Placed<D> particles;
   ParticleView<const double> mass;
   OptionalView<const Vec<D>> externalForce;
-  NodeView<const NodeRecord> nodes;  ///< w, and the work for a unit of mass
+  NodeView<const NodeRecord> nodes;  ///< w, and the work per mass
   ParticleView<const p::Works> old;
   ParticleView<p::Works> work;
 
@@ -96,7 +96,7 @@ void measureWork(const Patch& patch, const Material&, const Vec3& commonSize, do
 struct Stressed {
   ParticleView<const Matrix3> deformation;
   OptionalView<const double> volume;
-  OptionalView<const Matrix3> stress;  ///< where it is not a function of F alone
+  OptionalView<const Matrix3> stress;  ///< if the stress is not a function of F alone
 
   static Stressed from(auto& take, bool keepsStress, auto reads) {
     return {.deformation = take(reads(p::deformationMeasure, 0)),
@@ -115,7 +115,7 @@ struct StrainWork {
   OptionalView<const double> viscosity;
   ParticleView<p::Works> work;
 
-  /// `old` and `fresh` read a variable at the start of the step and as the step has it.
+  /// `old` and `fresh` read a variable at the start of the step and as computed in the step.
   static StrainWork from(auto& take, const Keeps& keeps, auto old, auto fresh) {
     return {.mass = take(requiresOld(p::mass)),
             .before = Stressed::from(take, keeps.stress, old),
@@ -166,7 +166,7 @@ inline void measurePlasticWork(const Patch&, const Material& material, int state
   }
 }
 
-/// One of the numbers of p.work, of all particles.
+/// The sum of one of the numbers of p.work over all particles.
 inline void sumWork(const Patch&, const Material&, int which, ParticleView<const p::Works> work, Sum& total) {
   WideSum sum(total);
   for (int p = 0; p < work.owned(); ++p) sum.add(work[p][which]);

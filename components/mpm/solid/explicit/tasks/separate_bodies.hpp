@@ -13,7 +13,7 @@ namespace tushar::mpm::solid {
 template <int D>
 struct PlaneSources {
   Placed<D> particles;
-  OptionalView<const Vec<D>> size;  ///< at the start, in cells, where shape functions do not need it
+  OptionalView<const Vec<D>> size;  ///< edge lengths at the start, in cells, if shape functions do not read them
   ParticleView<const int> surface;
   NodeView<Vec<D>> normal;
   NodeView<double> prominence;
@@ -26,7 +26,7 @@ struct PlaneSources {
             .normal = take(computes(g::separatingNormal<D>)),
             .prominence = take(computes(g::prominence))};
   }
-  /// Column i: from the middle of particle p to the middle of its face that lay along axis i at the start, m.
+  /// Column i: from the centre of particle p to the centre of its face that lay along axis i at the start, m.
   template <class Shape>
   Eigen::Matrix<double, D, D> halfEdges(const Level& level, const Vec3& commonSize, int p) const {
     Eigen::Matrix<double, D, D> half = Eigen::Matrix<double, D, D>::Zero();
@@ -85,7 +85,7 @@ struct Precedence {
 template <int D>
 struct MeetingNodes {
   Box box;
-  std::vector<int> number;  ///< of each node of the box among those that follow, or -1
+  std::vector<int> number;  ///< for each node of the box, its index among those that follow, or -1
   std::vector<Index<D>> node;
   std::vector<int> leader;  ///< the material that the plane belongs to
   std::vector<std::vector<SidedParticle<D>>> particles;
@@ -101,7 +101,7 @@ struct MeetingNodes {
     });
     particles.resize(node.size());
   }
-  /// The number of a node, or -1.
+  /// The index of a node, or -1.
   int operator[](const Index<D>& at) const { return box.contains(at) ? number[place(at)] : -1; }
 
  private:
@@ -112,7 +112,7 @@ struct MeetingNodes {
   }
 };
 
-/// Adds the particles of material m to the nodes at which they meet others.
+/// Adds the particles of material m to the nodes at which they meet other materials.
 template <class Shape, int D = Shape::dimension>
 void gatherParticles(const Patch& patch, const Vec3& commonSize, const PlaneSources<D>& of, int m,
                      MeetingNodes<D>& nodes) {
@@ -146,7 +146,8 @@ Vec<D> normalAt(const Patch& patch, const MeetingNodes<D>& nodes, std::size_t k)
   return length > 0 ? Vec<D>(normal / length) : normal;
 }
 
-/// Prominence of material m: where it leads, how far its particles reach along the normal at most; elsewhere, at least.
+/// Prominence of material m: the largest extent of its particles along the normal where it leads, the smallest
+/// elsewhere.
 template <class Shape, int D = Shape::dimension>
 void measureProminence(const Patch& patch, const Vec3& commonSize, int m, const MeetingNodes<D>& nodes,
                        const std::vector<Vec<D>>& normals, const PlaneSources<D>& of) {
@@ -188,7 +189,7 @@ void separateBodies(const Patch& patch, const std::vector<Material>& materials, 
     measureProminence<Shape>(patch, commonSize, static_cast<int>(m), nodes, normals, of[m]);
 }
 
-/// The mean of p.color by mass at the nodes of a patch; 0 if there is no mass.
+/// The mass-weighted mean of p.color at the nodes of a patch; 0 without mass.
 template <class Shape, int D = Shape::dimension>
 void interpolateColor(const Patch& patch, const Material&, const Vec3& commonSize, const Placed<D>& particles,
                       ParticleView<const double> mass, ParticleView<const double> color,

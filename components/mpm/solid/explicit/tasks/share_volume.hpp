@@ -11,7 +11,7 @@ namespace tushar::mpm::solid {
 /// The change of volume that determines the stress of a particle.
 enum class Volumes {
   own,    ///< its own
-  shared  ///< that of all sound particles of its material in the cell
+  shared  ///< that of all particles of its material in the cell that have not failed
 };
 
 /// F_p = (J_c / det F_p)^(1/3) F_p with J_c = sum_p V0_p det F_p / sum_p V0_p over the sound particles of a cell

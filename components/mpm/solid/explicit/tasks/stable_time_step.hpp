@@ -10,7 +10,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Cells that the fastest of several waves crosses per second; NaN if a speed is NaN.
+/// The number of cells that the fastest of several waves crosses per second; NaN if a speed is NaN.
 template <int D>
 class CrossingRate {
  public:
@@ -20,9 +20,9 @@ class CrossingRate {
     for (int d = 0; d < D; ++d) inverse_spacing_[d] = level.inverseSpacing(d);
   }
 
-  /// Waves of speed c, m/s, in a material that moves with v.
+  /// Adds waves with the speed c, m/s, in a material that moves with v.
   void add(double c, const Vec<D>& v) { add(&c, &v, 1); }
-  /// Of `count` speeds, each in a material of its own velocity.
+  /// Adds `count` speeds, each in a material with its own velocity.
   void add(const double* c, const Vec<D>* v, int count) {
     for (int k = 0; k < count; k += Lanes::count) {
       const int left = count - k;
@@ -34,7 +34,7 @@ class CrossingRate {
         rates_ = greater(rates_, (speed + abs(velocity[d])) * inverse_spacing_[static_cast<int>(d)]);
     }
   }
-  /// Time in which the fastest crosses a cell, s; infinite without waves, NaN if a speed is.
+  /// Time in which the fastest wave crosses a cell, s; infinite without waves, NaN if a speed is NaN.
   double time() const { return isKnown() ? 1 / greatest(rates_) : std::numeric_limits<double>::quiet_NaN(); }
   bool isKnown() const { return all(rates_ >= rates_); }
 
@@ -49,7 +49,7 @@ class CrossingRate {
   Vec<D> inverse_spacing_;
 };
 
-/// The time step that the state at the start allows, with wave speeds at the density of F.
+/// The stable time step for the state at the start, with wave speeds at the density that follows from F.
 template <int D>
 void computeInitialTimeStep(const Patch& patch, const Material& material, ParticleView<const Vec<D>> velocity,
                             ParticleView<const double> temperature, ParticleView<const Matrix3> deformation,
@@ -64,7 +64,7 @@ void computeInitialTimeStep(const Patch& patch, const Material& material, Partic
   });
 }
 
-/// The smallest of all cells.
+/// The stable time step: the smallest of all cells.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Material&, CellView<const double> stableTimeStep,
                            data::Minimum& dt) {

@@ -9,7 +9,7 @@ namespace tushar::mpm::solid {
 /// The variables with which F, the stress and internal variables reach the end of a step.
 template <int D>
 struct StateUpdate {
-  NodeView<const NodeRecord> record;  ///< with the velocity that F follows
+  NodeView<const NodeRecord> record;  ///< contains the velocity by which F changes
 
   // At the start of the step.
   ParticleView<const Vec<D>> x;
@@ -30,7 +30,7 @@ struct StateUpdate {
   OptionalView<Matrix3> velocityGradient;
   CellView<double> stableTimeStep;
 
-  int stateSize = 0;  ///< numbers of a particle in `state`
+  int stateSize = 0;  ///< number of values per particle in `state`
 
   static StateUpdate from(auto& take, int ghostNodes, const Keeps& keeps, const NodeLabel<NodeRecord>* record) {
     return {.record = take(requiresNew(*record, ghostNodes)),

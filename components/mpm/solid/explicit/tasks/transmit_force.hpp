@@ -28,7 +28,7 @@ struct RigidMotion {
   ParticleView<const double> mass;
   ParticleView<const Vec<D>> externalForce;
   NodeView<const Vec<D>> transmitted;
-  std::optional<NodeView<const Vec<D>>> surrounding;  ///< the force of the surrounding medium, if there is one
+  std::optional<NodeView<const Vec<D>>> surrounding;  ///< force of the surrounding medium, if there is one
   NodeView<NodeRecord> record;
 
   static RigidMotion from(auto& take, int reach, bool isSurrounded) {

@@ -35,7 +35,7 @@ void moveParticles(const Patch& patch, const Material&, const Vec3& commonSize, 
   });
 }
 
-/// L_p, F_p and the stress with the velocity that the records hold: Uintah's computeStressTensor.
+/// L_p, F_p and the stress, with the velocity in the records: Uintah's computeStressTensor.
 template <class Shape, Volumes volumes = Volumes::own, int D = Shape::dimension>
 void computeStressTensor(const Patch& patch, const Material& material, const Method& method, double time, double dt,
                          const StateUpdate<D>& u) {

@@ -35,7 +35,7 @@ inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt,
   rows.copyTo(result);
 }
 
-/// (I + L dt) F of `count` particles in a row, with the same bits.
+/// (I + L dt) F of `count` consecutive particles, with the same bits.
 [[gnu::always_inline]] inline void deform(const Matrix3* f, const TensorOf<Lanes>& velocityGradient, double dt,
                                           int count, Matrix3* result) {
   const TensorOf<Lanes> before = lanesOf(f, count);
@@ -70,7 +70,7 @@ template <int D>
                                              const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
   moveParticle<D>(dt, sums, *x, *velocity, *newX, *newVelocity);
 }
-/// The same for `count` particles in a row.
+/// The same for `count` consecutive particles.
 template <int D>
 [[gnu::always_inline]] inline void moveGroup(double dt, const GatheredLanes<D>& sums, int count, const Vec<D>* x,
                                              const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
@@ -94,7 +94,7 @@ void deformBy(const Method& method, double dt, double square, const StateUpdate<
   else
     deform(before, velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF), now);
 }
-/// What follows from F of a particle: nothing holds what has failed; its volume.
+/// Completes a particle with a new F: restrains failed particles, and computes its volume.
 template <int D>
 [[gnu::always_inline]] inline void finishDeformation(const Erosion& erosion, const StateUpdate<D>& u, int p,
                                                      Matrix3& velocityGradient) {
@@ -196,8 +196,8 @@ void heatByViscosity(const Material& material, double growth, const StateUpdate<
   material.model->addViscousHeat(valuesOf(u.state) + p * u.stateSize, heat);
 }
 
-/// The artificial viscosity of particles from `first` on, and its heat; their velocity gradients and the speeds of
-/// their bulk waves (m/s) start at the first.
+/// Updates the artificial viscosity of particles from `first` on, and its heat; the arrays of velocity gradients and
+/// bulk wave speeds (m/s) start with the first particle.
 template <int D>
 void updateViscosity(const Material& material, const Method& method, double dt, const StateUpdate<D>& u,
                      const Matrix3* velocityGradient, const double* bulkSpeed, int first, int count) {
@@ -230,8 +230,8 @@ void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const
   }
 }
 
-/// Stress, artificial viscosity and strain energy of up to stressGroup particles, where a scene keeps them, and the
-/// speeds of their waves, m/s.
+/// Updates stress, artificial viscosity and strain energy of up to stressGroup particles, if kept, and computes their
+/// wave speeds, m/s.
 template <int D>
 void updateStress(const Level& level, const Material& material, const Method& method, double time, double dt,
                   const StateUpdate<D>& u, const Matrix3* velocityGradient, int first, int count, double* waveSpeed) {
@@ -247,8 +247,7 @@ void updateStress(const Level& level, const Material& material, const Method& me
   if (u.strainEnergy) updateStrainEnergy(material, u, results.energyDensity.data(), first, count);
 }
 
-/// The error for the first particle of a cell that has no wave speed: its velocity is not a number, or it is turned
-/// inside out.
+/// The error for the first particle of a cell without a wave speed: its velocity is not a number, or it is inverted.
 template <int D>
 NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
                                 const data::ParticleRange& range) {
@@ -256,18 +255,17 @@ NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, con
   int p = range.first;
   while (p + 1 < range.last && isSound(p)) ++p;
   const Vec3 x = level.expandPoint<D>(u.x[p]);
-  return {
-      fmt::format(
-          "the wave speed of the particle at ({:g}, {:g}, {:g}) m is not a number: det F is {:g}, its speed {:g} m/s",
-          x[0], x[1], x[2], u.deformation[p].determinant(), u.velocity[p].norm()),
-      "", "p.deformationMeasure", level.cellNumber<D>(cell)};
+  return {fmt::format("the wave speed of the particle at ({:g}, {:g}, {:g}) m is not a number: det F is {:g}, the "
+                      "particle's speed {:g} m/s",
+                      x[0], x[1], x[2], u.deformation[p].determinant(), u.velocity[p].norm()),
+          "", "p.deformationMeasure", level.cellNumber<D>(cell)};
 }
 
-/// Whether several particles are updated at once: their cells hold enough of them in three dimensions only.
+/// Whether several particles are updated at once: only in three dimensions do cells contain enough of them.
 template <class Shape>
 inline constexpr bool updatesTogether = Shape::dimension == 3;
 
-/// Brings `count` particles of a cell, from `first` on, to the end of the step, without their stress.
+/// Moves `count` particles of a cell, from `first` on, to the end of the step, without updating their stress.
 template <class Shape, class Move, int D = Shape::dimension>
 [[gnu::always_inline]] inline void moveAndDeform(const Level& level, const Index<D>& cell,
                                                  const Extents<Shape>& extents, const Material& material,
@@ -296,7 +294,7 @@ template <class Shape, class Move, int D = Shape::dimension>
   }
 }
 
-/// Particles that have reached the end of the step, but for their stress.
+/// Particles that have moved to the end of the step, but whose stress has not been updated.
 template <int D>
 struct MovedParticles {
   CellRun<D> cells;
@@ -314,8 +312,8 @@ struct MovedParticles {
   }
 };
 
-/// The stress of particles that have moved, and the stable time step of their cells. Throws NumericalError where a wave
-/// has no speed. No particle is left in `moved`.
+/// Updates the stress of particles that have moved, and the stable time step of their cells. Throws NumericalError
+/// where a wave has no speed. No particle is left in `moved`.
 template <int D>
 void updateStresses(const Level& level, const Material& material, const Method& method, double time, double dt,
                     const StateUpdate<D>& u, const CrossingRate<D>& none, MovedParticles<D>& moved) {
@@ -333,9 +331,9 @@ void updateStresses(const Level& level, const Material& material, const Method& 
   moved.cells.clear();
 }
 
-/// F, the stress and related quantities at the end of the step, of the patch's own particles, and the stable time step
-/// of each cell. Calls `move(p, count, sums)` for what particles from p on gather from the grid: one, or several in
-/// lanes. Throws NumericalError where a wave has no speed. The step starts at `time`, s.
+/// Updates F, the stress and related quantities of the patch's own particles to the end of the step, and computes the
+/// stable time step of each cell. Calls `move(p, count, sums)` for what particles from p on gather from the grid: one,
+/// or several in lanes. Throws NumericalError where a wave has no speed. The step starts at `time`, s.
 template <class Shape, Volumes volumes, class Move, int D = Shape::dimension>
 void updateParticles(const Patch& patch, const Material& material, const Method& method, double time, double dt,
                      const StateUpdate<D>& u, Move&& move) {

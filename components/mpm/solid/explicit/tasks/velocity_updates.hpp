@@ -30,7 +30,7 @@ void computeSSPlusVp(const Patch& patch, const Material&, const Vec3& commonSize
   });
 }
 
-/// A particle faster than the maximum speed is slowed down to 9/10 of it, as in Uintah.
+/// Slows particles that are faster than the maximum speed down to 9/10 of it, as in Uintah.
 template <int D>
 void limitVelocity(const Patch&, const Material&, double greatest, ParticleView<const Vec<D>> oldVelocity,
                    ParticleView<Vec<D>> velocity) {
@@ -40,7 +40,7 @@ void limitVelocity(const Patch&, const Material&, double greatest, ParticleView<
   }
 }
 
-/// The correction by XPIC for particles that have moved by FLIP.
+/// The XPIC correction for particles that have moved by FLIP.
 template <int D>
 struct XpicUpdate {
   NodeView<const NodeRecord> smoothRecord;
