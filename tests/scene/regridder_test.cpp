@@ -11,8 +11,8 @@ TEST(Regridder, SaysHowManyLevelsThereMayBe) {
   const Read still = read(square, amr("<max_levels>3</max_levels>"));
   EXPECT_EQ(still.refinement().levels, 1);
   EXPECT_EQ(still.notes,
-            (Strings{"AMR/Regridder/max_levels: does nothing: where the grid is not <adaptive>, its Levels "
-                     "say what is refined"}));
+            (Strings{"AMR/Regridder/max_levels: does nothing: the grid is not <adaptive>, so its Levels "
+                     "alone determine what is refined"}));
 
   EXPECT_EQ(read(square + halved, amr("<max_levels>1</max_levels>")).problems,
             (Strings{"AMR/Regridder/max_levels: found 1, but the Levels of <Grid> make 2"}));
@@ -99,7 +99,7 @@ TEST(Regridder, NotesWhatOfUintahsDoesNothing) {
       (Strings{
           "AMR/Regridder/max_timestep_interval: does nothing: <min_timestep_interval> alone determines when to regrid",
           "AMR/Regridder/min_boundary_cells: does nothing: <cell_stability_dilation> alone widens the refined region, "
-          "besides the distance that signals travel",
+          "in addition to the distance that signals travel",
           "AMR/ICE/orderOfInterpolation: does nothing: interpolation between levels is of second order"}));
   EXPECT_FALSE(found.amr.smallerSteps);
 }
