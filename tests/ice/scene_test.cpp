@@ -211,7 +211,8 @@ TEST(IceScene, CarriesSoundThroughWater) {
 TEST(IceScene, RefusesImplicitStepsWhereThePressureDoesNotDependOnTheEnergy) {
   const std::string solver = "<ICE><ImplicitSolver/><advection";
   EXPECT_EQ(problemOf(changedScene(murnaghanShock, "<ICE><advection", solver)),
-            "is not available with JWLC or Murnaghan, whose pressure does not depend on the energy: remove it, or run with --set "
+            "is not available with JWLC or Murnaghan, whose pressure does not depend on the energy: remove it, or run "
+            "with --set "
             "CFD/ICE/explicit=true");
 }
 

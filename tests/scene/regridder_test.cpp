@@ -10,9 +10,8 @@ TEST(Regridder, SaysHowManyLevelsThereMayBe) {
 
   const Read still = read(square, amr("<max_levels>3</max_levels>"));
   EXPECT_EQ(still.refinement().levels, 1);
-  EXPECT_EQ(still.notes,
-            (Strings{"AMR/Regridder/max_levels: does nothing: the grid is not <adaptive>, so its Levels "
-                     "alone determine what is refined"}));
+  EXPECT_EQ(still.notes, (Strings{"AMR/Regridder/max_levels: does nothing: the grid is not <adaptive>, so its Levels "
+                                  "alone determine what is refined"}));
 
   EXPECT_EQ(read(square + halved, amr("<max_levels>1</max_levels>")).problems,
             (Strings{"AMR/Regridder/max_levels: found 1, but the Levels of <Grid> make 2"}));
