@@ -110,8 +110,8 @@ TEST(Levels, RefinedGridsHaveNoPatchesOfTheScene) {
 
   EXPECT_EQ(found.problems, Strings{});
   const std::string note =
-      ": does nothing: patches of a refined grid are boxes of blocks; -layout sets how many blocks a patch has at the "
-      "most";
+      ": does nothing: patches of a refined grid are boxes of blocks; --layout sets the largest "
+      "number of blocks in a patch";
   EXPECT_EQ(found.notes, (Strings{"Grid/Level/Box/patches" + note, "Grid/Level/Box/autoPatch" + note}));
   EXPECT_FALSE(found.refinement().blocksPerPatch);
 }

@@ -114,8 +114,8 @@ TEST(Regridder, SaysWhatIsMisspelt) {
   EXPECT_EQ(read(square, amr("<max_level>2</max_level>")).problems.at(0).substr(0, 90),
             "AMR/Regridder/max_level: unknown tag <max_level> in <Regridder> (did you mean 'max_levels'");
   EXPECT_EQ(read(square, "<AMR><Regridder type=\"SingleLevel\"/></AMR>").problems,
-            (Strings{"AMR/Regridder: attribute 'type': found 'SingleLevel', expected 'Tiled' or 'BNR': patches of one "
-                     "level are chosen by <patches> of its Box, or -layout"}));
+            (Strings{"AMR/Regridder: attribute 'type': found 'SingleLevel', expected 'Tiled' or 'BNR': the patches of "
+                     "a single level are set by <patches> in its Box, or by --layout"}));
   EXPECT_EQ(read(square, "<AMR><Euler/><Euler/></AMR>").problems.size(), 1u);
 }
 
