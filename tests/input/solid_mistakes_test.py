@@ -57,7 +57,8 @@ REFUSED = {
     "a master that turns without a file":
         (BILLET, ("<materials>[0,1]</materials>", "<include_rotation>true</include_rotation>"),
          "needs a contact of type rigid, specified or specified_friction and its <filename>"),
-    "a flow of heat into implicit steps": (BEAM, heat_flow("Neumann", "5"), "var: Neumann for Temperature needs <time_integrator>"),
+    "a flow of heat into implicit steps":
+        (BEAM, heat_flow("Neumann", "5"), "var: Neumann for Temperature needs <time_integrator>"),
     "heat on a surface in implicit steps":
         (BEAM, ("<Grid>", HEAT), "heat_flux: needs <time_integrator> explicit", "MPM/use_load_curves=true"),
     "artificial viscosity in implicit steps":
@@ -149,7 +150,8 @@ REFUSED = {
     "friction in implicit steps":
         (BILLET, ("<type>rigid</type>", "<type>friction</type><mu>.1</mu>"),
          "contact: friction needs <time_integrator> "
-         "explicit; in implicit steps all materials move as one", "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
+         "explicit; in implicit steps all materials move as one", "MPM/time_integrator=implicit",
+         "MPM/artificial_viscosity=false"),
     "fibres with friction":
         (BEAM, ('type="comp_neo_hook"', 'type="TransIsoHypoFrictional"'), "hypo_elastic, without fibres"),
     "affine velocities that stresses would not see":
@@ -160,7 +162,7 @@ REFUSED = {
                     "</volume_constraint></contact></MPM>\n  </MaterialProperties>"), "volume_constraint of <contact>"),
     "a load beside all bodies":
         (CYLINDER, ("<radius>0.5</radius></cylinder>\n        </geom_object>", "<radius>0.3</radius></cylinder>\n"
-                    "        </geom_object>"), ":43:8: PhysicalBC/MPM: no particle lies along the surface of this load"),
+                    "        </geom_object>"), ":43:8: PhysicalBC/MPM: no particle lies along the surface"),
     "a load on a material that is not there":
         (CYLINDER, ("<id>1</id>", "<id>1</id><material>4</material>"),
          "there is no material 4; materials are numbered from 0 to 0"),

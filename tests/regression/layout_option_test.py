@@ -36,8 +36,7 @@ class LayoutOption(unittest.TestCase):
             result = run(SOD, options=("-layout", layout))
             self.assertEqual(result.code, 2)
             self.assertEqual(result.err.splitlines()[0], f"--layout: found '{layout}', expected AxBxC, the numbers of "
-                                                         f"patches along "
-                                                         "x, y and z, such as 4x2x1 [T701]")
+                                                         "patches along x, y and z, such as 4x2x1 [T701]")
         result = run(SOD, options=("-layout", "101x1x1"))
         self.assertEqual(result.code, 3)
         self.assertIn("there are 101 patches along x in --layout, but only 100 cells", result.err)
