@@ -146,8 +146,8 @@ TEST(IceMixture, RefusesSidesOfOneGas) {
                         "<Face side=\"x-\">" + condition);
   };
   EXPECT_EQ(problemOf(with(R"(<BCType id="all" label="Density" var="Dirichlet"><value>1</value></BCType>)")),
-            "Dirichlet is not available where there are several gases: what flows in is the gas beside the side; give "
-            "a Velocity or a Pressure, or Neumann");
+            "Dirichlet is not available with several gases: the gas that flows in has the composition of the "
+            "adjacent cells; give a Velocity or a Pressure, or Neumann");
   EXPECT_EQ(problemOf(with(R"(<BCType id="1" label="Velocity" var="Dirichlet"><value>[1,0,0]</value></BCType>)")),
             "found '1', expected all: several gases have one velocity and one pressure");
   EXPECT_EQ(problemOf(with(R"(<BCType id="1" label="Pressure" var="Dirichlet"><value>1</value></BCType>)")),

@@ -211,7 +211,8 @@ TEST(IceScene, CarriesSoundThroughWater) {
 TEST(IceScene, RefusesImplicitStepsWhereThePressureDoesNotDependOnTheEnergy) {
   const std::string solver = "<ICE><ImplicitSolver/><advection";
   EXPECT_EQ(problemOf(changedScene(murnaghanShock, "<ICE><advection", solver)),
-            "not with JWLC or Murnaghan, whose pressure does not depend on the energy: remove it, or run with --set "
+            "is not available with JWLC or Murnaghan, whose pressure does not depend on the energy: remove it, or run "
+            "with --set "
             "CFD/ICE/explicit=true");
 }
 
@@ -224,7 +225,7 @@ TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
 
 TEST(IceScene, RefusesModels) {
   EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"Steady_Burn\"/></Models>\n  <CFD>")),
-            "of type 'Steady_Burn' is not available; remove it: there are PassiveScalar and Test");
+            "the type 'Steady_Burn' is not available, but PassiveScalar and Test are; remove the model");
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {

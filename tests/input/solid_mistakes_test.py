@@ -47,7 +47,7 @@ REFUSED = {
         (BLOCK, ("pressure>", "torque>"), "a torque acts only on the side of a <cylinder>"),
     "planes between bodies before there are any":
         (BLOCK, ("<interpolator>", "<stress_update>usf</stress_update><interpolator>"),
-         "friction_LR, friction_LRVar and specified_friction only with usl and musl"),
+         "friction_LR, friction_LRVar and specified_friction are available only with usl and musl"),
     "friction by color without its table":
         (BLOCK, ("friction_LR<", "friction_LRVar<"), "missing tag <variable_friction> in <contact>"),
     "colors of friction that do not ascend":
@@ -57,7 +57,8 @@ REFUSED = {
     "a master that turns without a file":
         (BILLET, ("<materials>[0,1]</materials>", "<include_rotation>true</include_rotation>"),
          "needs a contact of type rigid, specified or specified_friction and its <filename>"),
-    "a flow of heat into implicit steps": (BEAM, heat_flow("Neumann", "5"), "var: Neumann for Temperature only with"),
+    "a flow of heat into implicit steps":
+        (BEAM, heat_flow("Neumann", "5"), "var: Neumann for Temperature needs <time_integrator>"),
     "heat on a surface in implicit steps":
         (BEAM, ("<Grid>", HEAT), "heat_flux: needs <time_integrator> explicit", "MPM/use_load_curves=true"),
     "artificial viscosity in implicit steps":
@@ -67,7 +68,7 @@ REFUSED = {
         (BILLET, ('id="all" label="Symmetric" var="symmetry"/></Face>\n      <Face side="y-">',
                   'id="1" label="Velocity" var="Dirichlet"><value>[0,0,0]</value></BCType></Face>\n      <Face '
                   'side="y-">'),
-         "id: found '1'; with <time_integrator> implicit materials share their nodes",
+         "id: found '1'; with <time_integrator> implicit, materials share their nodes",
          "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
     "a contact of some materials in implicit steps":
         (BILLET, ("<materials>[0,1]</materials>", "<materials>[0]</materials>"),
@@ -148,8 +149,9 @@ REFUSED = {
         (BEAM, (RUBBER, METAL + MTS), "g_0i, edot_0i and q_i must be greater than 0 if p_i is"),
     "friction in implicit steps":
         (BILLET, ("<type>rigid</type>", "<type>friction</type><mu>.1</mu>"),
-         "contact: friction only with <time_integrator> "
-         "explicit; here all materials move as one", "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
+         "contact: friction needs <time_integrator> "
+         "explicit; in implicit steps all materials move as one", "MPM/time_integrator=implicit",
+         "MPM/artificial_viscosity=false"),
     "fibres with friction":
         (BEAM, ('type="comp_neo_hook"', 'type="TransIsoHypoFrictional"'), "hypo_elastic, without fibres"),
     "affine velocities that stresses would not see":
@@ -160,7 +162,7 @@ REFUSED = {
                     "</volume_constraint></contact></MPM>\n  </MaterialProperties>"), "volume_constraint of <contact>"),
     "a load beside all bodies":
         (CYLINDER, ("<radius>0.5</radius></cylinder>\n        </geom_object>", "<radius>0.3</radius></cylinder>\n"
-                    "        </geom_object>"), ":43:8: PhysicalBC/MPM: no particle of a body lies along the surface"),
+                    "        </geom_object>"), ":43:8: PhysicalBC/MPM: no particle lies along the surface"),
     "a load on a material that is not there":
         (CYLINDER, ("<id>1</id>", "<id>1</id><material>4</material>"),
          "there is no material 4; materials are numbered from 0 to 0"),

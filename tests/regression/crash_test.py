@@ -115,7 +115,7 @@ class Crash(unittest.TestCase):
         assert_refused(here.uda, "the checkpoint has a different grid from the scene; patches may change, cells "
                                  "may not",
                        "Grid/Level/Box/resolution=[50,1,1]")
-        assert_refused(here.uda, "--output has no meaning with --restart", options=("--output", here.path), code=2)
+        assert_refused(here.uda, "--output cannot be used with --restart", options=("--output", here.path), code=2)
         found, errors, _ = here.finish([SOD, "-t", "50"], ())
         self.assertEqual(found, 2, errors)
         scene = (here.uda / "input.xml").read_text()

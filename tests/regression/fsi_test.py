@@ -379,7 +379,7 @@ class WrongScenes(SceneTest):
 
     def test_a_gas_is_not_axisymmetric(self):
         self.assert_refused(PLUG.replace("<MPM>\n", "<MPM>\n    <axisymmetric>true</axisymmetric>\n", 1),
-                            "not beside a gas")
+                            "is not available with a gas")
 
     def test_a_region_without_a_cell(self):
         self.assert_refused(PLUG.replace("</geom_object>\n      </material>\n    </ICE>", "</geom_object>"

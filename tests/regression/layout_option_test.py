@@ -35,9 +35,8 @@ class LayoutOption(unittest.TestCase):
         for layout in ("4", "4x2", "0x1x1", "axbxc", "4x2x1x1"):
             result = run(SOD, options=("-layout", layout))
             self.assertEqual(result.code, 2)
-            self.assertEqual(result.err.splitlines()[0], f"--layout: found '{layout}', expected AxBxC, the patches "
-                                                         f"along "
-                                                         "x, y and z, such as 4x2x1 [T701]")
+            self.assertEqual(result.err.splitlines()[0], f"--layout: found '{layout}', expected AxBxC, the numbers of "
+                                                         "patches along x, y and z, such as 4x2x1 [T701]")
         result = run(SOD, options=("-layout", "101x1x1"))
         self.assertEqual(result.code, 3)
         self.assertIn("there are 101 patches along x in --layout, but only 100 cells", result.err)

@@ -199,7 +199,7 @@ class Sampling(ModuleTest):
                 "a plane goes along two axes",
             module("planeAverage", "<planeOrientation>XX</planeOrientation>"): "found 'XX', expected",
             module("planeAverage", "<planeOrientation>XY</planeOrientation>",
-                   ('label="c.density" weighting="mass"',)): "a weighting of mass needs a label",
+                   ('label="c.density" weighting="mass"',)): 'missing tag <weight> in <Module>: weighting="mass"',
         }
         for tags, sentence in wrong.items():
             ended = sus(self.scene(tags), "-check")

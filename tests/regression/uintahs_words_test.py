@@ -152,11 +152,11 @@ class UintahsWords(unittest.TestCase):
         kept = "<interpolateParticleTempToGridEveryStep>false</interpolateParticleTempToGridEveryStep>"
         self.assertNotIn("first step", checked(kept).err)
         conducting = checked(kept + "<DoImplicitHeatConduction>true</DoImplicitHeatConduction>").err
-        self.assertIn("not from those of the first step as in Uintah", conducting)
+        self.assertIn("not from those in the first step, as in Uintah", conducting)
         self.assertEqual(checked("<DoMechanics>true</DoMechanics>").code, 0)
         refused = checked("<DoMechanics>false</DoMechanics>")
         self.assertEqual(refused.code, 3)
-        self.assertIn("heat alone is conducted by the component implicit_heat", refused.err)
+        self.assertIn("for heat conduction alone, use the component implicit_heat", refused.err)
 
     def test_materials_may_share_a_name(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -110,8 +110,8 @@ TEST(Levels, RefinedGridsHaveNoPatchesOfTheScene) {
 
   EXPECT_EQ(found.problems, Strings{});
   const std::string note =
-      ": does nothing: patches of a refined grid are boxes of blocks; -layout sets how many blocks a patch has at the "
-      "most";
+      ": does nothing: patches of a refined grid are boxes of blocks; --layout sets the largest "
+      "number of blocks in a patch";
   EXPECT_EQ(found.notes, (Strings{"Grid/Level/Box/patches" + note, "Grid/Level/Box/autoPatch" + note}));
   EXPECT_FALSE(found.refinement().blocksPerPatch);
 }
@@ -167,7 +167,7 @@ TEST(Blocks, ThatCannotBeGetASentence) {
             (Strings{"AMR/Regridder/min_patch_size: found 2 along x, expected an even number of cells, at least 4"}));
   EXPECT_EQ(refused(along("100"), "<min_patch_size>[[10,1,1],[20,1,1]]</min_patch_size>"),
             (Strings{"AMR/Regridder/min_patch_size: found [[10,1,1],[20,1,1]], expected the same for all levels: a "
-                     "block is refined into blocks with as many cells as it has"}));
+                     "block is refined into blocks with the same number of cells"}));
   EXPECT_EQ(refused(along("1048576"), "<max_levels>16</max_levels>"),
             (Strings{"AMR/Regridder/max_levels: 16 levels make 3.44e+10 cells in 2.15e+09 blocks along x; the most is "
                      "2.15e+09 cells, and 1048576 blocks"}));

@@ -10,9 +10,8 @@ TEST(Regridder, SaysHowManyLevelsThereMayBe) {
 
   const Read still = read(square, amr("<max_levels>3</max_levels>"));
   EXPECT_EQ(still.refinement().levels, 1);
-  EXPECT_EQ(still.notes,
-            (Strings{"AMR/Regridder/max_levels: does nothing: where the grid is not <adaptive>, its Levels "
-                     "say what is refined"}));
+  EXPECT_EQ(still.notes, (Strings{"AMR/Regridder/max_levels: does nothing: the grid is not <adaptive>, so its Levels "
+                                  "alone determine what is refined"}));
 
   EXPECT_EQ(read(square + halved, amr("<max_levels>1</max_levels>")).problems,
             (Strings{"AMR/Regridder/max_levels: found 1, but the Levels of <Grid> make 2"}));
@@ -99,7 +98,7 @@ TEST(Regridder, NotesWhatOfUintahsDoesNothing) {
       (Strings{
           "AMR/Regridder/max_timestep_interval: does nothing: <min_timestep_interval> alone determines when to regrid",
           "AMR/Regridder/min_boundary_cells: does nothing: <cell_stability_dilation> alone widens the refined region, "
-          "besides the distance that signals travel",
+          "in addition to the distance that signals travel",
           "AMR/ICE/orderOfInterpolation: does nothing: interpolation between levels is of second order"}));
   EXPECT_FALSE(found.amr.smallerSteps);
 }
@@ -115,8 +114,8 @@ TEST(Regridder, SaysWhatIsMisspelt) {
   EXPECT_EQ(read(square, amr("<max_level>2</max_level>")).problems.at(0).substr(0, 90),
             "AMR/Regridder/max_level: unknown tag <max_level> in <Regridder> (did you mean 'max_levels'");
   EXPECT_EQ(read(square, "<AMR><Regridder type=\"SingleLevel\"/></AMR>").problems,
-            (Strings{"AMR/Regridder: attribute 'type': found 'SingleLevel', expected 'Tiled' or 'BNR': patches of one "
-                     "level are chosen by <patches> of its Box, or -layout"}));
+            (Strings{"AMR/Regridder: attribute 'type': found 'SingleLevel', expected 'Tiled' or 'BNR': the patches of "
+                     "a single level are set by <patches> in its Box, or by --layout"}));
   EXPECT_EQ(read(square, "<AMR><Euler/><Euler/></AMR>").problems.size(), 1u);
 }
 

@@ -56,7 +56,7 @@ SLIPS = {
     "WithoutCapabilities": ({"using Capabilities": "using Capabilites"},
                             "a constitutive model needs `using Capabilities = CapabilityList<...>`"),
     "ForeignCapability": ({"capability::BulkSpeed>": "capability::BulkSpeed, std::array<int, 2>>"},
-                          "Capabilities must hold capabilities of this kind of model only"),
+                          "Capabilities must list only capabilities of this kind of model"),
 }
 
 # A flow model whose optional member is misspelt.

@@ -113,7 +113,7 @@ TEST(MaterialInput, RefusesColorsThatDoNotGrow) {
       "<entry><color>1</color><bulk_modulus>7</bulk_modulus><shear_modulus>3</shear_modulus>"
       "<yield_stress>2</yield_stress><hardening_modulus>1</hardening_modulus></entry>";
   const std::string table = "<variable_properties>" + entry + entry + "</variable_properties>";
-  expectProblem(sceneOf("UCNHVar", table), "in the order of increasing <color>");
+  expectProblem(sceneOf("UCNHVar", table), "in order of increasing <color>");
 }
 
 TEST(MaterialInput, KeepsStateOnlyWhereTheConstantsNeedIt) {
@@ -255,7 +255,7 @@ TEST(MaterialInput, RefusesAStrengthThatFallsFasterThanTheStress) {
   EXPECT_EQ(sentencesOf(soil(fmt::format("<h_local>{:g}</h_local>", -0.99 * limit))), "");
   expectProblem(soil(fmt::format("<h_local>{:g}</h_local>", -1.01 * limit)), "the strength would fall faster than");
   expectProblem(soil(fmt::format("<h_local>1</h_local><h_nonlocal>{:g}</h_nonlocal>", -1.01 * limit - 1)),
-                "the strength would fall faster than the stress; must be greater than");
+                "the strength would fall faster than the stress; it must be greater than");
   expectProblem(soil(fmt::format("<h_local>{:g}</h_local><h_nonlocal>9</h_nonlocal>", -1.01 * limit)),
                 "must be greater");
 }

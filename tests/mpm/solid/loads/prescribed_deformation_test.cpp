@@ -102,7 +102,7 @@ TEST(PrescribedDeformation, SaysWhatIsWrongWithAFileAndWhere) {
   EXPECT_EQ(problemsOf(start + "1 -1 0 0 0 1 0 0 0 1 0 0 0 0\n"), Sentences{"2: det F is -1, expected more than 0"});
   EXPECT_EQ(problemsOf(start + "1 1 0 0 0 1 0 0 0 1 9 0 0 0\n"),
             Sentences{"2: a rotation needs an axis: its three components are 0"});
-  EXPECT_EQ(problemsOf(start + "1 1 0\n")[0].substr(0, 43), "2: found 3 numbers, expected 14 for a point");
+  EXPECT_EQ(problemsOf(start + "1 1 0\n")[0].substr(0, 41), "2: found 3 numbers, expected 14 per point");
   EXPECT_NE(problemsOf(start)[0].find("has 1 points in time, expected at least 2"), std::string::npos);
 }
 
