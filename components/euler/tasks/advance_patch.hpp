@@ -1,8 +1,8 @@
 #pragma once
 
-#include "components/euler/tasks/advance_block.hpp"
-#include "components/euler/tasks/advance_column.hpp"
+#include "components/euler/tasks/block_step.hpp"
 #include "components/euler/tasks/check_state.hpp"
+#include "components/euler/tasks/column_step.hpp"
 
 namespace tushar::euler {
 

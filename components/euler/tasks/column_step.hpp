@@ -1,6 +1,6 @@
 #pragma once
 
-#include "components/euler/tasks/advance_block.hpp"
+#include "components/euler/tasks/block_step.hpp"
 
 namespace tushar::euler {
 

@@ -1,4 +1,4 @@
-#include "components/euler/tasks/advance_column.hpp"
+#include "components/euler/tasks/column_step.hpp"
 
 #include <gtest/gtest.h>
 
