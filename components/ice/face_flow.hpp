@@ -6,7 +6,7 @@
 
 #include "components/euler/diffusion.hpp"
 #include "components/euler/settings.hpp"
-#include "components/euler/tasks/advance_patch.hpp"
+#include "components/euler/tasks/advance_block.hpp"
 #include "core/solvers/solver.hpp"
 
 namespace tushar::ice {

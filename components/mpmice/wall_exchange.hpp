@@ -1,6 +1,6 @@
 #pragma once
 
-#include "components/euler/tasks/advance_patch.hpp"
+#include "components/euler/tasks/advance_block.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpmice/tasks/measure_exchange.hpp"
 #include "components/mpmice/tasks/wall_force.hpp"

@@ -2,8 +2,10 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -31,18 +33,22 @@ OwnModules& ownModules() {
   return modules;
 }
 
-/// Whether a file begins like a shared library, or cannot be read, in which case dlopen gives the reason.
-bool mayBeLibrary(const fs::path& file) {
-  constexpr std::string_view magic = "\177ELF";
-  std::string start(magic.size(), ' ');
+/// Why a file cannot be a shared library; nothing if it may be one, or cannot be read, which dlopen then explains.
+std::string whyNoLibrary(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  return !in || (in.read(start.data(), magic.size()) && start == magic);
+  if (!in) return "";
+  ElfW(Ehdr) head{};
+  in.read(reinterpret_cast<char*>(&head), sizeof head);
+  if (!std::equal(head.e_ident, head.e_ident + SELFMAG, ELFMAG)) return "it is not a shared library";
+  // The table of sections is the last thing in a file. dlopen would end the program by SIGBUS where pages are missing.
+  const std::uintmax_t end = head.e_shoff + std::uintmax_t(head.e_shnum) * head.e_shentsize;
+  return !in || fs::file_size(file) < end ? "the file is cut off" : "";
 }
 
 /// Opens a shared library and returns its card. Throws std::runtime_error if it is no module, or does not fit.
 const ModuleCard& open(const fs::path& file) {
-  if (!mayBeLibrary(file))
-    throw std::runtime_error(fmt::format("{} is not a module of Tushar: it is not a shared library", file.string()));
+  if (const std::string why = whyNoLibrary(file); !why.empty())
+    throw std::runtime_error(fmt::format("{} is not a module of Tushar: {}", file.string(), why));
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   const std::string problem = handle ? "" : dlerror();
   // A module for another version may call what is not there; its card is read all the same.

@@ -103,6 +103,13 @@ class Misfits(unittest.TestCase):
         self.module.mkdir()
         self.assertEqual(self.refused("--load", self.module), sentence)
 
+    def test_a_library_that_is_cut_off(self):
+        whole = (modules.BUILD / "modules/tushar_heat.so").read_bytes()
+        for size in (40, 1000, len(whole) // 2, len(whole) - 1):
+            self.module.write_bytes(whole[:size])
+            self.assertEqual(self.refused("--load", self.module),
+                             f"sus: {self.module} is not a module of Tushar: the file is cut off\n", size)
+
     def test_a_file_that_is_not_there(self):
         self.assertEqual(self.refused("--load", "nothere.so"), "sus: there is no module nothere.so\n")
 

@@ -1,7 +1,9 @@
-#include "components/euler/tasks/advance_patch.hpp"
+#include "components/euler/tasks/block_instances.hpp"
 
 namespace tushar::euler {
 
 template Advance<1> chooseAdvance<1>(const Method&, const Gas&);
+TUSHAR_BLOCK_INSTANCES(, 1)
+TUSHAR_REFUSE_STATES(, 1)
 
 }  // namespace tushar::euler

@@ -94,6 +94,15 @@ template <int D, class T>
   throw NumericalError(text, "", label, level.cellNumber<D>(cell));
 }
 
+// Compiled in `euler` alone, for the components that are built from it, too.
+#define TUSHAR_REFUSE_STATE(WORD, D, T)                                                              \
+  WORD template void refuseState(const Level&, const Gas&, const Index<D>&, const StateViews<D, T>&, \
+                                 const StateViews<D, const double>*);
+#define TUSHAR_REFUSE_STATES(WORD, D) TUSHAR_REFUSE_STATE(WORD, D, double) TUSHAR_REFUSE_STATE(WORD, D, const double)
+TUSHAR_REFUSE_STATES(extern, 1)
+TUSHAR_REFUSE_STATES(extern, 2)
+TUSHAR_REFUSE_STATES(extern, 3)
+
 /// Throws NumericalError for the first cell of the patch with an invalid state, if there is one.
 template <int D, class T>
 void refuseBroken(const Patch& patch, const Gas& gas, const StateViews<D, T>& state,
