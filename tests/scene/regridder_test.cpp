@@ -100,7 +100,8 @@ TEST(Regridder, NotesWhatOfUintahsDoesNothing) {
           "AMR/Regridder/max_timestep_interval: does nothing: every regrid is due by <min_timestep_interval>",
           "AMR/Regridder/min_boundary_cells: does nothing: <cell_stability_dilation> alone widens the refined region, "
           "besides the distance that signals travel",
-          "AMR/ICE/orderOfInterpolation: does nothing: values between levels are of second order"}));
+          "AMR/ICE/orderOfInterpolation: does nothing: values between levels are of second order",
+          "AMR: attribute 'type' does nothing: a grid is adaptive where <Regridder> says so"}));
   EXPECT_FALSE(found.amr.smallerSteps);
 }
 
