@@ -41,7 +41,7 @@ class GasBefore {
   /// Loads the gas in the cells of `box`.
   void hold(const Box& box, const euler::StateViews<D, const double>& before) {
     old_.hold(box);
-    gas_.withLaw([&](const auto& law) { euler::recover<D>(law, level_, before, old_); });
+    gas_.withLaw([&](const auto& law) { euler::recover<D>(law, level_, old_.box(), before, old_); });
     euler::fillBeyondGrid<D>(level_, rules_, old_);
   }
 

@@ -65,4 +65,15 @@ TEST(DryRun, HasNoMessagesOnOneRank) {
   EXPECT_EQ(alone.messages, 0);
 }
 
+TEST(DryRun, SaysWhatItDoesNotCountOfGridsOfSeveralLevels) {
+  const auto says = [](const DryRun& result, const char* words) {
+    return toText(result).find(words) != std::string::npos;
+  };
+  const DryRun stays, adapts{.isAdaptive = true}, steps{.hasSmallerSteps = true};
+  EXPECT_FALSE(says(stays, "criteria refine it"));
+  EXPECT_TRUE(says(adapts, "of the grid of the scene: criteria refine it when the run begins"));
+  EXPECT_FALSE(says(adapts, "of all levels once"));
+  EXPECT_TRUE(says(steps, "of all levels once: finer ones take several steps in one"));
+}
+
 }  // namespace tushar::scene

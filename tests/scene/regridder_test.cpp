@@ -99,7 +99,8 @@ TEST(Regridder, NotesWhatOfUintahsDoesNothing) {
           "AMR/Regridder/max_timestep_interval: does nothing: <min_timestep_interval> alone determines when to regrid",
           "AMR/Regridder/min_boundary_cells: does nothing: <cell_stability_dilation> alone widens the refined region, "
           "in addition to the distance that signals travel",
-          "AMR/ICE/orderOfInterpolation: does nothing: interpolation between levels is of second order"}));
+          "AMR/ICE/orderOfInterpolation: does nothing: interpolation between levels is of second order",
+          "AMR: attribute 'type' does nothing: a grid is adaptive where <Regridder> says so"}));
   EXPECT_FALSE(found.amr.smallerSteps);
 }
 

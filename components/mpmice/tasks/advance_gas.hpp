@@ -33,7 +33,7 @@ template <int D, class G>
 void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
                 euler::Rows<D, euler::kGases<G>>& w) {
   constexpr int K = euler::kGases<G>;
-  euler::recover<D>(gas, level, cells.held, w);
+  euler::recover<D>(gas, level, w.box(), cells.held, w);
   near.forEachIn(level.clipCells(w.box()), [&](const Index<D>& cell) {
     if (!(cells.free[cell] < 1) && !cells.isEmpty(cell)) return;
     euler::State<D, K> state{};
