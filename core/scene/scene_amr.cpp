@@ -224,9 +224,8 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
              "coarser level, if no task of a step needs new values of other cells or sums over the grid")
       .section("Regridder", &AmrSection::regridder, regridderSchema());
   if (!names.empty()) {
-    input::TagForm form = input::sectionForm(names, [] {
-      return std::vector<input::Alternative>{{&thresholdsSchema(), {}}};
-    });
+    input::TagForm form =
+        input::sectionForm(names, [] { return std::vector<input::Alternative>{{&thresholdsSchema(), {}}}; });
     form.repeats = false;
     section
         .custom(names.front(), readComponents, names, "how the component runs on several levels",
@@ -363,6 +362,17 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
     else
       diagnostics.error(criterion.where, criterion.path, "name: " + input::choiceProblem(criterion.variable, names));
   return amr.regrid;
+}
+
+void dropSavedNodes(std::vector<simulation::SaveRequest>& saves, Diagnostics& diagnostics) {
+  std::erase_if(saves, [&](const simulation::SaveRequest& save) {
+    const bool isOfNodes = save.label.starts_with(data::NodeLabel<double>::prefix());
+    if (isOfNodes)
+      diagnostics.note(
+          save.where, "DataArchiver/save",
+          fmt::format("'{}' is not saved: on several levels only cell and particle variables are", save.label));
+    return isOfNodes;
+  });
 }
 
 const input::SchemaBase& amrForm(const simulation::ComponentKind& kind) { return amrSchema(amrSectionsOf(kind)); }
