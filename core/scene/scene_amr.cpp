@@ -224,8 +224,9 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
              "coarser level, if no task of a step needs new values of other cells or sums over the grid")
       .section("Regridder", &AmrSection::regridder, regridderSchema());
   if (!names.empty()) {
-    input::TagForm form =
-        input::sectionForm(names, [] { return std::vector<input::Alternative>{{&thresholdsSchema(), {}}}; });
+    input::TagForm form = input::sectionForm(names, [] {
+      return std::vector<input::Alternative>{{&thresholdsSchema(), {}}};
+    });
     form.repeats = false;
     section
         .custom(names.front(), readComponents, names, "how the component runs on several levels",
