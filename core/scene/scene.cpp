@@ -381,6 +381,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   else
     checkLabels(*problem.component, problem.analyses, problem.archive.saves, diagnostics);
   diagnostics.throwIfAny();
+  if (domain.refinement.levels > 1) dropSavedNodes(problem.archive.saves, diagnostics);
   for (const InputProblem& note : problem.component->notes()) diagnostics.note(note.where, note.tagPath, note.sentence);
   problem.notes = diagnostics.notes();
   return problem;

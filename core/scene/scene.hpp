@@ -45,6 +45,8 @@ AmrSettings readAmr(const input::Element& section, const simulation::ComponentKi
 /// component lacks.
 simulation::RegridSettings settled(AmrSettings amr, const simulation::Component& component,
                                    input::Diagnostics& diagnostics);
+/// Removes variables of nodes, which have no values between levels, with a note.
+void dropSavedNodes(std::vector<simulation::SaveRequest>& saves, input::Diagnostics& diagnostics);
 /// The boundary conditions that a component supports.
 struct SideWords {
   std::vector<grid::BoundaryVariable> labels = {};

@@ -366,6 +366,17 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
   return amr.regrid;
 }
 
+void dropSavedNodes(std::vector<simulation::SaveRequest>& saves, Diagnostics& diagnostics) {
+  std::erase_if(saves, [&](const simulation::SaveRequest& save) {
+    const bool isOfNodes = save.label.starts_with(data::NodeLabel<double>::prefix());
+    if (isOfNodes)
+      diagnostics.note(
+          save.where, "DataArchiver/save",
+          fmt::format("'{}' is not saved: on several levels only cell and particle variables are", save.label));
+    return isOfNodes;
+  });
+}
+
 const input::SchemaBase& amrForm(const simulation::ComponentKind& kind) { return amrSchema(amrSectionsOf(kind)); }
 
 void describeAmr(std::ostream& out, const simulation::Catalogue& catalogue) {
