@@ -13,7 +13,8 @@ from sus import ROOT
 
 PRESSURE, DENSITY, FREE = "c.pressure [Pa]", "c.density [kg/m^3]", "c.freeVolume [1]"
 # Width and height of scenes in a plane, m.
-PLANE = {"bubble_and_body": (.1, .05), "rest": (1, 1), "burning_grain": (1, 1), "carried_disc": (1, 1), "cylinder": (1, .2), "wedge": (1, .8)}
+PLANE = {"bubble_and_body": (.1, .05), "rest": (1, 1),
+         "burning_grain": (1, 1), "carried_disc": (1, 1), "cylinder": (1, .2), "wedge": (1, .8)}
 
 
 def scene(name):
