@@ -20,6 +20,7 @@ inline const simulation::OtherNames uintahsNames{
 
 /// Variables of Uintah that no task computes here.
 inline const std::vector<std::string> uintahsLabels{"vol_frac_CC",
+                                                    "sp_vol_L_CC",
                                                     "delP_Dilatate",
                                                     "delP_MassX",
                                                     "sum_imp_delP",

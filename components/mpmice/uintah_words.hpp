@@ -7,6 +7,13 @@
 namespace tushar::mpmice {
 
 /// Variables that have another name here.
-inline const simulation::OtherNames uintahsNames{{"rho_micro_CC", "c.gasDensity"}, {"vol_frac_CC", "c.freeVolume"}};
+inline const simulation::OtherNames uintahsNames{{"rho_micro_CC", "c.gasDensity"},
+                                                 {"vol_frac_CC", "c.freeVolume"},
+                                                 {"totalMassBurned", "BurntMass"},
+                                                 {"totalHeatReleased", "ReactionHeat"},
+                                                 {"p.mass+", "p.mass"},
+                                                 {"p.volume+", "p.volume"},
+                                                 {"p.velocity+", "p.velocity"},
+                                                 {"p.temperature+", "p.temperature"}};
 
 }  // namespace tushar::mpmice

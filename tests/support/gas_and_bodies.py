@@ -13,7 +13,8 @@ from sus import ROOT
 
 PRESSURE, DENSITY, FREE = "c.pressure [Pa]", "c.density [kg/m^3]", "c.freeVolume [1]"
 # Width and height of scenes in a plane, m.
-PLANE = {"bubble_and_body": (.1, .05), "rest": (1, 1), "burning_grain": (1, 1), "carried_disc": (1, 1), "cylinder": (1, .2), "wedge": (1, .8)}
+PLANE = {"bubble_and_body": (.1, .05), "rest": (1, 1),
+         "burning_grain": (1, 1), "carried_disc": (1, 1), "cylinder": (1, .2), "wedge": (1, .8)}
 
 
 def scene(name):
@@ -180,7 +181,7 @@ def slow_piston(cells):
 def burning_slab(cells):
     """Relative error of the way that the surface of a slab has burned at constant pressure."""
     run_of = Outcome("burning_slab", cells)
-    return {"way": run_of.last("BurntMass") / (20 * .25) - 1}
+    return {"way": run_of.last("BurntMass") / (20 * .1) - 1}
 
 
 def burnt_in_vessel(time, steps=2000):
@@ -190,10 +191,10 @@ def burnt_in_vessel(time, steps=2000):
 
     mass, dt = 0, time / steps
     for _ in range(steps):
-        a = .1 * pressure(mass) ** .778
-        b = .1 * pressure(mass + .5 * dt * a) ** .778
-        c = .1 * pressure(mass + .5 * dt * b) ** .778
-        d = .1 * pressure(mass + dt * c) ** .778
+        a = .02 * pressure(mass) ** .778
+        b = .02 * pressure(mass + .5 * dt * a) ** .778
+        c = .02 * pressure(mass + .5 * dt * b) ** .778
+        d = .02 * pressure(mass + dt * c) ** .778
         mass += dt / 6 * (a + 2 * b + 2 * c + d)
     return mass, pressure(mass)
 
@@ -202,7 +203,7 @@ def burning_vessel(cells):
     """Relative errors of the mass that has burned in a closed vessel and of the mean pressure, and what changes of the
     mass and the energy there is."""
     run_of = Outcome("burning_vessel", cells)
-    mass, pressure = burnt_in_vessel(10)
+    mass, pressure = burnt_in_vessel(20)
     gas = [(p, free) for p, free in zip(run_of.fields[PRESSURE], run_of.fields[FREE]) if free >= 1e-9]
     mean_pressure = math.fsum(p * free for p, free in gas) / math.fsum(free for _, free in gas)
     return {"burnt": run_of.last("BurntMass") / mass - 1, "p": mean_pressure / pressure - 1,

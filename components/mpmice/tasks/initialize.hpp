@@ -88,7 +88,8 @@ void initializeGases(const Patch& patch, const Settings& settings, CellView<cons
   const Level& level = patch.level();
   const auto& held = fresh.held;
   if (patch.id() == 0)
-    for (const euler::Settings& gas : settings.gases) euler::checkObjects<D>(level, gas);
+    for (std::size_t k = 0; k < settings.gases.size(); ++k)  // what a body burns to may be nowhere yet
+      if (!settings.burning || settings.burning->gas != k) euler::checkObjects<D>(level, settings.gases[k]);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const bool hasRoom = !(free[cell] < leastFreeVolume);
     const auto start = hasRoom ? gasesOf<D>(level, settings.gases, cell) : ice::MixtureStart<D>{.share = {1}};
