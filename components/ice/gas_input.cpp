@@ -305,6 +305,18 @@ Vec3 middleOf(const Element& root) {
   return 0.5 * (corner("upper") - corner("lower"));
 }
 
+/// Takes the velocity and the temperature that <customInitialization> gives the gas at the start.
+void takeDisturbance(const CustomStart& start, const std::vector<GasMaterial>& materials, const Element& root,
+                     euler::Settings& gas, Diagnostics& diagnostics) {
+  if (const std::string problem = start.problem(materials.size()); !problem.empty())
+    diagnostics.error(*root.child("CFD")->child("ICE")->child("customInitialization"), problem);
+  const double gasConstant = (materials.front().gamma - 1) * materials.front().specificHeat;
+  gas.disturb = [start, gasConstant, middle = middleOf(root)](const Vec3& point, double rho, Vec3& velocity,
+                                                              double& temperature) {
+    start.apply(point, {rho, gasConstant, middle}, velocity, temperature);
+  };
+}
+
 }  // namespace
 
 GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
@@ -333,15 +345,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   if (cfd.ice.push) scene.push = Vec3(cfd.ice.push->x, cfd.ice.push->y, cfd.ice.push->z);
   if (cfd.ice.heating) scene.heating = heatingOf(*cfd.ice.heating, solids, materials.size(), diagnostics);
   if (cfd.ice.eddies) scene.varying.smagorinsky = cfd.ice.eddies->constant;
-  if (cfd.ice.start) {
-    if (const std::string problem = cfd.ice.start->problem(materials.size()); !problem.empty())
-      diagnostics.error(*root.child("CFD")->child("ICE")->child("customInitialization"), problem);
-    const double gasConstant = (materials.front().gamma - 1) * materials.front().specificHeat;
-    scene.gas.disturb = [start = *cfd.ice.start, gasConstant, middle = middleOf(root)](
-                            const Vec3& point, double rho, Vec3& velocity, double& temperature) {
-      start.apply(point, {rho, gasConstant, middle}, velocity, temperature);
-    };
-  }
+  if (cfd.ice.start) takeDisturbance(*cfd.ice.start, materials, root, scene.gas, diagnostics);
   if (properties.exchange) {
     scene.exchange = properties.exchange->coefficients;
     scene.exchange->heatByMasses = properties.exchange->model.value_or(CoefficientSection()).heat != "constant";

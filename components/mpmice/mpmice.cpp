@@ -119,8 +119,9 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
                         withoutMaterial(all<Blowing<D>>(burns())), withoutMaterial(all<WallPressures<D>>()));
 }
 
+/// What bodies fill at the end of the step, and what they swept.
 template <int D>
-void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) const {
+void GasAround<D>::scheduleBoxes(TaskList& tasks, const Materials& materials) const {
   if (burns())
     tasks.perMaterial("mpmice::burnParticles", burnParticles<D>, materials, with(settings_),
                       withoutMaterial(requiresNew(c::burntShare)), requiresOld(p::mass), requiresOld(p::unburned),
@@ -131,6 +132,11 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, all<MovedBoxes<D>>(),
                         withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume)),
                         withoutMaterial(computes(c::swept<D>)));
+}
+
+template <int D>
+void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) const {
+  scheduleBoxes(tasks, materials);
   if (settings_.implicit)
     tasks.acrossMaterials("mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_),
                           requiresOld(delT), withoutMaterial(all<GasInStep<D>>()),

@@ -45,6 +45,7 @@ class GasAround : public mpm::solid::Surroundings {
   /// Whether what burns has strain energy, which the gas gets.
   bool keepsStrain(const Materials& materials) const;
   void scheduleBurning(TaskList& tasks, const Materials& materials) const;
+  void scheduleBoxes(TaskList& tasks, const Materials& materials) const;
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
 
   Settings settings_;

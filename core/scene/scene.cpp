@@ -10,6 +10,7 @@
 #include "core/base/joined.hpp"
 #include "core/input/schema.hpp"
 #include "core/scene/module_conflicts.hpp"
+#include "core/scene/scene_labels.hpp"
 #include "core/scene/scene_samples.hpp"
 #include "core/simulation/phases.hpp"
 
@@ -229,45 +230,6 @@ Trial tryOut(const MakeComponent& make) {
   return {};
 }
 
-/// Replaces Uintah's names of variables by those used here, with a note; each is saved once.
-void renameLabels(const simulation::OtherNames& names, std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
-  std::vector<SaveRequest> kept;
-  for (SaveRequest& save : saves) {
-    const std::string given = std::exchange(save.label, nameHere(names, save.label));
-    const bool isRenamed = save.label != given;
-    if (isRenamed)
-      diagnostics.note(save.where, "DataArchiver/save", fmt::format("'{}' is saved as '{}'", given, save.label));
-    const bool isThere =
-        std::any_of(kept.begin(), kept.end(), [&](const SaveRequest& other) { return other.label == save.label; });
-    if (!isRenamed || !isThere) kept.push_back(save);
-  }
-  saves = std::move(kept);
-}
-
-/// Reports problems with saved and sampled labels. Removes, with a note, labels that Uintah has and no task here
-/// computes.
-void checkLabels(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
-                 std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
-  renameLabels(otherNames(component, analyses), saves, diagnostics);
-  settleSamples(component, analyses, diagnostics);
-  const Phases phases(component, analyses);
-  const std::vector<std::string> foreign = component.foreignLabels();
-  std::erase_if(saves, [&](const SaveRequest& save) {
-    const bool isLacking = std::find(foreign.begin(), foreign.end(), save.label) != foreign.end() &&
-                           !phases.saveable().contains(save.label);
-    if (isLacking)
-      diagnostics.note(save.where, "DataArchiver/save",
-                       fmt::format("'{}' is not saved: no task computes it here", save.label));
-    return isLacking;
-  });
-  for (const SaveRequest& save : saves)
-    for (const std::string& remark : phases.remarksOn(save))
-      diagnostics.note(save.whereOfMaterial, "DataArchiver/save", remark);
-  for (const std::vector<InputProblem>& problems : {phases.problemsOf(saves), phases.problemsOf(analyses)})
-    for (const InputProblem& problem : problems) diagnostics.error(problem.where, problem.tagPath, problem.sentence);
-  refuseSharedFiles(analyses, saves, diagnostics);
-}
-
 /// Checks the labels even if other parts of the scene are invalid, as those of a component and its modules do not
 /// depend on the grid. Returns false if it cannot: some components and modules cannot be made on the small grid that it
 /// uses.
@@ -294,6 +256,11 @@ void readSharedSections(const Element& root, Problem& problem, Diagnostics& diag
     problem.archive = readArchive(*archive, diagnostics);
     checkIntervals(problem.time, problem.archive, *archive, diagnostics);
   }
+}
+
+AmrSettings amrOf(const Element& root, const ComponentKind* kind, Diagnostics& diagnostics) {
+  const auto given = section(root, "AMR", false, diagnostics);
+  return given ? readAmr(*given, kind, diagnostics) : AmrSettings{};
 }
 
 /// <Grid> for a component; for an unknown one, all that a grid may have.
@@ -350,8 +317,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   if (kind)
     for (const std::string& first : kind->readFirst) document.readFirst(first);
   readSharedSections(root, problem, diagnostics);
-  AmrSettings amr;
-  if (const auto given = section(root, "AMR", false, diagnostics)) amr = readAmr(*given, kind, diagnostics);
+  AmrSettings amr = amrOf(root, kind, diagnostics);
   grid::Domain domain;
   if (const auto grid = section(root, "Grid", true, diagnostics))
     domain = readGridFor(kind, *grid, amr, workers, diagnostics);
