@@ -177,16 +177,16 @@ class Schema : public SchemaBase {
     return put(attribute(textEntry(name, sentence)));
   }
 
-  /// Reads what declarations cannot express. `read` is called once with the element of *this* schema, whether or not
+  /// Reads what declarations cannot express. `reader` is called once with the element of *this* schema, whether or not
   /// any of the tags that it `takes` over (`name` itself if none are listed) is given. `Read` is a function of an S&,
   /// an Element and Diagnostics.
   template <class Read>
-  Schema& custom(std::string_view name, Read read, std::vector<std::string> takes, std::string_view sentence,
+  Schema& custom(std::string_view name, Read reader, std::vector<std::string> takes, std::string_view sentence,
                  std::function<void(std::ostream&, int)> describeBelow = {}) {
     addCustom(
         name,
-        [read = std::move(read)](void* object, const Element& element, Diagnostics& diagnostics) {
-          read(*static_cast<S*>(object), element, diagnostics);
+        [reader = std::move(reader)](void* object, const Element& element, Diagnostics& diagnostics) {
+          reader(*static_cast<S*>(object), element, diagnostics);
         },
         std::move(takes), sentence, std::move(describeBelow));
     return *this;
@@ -210,9 +210,9 @@ class Schema : public SchemaBase {
   /// Checks values against each other; called only if the element had no problem so far. `Check` is a function of a
   /// const S&, an Element and Diagnostics.
   template <class Check>
-  Schema& check(Check check) {
-    addCheck([check = std::move(check)](const void* object, const Element& element, Diagnostics& diagnostics) {
-      check(*static_cast<const S*>(object), element, diagnostics);
+  Schema& check(Check checker) {
+    addCheck([checker = std::move(checker)](const void* object, const Element& element, Diagnostics& diagnostics) {
+      checker(*static_cast<const S*>(object), element, diagnostics);
     });
     return *this;
   }
