@@ -88,8 +88,10 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
                           requiresNew(g::record, 1), withoutMaterial(computes(c::wallFriction<D>)));
   tasks.acrossMaterials(
       "mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
-      withoutMaterial(gasIn(readsOld, {.mass = 3, .room = 3})), withoutMaterial(all<KnownWalls<D>>(2, isViscous())),
-      requiresNew(g::record, isViscous() ? 3 : 2), computes(total::forceOnBodies), computes(g::surroundingForce<D>));
+      withoutMaterial(
+          gasIn(readsOld, {.state = isViscous() && settings_.diffusion.varies() ? 2 : 0, .mass = 3, .room = 3})),
+      withoutMaterial(all<KnownWalls<D>>(2, isViscous())), requiresNew(g::record, isViscous() ? 3 : 2),
+      computes(total::forceOnBodies), computes(g::surroundingForce<D>));
 }
 
 /// What burns in the step, by the state at its start.

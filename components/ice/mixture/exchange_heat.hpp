@@ -9,6 +9,9 @@
 
 namespace tushar::ice {
 
+/// A gas with a smaller part of the mass of all in a cell has no heat that counts, and numbers too small to divide by.
+inline constexpr double leastPartOfMass = 1e-30;
+
 /// The participants in the heat exchange of a cell, at most `Most` or any number: bodies in their order, then gases.
 /// All is per volume of the cell; what is absent has the capacity 0.
 template <int Most = Eigen::Dynamic>
@@ -175,7 +178,8 @@ void exchangeHeat(const Patch& patch, const Gases& gases, const HeatCoefficients
     const double pressure = euler::mixedAt(gases, held, cell).pressure(density[cell], energy);
     WarmThings<euler::kMostGases> things(count);
     for (Eigen::Index k = 0; k < count; ++k)
-      things.setGas(k, gases[k].gas, held[k].mass[cell], held[k].share[cell], pressure);
+      if (held[k].mass[cell] > leastPartOfMass * density[cell])
+        things.setGas(k, gases[k].gas, held[k].mass[cell], held[k].share[cell], pressure);
     giveHeat(things, heating, time, dt, 0);
     totalEnergy[cell] += things.given.sum();
     if (things.present() < 2) return;

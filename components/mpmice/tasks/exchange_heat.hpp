@@ -99,8 +99,9 @@ class HeatExchange {
         mixed.add(gas_.shares[k][cell], settings_.gases[k].gas.gamma, settings_.gases[k].gas.pInfinity);
       const double pressure = mixed.pressure(mass / free, internal / free);
       for (std::size_t k = 0; k < settings_.gases.size(); ++k)
-        things.setGas(first + static_cast<Eigen::Index>(k), settings_.gases[k].gas, gas_.masses[k][cell],
-                      free * gas_.shares[k][cell], pressure);
+        if (gas_.masses[k][cell] > ice::leastPartOfMass * mass)
+          things.setGas(first + static_cast<Eigen::Index>(k), settings_.gases[k].gas, gas_.masses[k][cell],
+                        free * gas_.shares[k][cell], pressure);
       return;
     }
     const euler::Gas& gas = settings_.gas.gas;
