@@ -108,6 +108,8 @@ inline constexpr CellLabel<Vec<D>> blowing{
 template <int D>
 inline constexpr CellLabel<Vec<D>> recoil{"c.recoil", "Pa",
                                           "of new gas on walls at the lower faces; negative where the gas is above"};
+inline constexpr CellLabel<double> burnRateWithin{
+    "c.burnRateWithin", "kg/(m^3 s)", "mass that burns in a cell with a rest of a body, over the cell's volume"};
 inline constexpr CellLabel<double> burntShare{"c.burntShare", "1", "share of c.reactantMass that burns in the step"};
 inline constexpr CellLabel<double> burntSinceStart{"c.burntSinceStart", "kg/m^3", "mass that burned in the cell"};
 inline constexpr CellLabel<double> gasDensity{"c.gasDensity", "kg/m^3", "mass per volume of the gas; 0 where none is"};

@@ -102,7 +102,8 @@ void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials) 
   tasks.perPatch("mpmice::findBurning", findBurning<D>, with(settings_),
                  gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), all<Reactant>(1), all<NewBurning<D>>());
   tasks.perPatch("mpmice::findBurntShare", findBurntShare<D>, with(settings_), startTime(), requiresOld(delT),
-                 requiresNew(c::burnRate<D>, 2), requiresNew(c::reactantMass, 1), computes(c::burntShare));
+                 requiresNew(c::burnRate<D>, 2), requiresNew(c::burnRateWithin, 1), requiresNew(c::reactantMass, 1),
+                 computes(c::burntShare));
 }
 
 /// The pressure at the end of the step, that on walls included.

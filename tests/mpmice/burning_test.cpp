@@ -54,10 +54,10 @@ struct HalfSpace {
 struct Line {
   Level level{euler::closedBox(1, 4)};
   Field<Vec<1>> rate{level.cells(), Vec<1>::Zero()};
-  Field<double> mass{level.cells(), 0};
+  Field<double> within{level.cells(), 0}, mass{within};
 
   std::vector<double> shares(double dt) const {
-    const BurntMass<1> burnt(level, rate.seen(), mass.seen(), dt);
+    const BurntMass<1> burnt(level, rate.seen(), within.seen(), mass.seen(), dt);
     std::vector<double> all;
     for (int k = 0; k < 4; ++k) all.push_back(burnt.shareOf({k}));
     return all;
@@ -117,6 +117,13 @@ TEST(BurntMass, IsWhatIsWantedFromBothSides) {
   const std::vector<double> shares = line.shares(0.5);
   EXPECT_DOUBLE_EQ(shares[2] * 8, 4);
   EXPECT_EQ(shares[1] + shares[3], 0);
+}
+
+TEST(BurntMass, IsAlsoThatOfRests) {
+  Line line;
+  line.mass.values = {0, 3, 0, 0};
+  line.within.values[1] = 2;
+  EXPECT_DOUBLE_EQ(line.shares(0.5)[1], 1.0 / 3);
 }
 
 TEST(SimpleBurn, FollowsThePressure) {

@@ -11,8 +11,10 @@ namespace tushar::mpmice {
 template <int D>
 class BurntMass {
  public:
-  BurntMass(const Level& level, CellView<const Vec<D>> rate, CellView<const double> mass, double dt)
-      : level_(level), rate_(rate), mass_(mass), dt_(dt) {}
+  /// `rate` is that at faces, `within` that in cells (see NewBurning).
+  BurntMass(const Level& level, CellView<const Vec<D>> rate, CellView<const double> within, CellView<const double> mass,
+            double dt)
+      : level_(level), rate_(rate), within_(within), mass_(mass), dt_(dt) {}
 
   /// The share of a cell's mass that burns.
   double shareOf(const Index<D>& cell) const {
@@ -35,7 +37,7 @@ class BurntMass {
     }
   }
   double wantedFrom(const Index<D>& cell) const {
-    double wanted = 0;
+    double wanted = dt_ * within_[cell];
     forEachFace(cell, [&](const Index<D>&, double burnt) { wanted += std::max(0.0, burnt); });
     return wanted;
   }
@@ -47,15 +49,15 @@ class BurntMass {
 
   const Level& level_;
   CellView<const Vec<D>> rate_;
-  CellView<const double> mass_;
+  CellView<const double> within_, mass_;
   double dt_;
 };
 
 /// Finds the share of each cell's mass that burns in a step.
 template <int D>
 void findBurntShare(const Patch& patch, const Settings& settings, double start, double dt, CellView<const Vec<D>> rate,
-                    CellView<const double> mass, CellView<double> share) {
-  const BurntMass<D> burnt(patch.level(), rate, mass, dt);
+                    CellView<const double> within, CellView<const double> mass, CellView<double> share) {
+  const BurntMass<D> burnt(patch.level(), rate, within, mass, dt);
   const auto* decay = std::get_if<ice::Decay>(&settings.burning->model.law);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (decay)

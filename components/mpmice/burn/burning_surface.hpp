@@ -62,14 +62,17 @@ class SurfaceAtFaces {
 template <int D>
 struct NewBurning {
   CellView<Vec<D>> rate, blowing, recoil;
+  CellView<double> within;
 
   static NewBurning from(auto& take) {
     return {.rate = take(computes(c::burnRate<D>)),
             .blowing = take(computes(c::blowing<D>)),
-            .recoil = take(computes(c::recoil<D>))};
+            .recoil = take(computes(c::recoil<D>)),
+            .within = take(computes(c::burnRateWithin))};
   }
   void clear() const {
     for (const auto& field : {rate, blowing, recoil}) field.fill(Vec<D>::Zero());
+    within.fill(0);
   }
 };
 
@@ -104,7 +107,31 @@ class BurningSurface {
     fresh.recoil[above][axis] = part * rate * speed;
   }
 
+  /// What burns in a cell that has a rest of a body, or a part of a plate thinner than a cell: where no cell around is
+  /// a wall, areas have no step. Its surface is that of one face.
+  void burnWithin(const Index<D>& cell, const NewBurning<D>& fresh) const {
+    if (!(reactant_.mass[cell] > 0) || cells_.isEmpty(cell) || isBesideWall(cell)) return;
+    const euler::Gas law = lawAt<D>(settings_, cells_.held, cell);
+    const euler::State<D> w = cells_.primitive(law, cell);
+    const double pressure = law.pressureOf(w[euler::kDensity], w[euler::kPressure<D>]);
+    const ice::BurnModel& model = settings_.burning->model;
+    if (!(pressure > model.leastPressure) || !(hottestAt(cell, cell) > model.ignitionTemperature)) return;
+    double perWidth = 0;
+    for (int d = 0; d < D; ++d) perWidth += level_.inverseSpacing(d) / D;
+    const double density = reactant_.mass[cell] / reactant_.volume[cell];
+    fresh.within[cell] =
+        perWidth * reactant_.shareIn(cell, cell) * model.rate({pressure, reactant_.temperature[cell], density});
+  }
+
  private:
+  /// Whether a body fills most of the area of a cell around.
+  bool isBesideWall(const Index<D>& cell) const {
+    bool is = false;
+    forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) {
+      for (int d = 0; d < D; ++d) is = is || surface_.space().faces(at, d).area < 0.5;
+    });
+    return is;
+  }
   /// The greatest temperature of what fills more than a fifth of one of the cells at a face.
   double hottestAt(const Index<D>& gas, const Index<D>& body) const {
     double hottest = std::max(reactant_.hottest[gas], reactant_.hottest[body]);
@@ -131,6 +158,7 @@ void findBurning(const Patch& patch, const Settings& settings, const GasInCells<
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     for (int d = 0; d < D; ++d)
       if (!space.isAtSide(cell, d, 0)) surface.burn(cell, d, fresh);
+    surface.burnWithin(cell, fresh);
   });
 }
 
