@@ -60,7 +60,7 @@ std::optional<data::Minimum> LevelSteps::advance(const tasks::StepInfo& whole) {
   const tasks::TaskGraph& graph = run_.phases.timeAdvance;
   const tasks::KeptLevels before(run_.warehouse, graph.results());
   const auto stableBefore = stable_;
-  run_.levelSteps.assign(static_cast<std::size_t>(run_.problem.grid->levels()), 0);
+  steps_.assign(static_cast<std::size_t>(run_.problem.grid->levels()), 0);
   tasks::StepInfo coarsest = whole;
   coarsest.level = 0;
   std::optional<data::Minimum> asked;
@@ -91,7 +91,7 @@ std::optional<data::Minimum> LevelSteps::advanceLevel(const tasks::StepInfo& at)
   }
   run_.scheduler.commitLevel(run_.phases.timeAdvance, at.level);
   stable_[static_cast<std::size_t>(at.level)].reset();
-  ++run_.levelSteps[static_cast<std::size_t>(at.level)];
+  ++steps_[static_cast<std::size_t>(at.level)];
   return std::nullopt;
 }
 

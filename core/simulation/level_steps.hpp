@@ -27,8 +27,10 @@ class LevelSteps {
   /// Advances the old state of all levels by the step of the coarsest, `whole.delT`; the new state has stable steps. If
   /// a task requests a smaller one, returns its factor and reason; then, and if a NumericalError comes out, the old
   /// state is as it was.
-  /// Counts the steps of each level in RunState::levelSteps: 0 for those that have no cells.
   std::optional<data::Minimum> advance(const tasks::StepInfo& whole);
+
+  /// Steps of each level in the last step of the coarsest; 0 for those that have no cells.
+  const std::vector<int>& steps() const { return steps_; }
 
  private:
   /// Makes a step of a level, and the steps of finer levels within it.
@@ -47,6 +49,7 @@ class LevelSteps {
   std::optional<grid::BlockTree> tree_;               ///< of the state that `stable_` is of
   int levels_ = 1;                                    ///< that have cells
   std::vector<std::optional<data::Minimum>> stable_;  ///< by level, s: of its state as it is now, where that is known
+  std::vector<int> steps_;
 };
 
 /// How many equal steps fill `rest` [s] where `stable` [s] is the longest: for a rest that begins with the coarser step

@@ -10,14 +10,12 @@ namespace tushar::simulation {
 
 void Rebalancer::balanceAtStart() {
   if (run_.ranks.isAlone()) return;
-  const std::vector<int> steps = run_.expectedLevelSteps();
   std::vector<double> costs;
   for (const grid::Patch& patch : run_.problem.grid->patches()) {
     int particles = 0;
     for (int material = 0; material < run_.materials(); ++material)
       particles += run_.warehouse.particles(data::Generation::old, material, patch.id()).owned();
-    const int ofLevel = steps.empty() ? 1 : steps[static_cast<std::size_t>(patch.level().number())];
-    costs.push_back(ofLevel * Balance::costOf(patch.cells().size(), particles));
+    costs.push_back(Balance::costOf(patch.cells().size(), particles));
   }
   balance(costs);
 }

@@ -236,7 +236,7 @@ void Regridder::change(grid::BlockTree tree) {
         run_.warehouse.isHeld(data::Generation::old, variable))
       cells.push_back(variable);
   run_.scheduler.fillGhosts(cells);
-  tasks::regrid(*run_.problem.grid, std::move(tree), run_.warehouse, variables, {.steps = run_.expectedLevelSteps()});
+  tasks::regrid(*run_.problem.grid, std::move(tree), run_.warehouse, variables);
   run_.scheduler.forgetLayout();
   ++regrids_;
   tasks::TaskGraph& mend = run_.phases.refined;

@@ -58,13 +58,4 @@ tasks::MigratedVariables RunState::migratedVariables() const {
   return migrated;
 }
 
-std::vector<int> RunState::expectedLevelSteps() const {
-  if (!problem.smallerSteps) return {};
-  std::vector<int> steps = levelSteps;
-  steps.resize(static_cast<std::size_t>(problem.grid->levels()), 0);
-  for (std::size_t level = 0; level < steps.size(); ++level)
-    if (steps[level] == 0) steps[level] = level == 0 ? 1 : 2 * steps[level - 1];
-  return steps;
-}
-
 }  // namespace tushar::simulation

@@ -37,9 +37,6 @@ struct RunState {
   /// The totals of the current state, computed by a graph.
   Totals measureTotals(tasks::TaskGraph& graph);
 
-  /// Where finer levels take smaller steps: those of each level that one of the coarsest will have, as many as in the
-  /// last one, and twice those of the next coarser level where a level had no cells. Else none.
-  std::vector<int> expectedLevelSteps() const;
   /// The variables that outlive a step.
   tasks::MigratedVariables migratedVariables() const;
 
@@ -55,8 +52,7 @@ struct RunState {
   TimeControl time;
   RunClock clock;
   Progress progress;
-  std::vector<int> levelSteps;  ///< where finer levels take smaller steps: of each level in the last of the coarsest
-  Totals totalsAtStart;         ///< of the run, or of the one that it goes on from
+  Totals totalsAtStart;  ///< of the run, or of the one that it goes on from
 };
 
 }  // namespace tushar::simulation

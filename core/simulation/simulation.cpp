@@ -182,7 +182,7 @@ void Simulation::loop() {
 void Simulation::step() {
   TimeControl& time = run_.time;
   advance();
-  level_steps_ ? report_.noteStep(run_.levelSteps) : report_.noteStep();
+  level_steps_ ? report_.noteStep(level_steps_->steps()) : report_.noteStep();
   if (run_.progress.due()) run_.progress.live(time.step(), time.time(), time.delT(), run_.problem.time.maxTime);
   regridder_.regridIfDue();
   rebalancer_.balanceIfDue();

@@ -260,11 +260,11 @@ std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, co
   return parts;
 }
 
-/// How many particles each patch will have, on any rank.
-std::vector<double> particlesOfPatches(const grid::Grid& grid, const grid::BlockTiling& next,
-                                       const mpi::Communicator& ranks, const Luggage& luggage) {
+/// The shares of ranks that cost the same; nothing if there are only cells, which are shared by number.
+grid::RankOffsets sharesOf(const grid::Grid& grid, const grid::BlockTiling& next, const mpi::Communicator& ranks,
+                           const Luggage& luggage, const PatchCosts& costs) {
+  if (ranks.isAlone() || !luggage.hasMaterials()) return {};
   std::vector<double> ofPatches(static_cast<std::size_t>(next.count()));
-  if (!luggage.hasMaterials()) return ofPatches;
   const Pieces pieces(grid.tiling(), next, grid.dimension(), grid.levels());
   std::set<int> readers;
   for (const grid::Patch& patch : grid.patches())
@@ -274,20 +274,9 @@ std::vector<double> particlesOfPatches(const grid::Grid& grid, const grid::Block
       if (grid.isMine(piece.from)) ofPatches[reader] += luggage.particlesOf(piece);
     });
   ranks.sum(ofPatches);
-  return ofPatches;
-}
-
-/// The shares of ranks that cost the same; nothing if there are only cells, and all cost the same: these are shared by
-/// number.
-grid::RankOffsets sharesOf(const grid::Grid& grid, const grid::BlockTiling& next, const mpi::Communicator& ranks,
-                           const Luggage& luggage, const PatchCosts& costs) {
-  if (ranks.isAlone() || (!luggage.hasMaterials() && costs.steps.empty())) return {};
-  std::vector<double> ofPatches = particlesOfPatches(grid, next, ranks, luggage);
   for (int patch = 0; patch < next.count(); ++patch) {
-    const grid::Tile tile = next.tile(patch);
     double& cost = ofPatches[patch];
-    cost = costs.ofParticle * cost + costs.ofCell * static_cast<double>(tile.cells.size());
-    if (!costs.steps.empty()) cost *= costs.steps[static_cast<std::size_t>(tile.level)];
+    cost = costs.ofParticle * cost + costs.ofCell * static_cast<double>(next.tile(patch).cells.size());
   }
   return grid::evenShares(ofPatches, ranks.size());
 }

@@ -1,16 +1,13 @@
 #pragma once
 
-#include <vector>
-
 #include "core/grid/grid.hpp"
 #include "core/tasks/patch_migration.hpp"
 
 namespace tushar::tasks {
 
-/// The costs of a cell and of a particle in each step of its level, in any unit.
+/// The costs of a cell and of a particle, in any unit.
 struct PatchCosts {
   double ofCell = 1, ofParticle = 1;
-  std::vector<int> steps = {};  ///< of each level in one of the coarsest; none if all levels take the same
 };
 
 /// Gives a grid of several levels another tree, and its new patches the old values of cell variables: copied where the

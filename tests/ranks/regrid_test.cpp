@@ -83,22 +83,6 @@ TEST(Regridding, GivesRanksSharesThatCostTheSame) {
   });
 }
 
-TEST(Regridding, GivesRanksSharesOfAsManyCellsTimesTheStepsOfTheirLevels) {
-  onRanks(2, [](const mpi::Communicator& ranks) {
-    Runner run(refinedLine(), 1, ranks);
-    const std::vector<grid::BlockId> kept{{0, {{0, 0, 0}}}, {0, {{1, 0, 0}}}, {0, {{2, 0, 0}}}, {0, {{3, 0, 0}}}};
-    const auto patchesAfter = [&](const PatchCosts& costs) {
-      regrid(run.grid, run.grid.tree().regridded({}, kept), run.warehouse, {}, costs);
-      return run.grid.patches().size();
-    };
-    // 8 patches of fine cells, then 4 of coarse ones, all with 8 cells: 12 equal ones, or 8 that cost 2 and 4 that cost
-    // 1, or 7.
-    EXPECT_EQ(patchesAfter({}), 6U);
-    EXPECT_EQ(patchesAfter({.steps = {1, 2}}), ranks.isFirst() ? 5U : 7U);
-    EXPECT_EQ(patchesAfter({.ofCell = 3, .steps = {1, 7}}), ranks.isFirst() ? 4U : 8U);
-  });
-}
-
 TEST(Regridding, LeavesParticlesInTheirCellsOnAnyRanks) {
   for (const int count : {1, 3, 4})
     onRanks(count, [](const mpi::Communicator& ranks) {
