@@ -289,7 +289,7 @@ void takeModels(ModelsSection& models, const Element& root, int solids, GasScene
   std::erase_if(scene.massExchanges, isOfBody);
   if (solids == 0 && !scene.burns.empty())
     diagnostics.error(scene.burns.front().where, "Models/Model",
-                      "is of a body that burns, and this scene has none: it needs <MaterialProperties><MPM> and "
+                      "burns a body, but the scene has none: it needs <MaterialProperties><MPM> and "
                       "<SimulationComponent type=\"mpmice\"/>");
 }
 

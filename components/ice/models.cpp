@@ -145,7 +145,7 @@ void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnos
   if (type == simpleBurnSchema().name()) return readBurning(model, simpleBurnSchema(), models, diagnostics);
   if (type == steadyBurnSchema().name()) return readBurning(model, steadyBurnSchema(), models, diagnostics);
   if (type != "PassiveScalar")
-    return diagnostics.error(model, fmt::format("of type '{}' is not available; take it out: there are {}", type,
+    return diagnostics.error(model, fmt::format("the type '{}' is not available, but {} are; remove the model", type,
                                                 input::listed(modelTypes)));
   const auto given = model.child("PassiveScalar");
   if (!given) return diagnostics.error(model, "missing tag <PassiveScalar> in <Model>");

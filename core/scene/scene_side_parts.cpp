@@ -61,8 +61,7 @@ bool hasAttributesOf(const FaceWord& word, const Element& tag, Diagnostics& diag
   const auto& own = word.attributes;
   for (const std::string& needed : own)
     if (!tag.attribute(needed))
-      diagnostics.error(tag,
-                        fmt::format("missing attribute '{}': {} goes with {}", needed, word.name, joined(own, ", ")));
+      diagnostics.error(tag, fmt::format("missing attribute '{}': {} needs {}", needed, word.name, joined(own, ", ")));
   std::set<std::string> told(own.begin(), own.end());
   for (const FaceWord& other : faceWords()) {
     if (&other != &word && tag.attribute(other.name))

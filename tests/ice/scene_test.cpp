@@ -224,8 +224,9 @@ TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
 }
 
 TEST(IceScene, RefusesModels) {
-  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"Steady_Burn\"/></Models>\n  <CFD>")),
-            "the type 'Steady_Burn' is not available, but PassiveScalar and Test are; remove the model");
+  EXPECT_EQ(
+      problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"DDT1\"/></Models>\n  <CFD>")),
+      "the type 'DDT1' is not available, but PassiveScalar, Test, Simple_Burn, Steady_Burn are; remove the model");
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {

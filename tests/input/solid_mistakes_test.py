@@ -131,7 +131,7 @@ REFUSED = {
          "is_rigid: needs a <contact> of type rigid or specified, with this material as its master"),
     "volumes that are shared by what goes by rates":
         (BEAM, (RUBBER, '<constitutive_model type="hypo_elastic"><G>1</G><K>1</K>'),
-         "DoPressureStabilization: with <time_integrator> implicit only "
+         "DoPressureStabilization: is available with <time_integrator> implicit only "
          "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic; 'rubber' is",
          "MPM/DoPressureStabilization=true"),
     "an energy budget of implicit steps":

@@ -84,8 +84,8 @@ TEST(RefinedScenes, AreRefinedByTheCriteriaOfTheirComponentWhereTheyGiveNone) {
   std::ostringstream manual;
   describeAmr(manual, catalogue());
   const std::string told =
-      fmt::format("jumps above {:g} of {}, {} and {}", gas.regrid.criteria[0].refine, gas.regrid.criteria[0].variable,
-                  gas.regrid.criteria[1].variable, gas.regrid.criteria[2].variable);
+      fmt::format("jumps of {}, {} and {} above {:g}", gas.regrid.criteria[0].variable, gas.regrid.criteria[1].variable,
+                  gas.regrid.criteria[2].variable, gas.regrid.criteria[0].refine);
   EXPECT_NE(manual.str().find(told), std::string::npos) << told;
   EXPECT_EQ(problemsOf(changed("ups/heat/sine.ups", "</Grid>", adaptive)),
             "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where to refine\n");
@@ -110,8 +110,16 @@ TEST(RefinedScenes, NameASectionOfTheirComponent) {
 }
 
 TEST(RefinedScenes, AreRefusedToComponentsOfOneLevel) {
-  EXPECT_EQ(problemsOf(withLevel("ups/fsi/closed_box.ups"), {"Grid/Level[1]/Box/resolution=[64,1,1]"}),
-            "'mpmice' needs a grid of one level: one <Level> in <Grid>, and no <max_levels> above 1 in <AMR>\n");
+  simulation::ComponentKind kind = *catalogue().component("heat");
+  kind.takesLevels = false;
+  const simulation::Catalogue own({kind}, {});
+  try {
+    readScene(withLevel("ups/heat/sine.ups"), {}, own);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().front().sentence,
+              "'heat' needs a grid of one level: one <Level> in <Grid>, and no <max_levels> above 1 in <AMR>");
+  }
 }
 
 TEST(RefinedScenes, SaveNoFluxesThroughRims) {

@@ -129,7 +129,7 @@ TEST(LevelLimits, SmallerStepsAreForTasksThatReadTheOldStateAndTheirOwnCells) {
   EXPECT_EQ(problemOfSteps(far),
             start + "far reads the new c.value beyond a patch, where another level does not have it yet" + end);
   EXPECT_EQ(problemOfSteps(sums), start + "sum computes TotalValue over the whole grid" + end);
-  EXPECT_EQ(problemOfSteps(solve), start + "solve sees all patches at once" + end);
+  EXPECT_EQ(problemOfSteps(solve), start + "solve needs all patches at once" + end);
   EXPECT_EQ(problemOfSteps(nodes), start + "turn uses nodes (g.corner)" + end);
 }
 
