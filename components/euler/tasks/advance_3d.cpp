@@ -1,4 +1,4 @@
-#include "components/euler/tasks/block_instances.hpp"
+#include "components/euler/tasks/advance_block.hpp"
 
 namespace tushar::euler {
 
