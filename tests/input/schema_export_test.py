@@ -21,8 +21,8 @@ SCENES = sorted(str(file) for file in (ROOT / "ups").rglob("*.ups"))
 STRUCTURE = re.compile(r"unknown (tag|section|attribute)|missing tag <\w+> in <|missing attribute|"
                        r"the section <\w+> is missing|"
                        r"is given twice|text '.*' in <|expected '|expected (a number|an integer|true or false|three )|"
-                       r"found 'inf'|is not available(?! with)|expected \d+(, \d+)*: (?!loads)|wrong root|unknown shape|"
-                       r"unclosed tag|empty file")
+                       r"found 'inf'|is not available(?! with)|expected \d+(, \d+)*: (?!loads)|wrong root|"
+                       r"unknown shape|unclosed tag|empty file")
 
 
 def broken_scenes():

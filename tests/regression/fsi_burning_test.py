@@ -90,7 +90,7 @@ class WrongScenes(SceneTest):
                             "missing tag <specific_heat>: it burns")
 
     def test_a_model_that_is_not_there(self):
-        self.assert_refused(SLAB.replace("Simple_Burn", "Complex_Burn"), "of type 'Complex_Burn' is not available")
+        self.assert_refused(SLAB.replace("Simple_Burn", "Complex_Burn"), "the type 'Complex_Burn' is not available")
 
     def test_one_body_burns(self):
         model = SLAB[SLAB.index("    <Model "):SLAB.index("  </Models>")]
