@@ -8,6 +8,7 @@
 
 #include "components/euler/labels.hpp"
 #include "components/ice/gas_schemas.hpp"
+#include "components/ice/heating_input.hpp"
 #include "components/ice/mixture/input.hpp"
 #include "core/simulation/by_dimension.hpp"
 
@@ -246,25 +247,6 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
   }
   if (ice.implicit->solver) read.solver = *ice.implicit->solver;
   return read;
-}
-
-/// The heating of gases, which are numbered after the bodies.
-Heating heatingOf(const HeatingSection& read, int solids, std::size_t gases, Diagnostics& diagnostics) {
-  Heating heating{read.where, std::vector<double>(gases), read.start, read.end};
-  if (read.materials.size() != read.perMass.size())
-    diagnostics.error(read.where, "CFD/ICE/ADD_HEAT",
-                      fmt::format("found {} numbers of materials and {} coefficients, expected as many",
-                                  read.materials.size(), read.perMass.size()));
-  for (std::size_t k = 0; k < std::min(read.materials.size(), read.perMass.size()); ++k) {
-    const int gas = read.materials[k] - solids;
-    if (gas < 0 || gas >= static_cast<int>(gases))
-      diagnostics.error(read.where, "CFD/ICE/ADD_HEAT",
-                        fmt::format("material {} is not available: heat is for gases, whose numbers are {} to {}",
-                                    read.materials[k], solids, solids + static_cast<int>(gases) - 1));
-    else
-      heating.perMass[gas] += read.perMass[k];
-  }
-  return heating;
 }
 
 /// Refuses what a gas can have only without bodies.

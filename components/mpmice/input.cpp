@@ -65,25 +65,50 @@ ice::HeatCoefficients heatOf(const ice::Exchange& exchange, int solids, int gase
   return heat;
 }
 
+/// Refuses what gives a burning surface a wrong area or pressure.
+void checkBurning(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
+  if (scene.burns.size() > 1)
+    diagnostics.error(scene.burns[1].where, "Models/Model", "one body of a scene may burn; take the others out");
+  const Element gas = *root.child("CFD")->child("ICE");
+  if (scene.thinWalls.value_or(false))
+    diagnostics.error(*gas.child("thin_walls"), "is not available with a body that burns: remove it");
+  if (scene.implicit)
+    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
+                      "is not available with a body that burns: remove it, or run with --set CFD/ICE/explicit=true");
+}
+
+/// The place of a material among those of its kind; reports a name that is not among them.
+std::size_t placeOf(const std::string& name, const std::vector<std::string>& names,
+                    const std::vector<std::string>& others, const char* kind, const char* otherKind,
+                    const std::function<void(const std::string&)>& refuse) {
+  const auto is = [&](const std::string& one) { return one == name; };
+  if (std::none_of(names.begin(), names.end(), is))
+    refuse(std::any_of(others.begin(), others.end(), is)
+               ? fmt::format("found '{}', which is a {}, expected a {}", name, otherKind, kind)
+           : std::any_of(names.begin(), names.end(), [](const std::string& one) { return !one.empty(); })
+               ? input::choiceProblem(name, names)
+               : fmt::format("found '{}', but no {} has a name", name, kind));
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
 /// The body that burns, if one does.
 std::optional<Burning> burningOf(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
   if (scene.burns.empty()) return {};
-  if (scene.burns.size() > 1)
-    diagnostics.error(scene.burns[1].where, "Models/Model", "one body of a scene may burn; take the others out");
+  checkBurning(scene, root, diagnostics);
   const ice::BurnModel& model = scene.burns.front();
   Burning burning{model};
-  const auto find = [&](const std::string& name, const std::vector<std::string>& names, const char* tag) {
-    if (const std::string problem = input::choiceProblem(name, names); !problem.empty())
-      diagnostics.error(model.where, fmt::format("Models/Model/{}", tag), problem);
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  const auto refuse = [&](const char* tag) {
+    return [&diagnostics, &model, tag](const std::string& sentence) {
+      diagnostics.error(model.where, fmt::format("Models/Model/{}", tag), sentence);
+    };
   };
   std::vector<std::string> bodies, gases;
   const std::vector<Element> materials = root.child("MaterialProperties")->child("MPM")->children("material");
   for (const Element& material : materials) bodies.push_back(material.attribute("name").value_or(""));
   for (const euler::Settings& gas : scene.mixture) gases.push_back(gas.name);
   if (gases.empty()) gases.push_back(scene.gas.name);
-  burning.body = find(model.from, bodies, "fromMaterial");
-  burning.gas = find(model.to, gases, "toMaterial");
+  burning.body = placeOf(model.from, bodies, gases, "body", "gas", refuse("fromMaterial"));
+  burning.gas = placeOf(model.to, gases, bodies, "gas", "body", refuse("toMaterial"));
   if (burning.body < materials.size() && !materials[burning.body].child("specific_heat"))
     diagnostics.error(materials[burning.body], "missing tag <specific_heat>: it burns, and gives its heat to the gas");
   return burning;

@@ -207,7 +207,7 @@ TEST(Heating, AddsItsEnergyToAGasAndToSeveral) {
   EXPECT_GT(one, 0.005);
   EXPECT_NEAR(rise(heated(sod, heatTags("[0]", "[0.6]", "1"))) / one, 2, 1e-6);
   EXPECT_GT(rise(heated(tube, heatTags("[1]", "[0.3]", "1"))), 1e-4);
-  EXPECT_NEAR(rise(heated(tube, heatTags("[1]", "[0.3]", "-1"))), 0, 1e-14);
+  EXPECT_NEAR(rise(heated(tube, heatTags("[1]", "[0]", "1"))), 0, 1e-14);
 }
 
 TEST(Heating, IsForGasesOfTheScene) {
@@ -215,6 +215,10 @@ TEST(Heating, IsForGasesOfTheScene) {
             "material 2 is not available: heat is for gases, whose numbers are 0 to 1");
   EXPECT_EQ(test::problemOf(heated(tube, heatTags("[0,1]", "[1]", "1"))),
             "found 2 numbers of materials and 1 coefficients, expected as many");
+  EXPECT_EQ(test::problemOf(heated(tube, heatTags("[]", "[]", "1"))), "found no materials, expected at least one");
+  EXPECT_EQ(test::problemOf(heated(tube, heatTags("[1,1]", "[1,2]", "1"))), "material 1 is given twice");
+  EXPECT_EQ(test::problemOf(heated(tube, heatTags("[1]", "[1]", "-1"))),
+            "found <add_heat_t_final> -1, expected at least <add_heat_t_start>, 0");
 }
 
 }  // namespace tushar::ice

@@ -85,6 +85,18 @@ class WrongScenes(SceneTest):
         self.assert_refused(SLAB.replace("<fromMaterial>reactant", "<fromMaterial>wood"), "'wood'")
         self.assert_refused(SLAB.replace("<toMaterial>product", "<toMaterial>smoke"), "'smoke'")
 
+    def test_bodies_and_gases_are_not_mixed_up(self):
+        self.assert_refused(SLAB.replace("<fromMaterial>reactant", "<fromMaterial>product"),
+                            "fromMaterial: found 'product', which is a gas, expected a body")
+        self.assert_refused(SLAB.replace("<toMaterial>product", "<toMaterial>reactant"),
+                            "toMaterial: found 'reactant', which is a body, expected a gas")
+
+    def test_what_would_change_the_rate(self):
+        self.assert_refused(SLAB.replace("<ICE>", "<ICE>\n<thin_walls>true</thin_walls>", 1),
+                            "ICE/thin_walls: is not available with a body that burns")
+        self.assert_refused(SLAB.replace("<ICE>", "<ICE>\n<ImplicitSolver/>", 1),
+                            "ICE/ImplicitSolver: is not available with a body that burns")
+
     def test_what_burns_has_a_specific_heat(self):
         self.assert_refused(SLAB.replace("<specific_heat>1</specific_heat>", ""),
                             "missing tag <specific_heat>: it burns")
