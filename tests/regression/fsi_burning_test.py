@@ -7,7 +7,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import gas_and_bodies as fsi
 from same_bits import SameBitsTest
-from solids import SceneTest, globals_of
+from solids import RefusedSceneTest, SceneTest, globals_of
 from sus import run
 
 SLAB, GRAIN = (fsi.scene(name).read_text() for name in ("burning_slab", "burning_grain"))
@@ -74,13 +74,7 @@ class Bits(SameBitsTest):
                          "Models/Model/Simple_Burn/BurnCoeff=10", ranks=3)
 
 
-class WrongScenes(SceneTest):
-    def assert_refused(self, text, sentence):
-        done = run(self.scene(text), "Time/max_Timesteps=1")
-        self.assertEqual(done.code, 3, done.err)
-        self.assertIn(sentence, done.err)
-        self.assertRegex(done.err, r"scene\.ups:\d+:\d+: ")
-
+class WrongScenes(RefusedSceneTest):
     def test_names_of_materials(self):
         self.assert_refused(SLAB.replace("<fromMaterial>reactant", "<fromMaterial>wood"), "'wood'")
         self.assert_refused(SLAB.replace("<toMaterial>product", "<toMaterial>smoke"), "'smoke'")

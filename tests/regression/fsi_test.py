@@ -8,7 +8,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import gas_and_bodies as fsi
-from solids import SceneTest, archive_of, columns, globals_of
+from solids import RefusedSceneTest, SceneTest, archive_of, columns, globals_of
 from sus import run
 from uda import Folder, FolderTest
 
@@ -346,13 +346,7 @@ class RigidBodies(SceneTest):
         self.assertEqual({speed for axis in "xy" for speed in found[f"p.velocity.{axis} [m/s]"]}, {0})
 
 
-class WrongScenes(SceneTest):
-    def assert_refused(self, text, sentence):
-        done = run(self.scene(text), "Time/max_Timesteps=1")
-        self.assertEqual(done.code, 3, done.err)
-        self.assertIn(sentence, done.err)
-        self.assertRegex(done.err, r"scene\.ups:\d+:\d+: ")
-
+class WrongScenes(RefusedSceneTest):
     def test_gas_needs_the_section_of_its_method(self):
         self.assert_refused(re.sub(r"  <CFD>.*</CFD>\n", "", PLUG, flags=re.DOTALL), "the section <CFD> is missing")
 

@@ -4,7 +4,7 @@ import subprocess
 import tempfile
 import unittest
 
-from sus import ROOT, SUS
+from sus import ROOT, SUS, run
 
 
 class SceneTest(unittest.TestCase):
@@ -17,6 +17,17 @@ class SceneTest(unittest.TestCase):
         path = pathlib.Path(folder.name, "scene.ups")
         path.write_text(text)
         return path
+
+
+class RefusedSceneTest(SceneTest):
+    """A test of scenes that sus refuses."""
+
+    def assert_refused(self, text, sentence):
+        """A scene with this text ends with exit code 3, and the sentence with its place."""
+        done = run(self.scene(text), "Time/max_Timesteps=1")
+        self.assertEqual(done.code, 3, done.err)
+        self.assertIn(sentence, done.err)
+        self.assertRegex(done.err, r"scene\.ups:\d+:\d+: ")
 
 
 def globals_of(scene, *names, sets=(), until=None):
