@@ -50,7 +50,7 @@ std::vector<ParticleBlock> particlesOf(const Hdf5Input& file, const ArchiveIndex
 /// Fields by their place in the file, which is the order in which they were made.
 using PlacedFields = std::map<std::uint64_t, FieldBlock>;
 
-/// Adds the fields of a group: those of a material; or those without a material, and those of the groups in it.
+/// Adds the fields of an HDF5 group: of a material, or, for the root, of no material and of each group in it.
 void addFields(const Hdf5Input& file, const ArchiveIndex& index, const FieldBlock& like, const std::string& group,
                PlacedFields& all) {
   for (const std::string& name : file.names(group)) {

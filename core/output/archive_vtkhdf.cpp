@@ -149,7 +149,7 @@ std::vector<ShownTime> together(const Times& outputs) {
   return times;
 }
 
-/// Adds the parts of a step; two layers of corners for one layer of nodes show the same nodes.
+/// Adds the parts of a step; where one layer of nodes is drawn as two layers of corners, both show its values.
 void addAtStep(std::vector<VirtualPart>& parts, const std::string& output, const Item& item, const Shape& room,
                std::uint64_t step) {
   Shape extent{1};

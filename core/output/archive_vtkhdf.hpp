@@ -26,7 +26,7 @@ class VtkHdfIndex {
   void add(const std::string& block, int step, const pugi::xml_node& grid);
   /// Forgets all outputs.
   void forget();
-  /// Writes the files, each of which replaces the previous one at once. FileError if it cannot.
+  /// Writes the files, each of which replaces its predecessor atomically. FileError if it cannot.
   void write(const std::filesystem::path& xdmfFile) const;
 
   /// The corners of the cells of a uniform grid.

@@ -22,11 +22,10 @@ struct FilePart {
 /// blocks, 2 sums of files and their parts; neither states its number.
 inline constexpr int manifestFormat = 3;
 
-/// Writes the file `manifest` into a folder: the line `format 3`; for each file there a line with the sum of its bytes,
-/// its size and its name; for each of the parts of 64 kB and more a line of its own, `sum first-last name`, and those
-/// bytes are left out of the line of the file; and in its last line the XXH64 of the lines before. The writers share
-/// the bytes among themselves. Everything is then on the disk. Collective; all have the same parts. FileError on a rank
-/// that cannot, FailedElsewhere on the others.
+/// Writes the file `manifest` into a folder. Its lines are `format 3`; the sum, the size and the name of each file; and
+/// `sum first-last name` for each part of 64 kB and more, whose bytes the sum of its file leaves out. The last line is
+/// the XXH64 of those before. The writers share the bytes among themselves. Everything is then on the disk. Collective;
+/// all have the same parts. FileError on a rank that cannot, FailedElsewhere on the others.
 void writeManifest(const std::filesystem::path& folder, const Writers& writers = {},
                    const std::vector<FilePart>& parts = {});
 

@@ -104,14 +104,14 @@ struct ConvectedShape {
    private:
     static constexpr std::size_t around = D == 1 ? nodes : D == 2 ? nodes * nodes : nodes * nodes * nodes;
 
-    /// The number of node k of the cell around corner c, among those of the cells around the particle.
+    /// The index of node k of the cell that contains corner c, among the nodes of all cells near the particle.
     std::size_t numberOf(int c, int k) const {
       std::size_t number = 0;
       for (int d = D - 1; d >= 0; --d)
         number = number * nodes + static_cast<std::size_t>(static_cast<int>(cellOf[d][c]) + ((k >> d) & 1));
       return number;
     }
-    /// Component d of `edges` sigma_c, with the same bits as Eigen's product, which adds the last component in another
+    /// Component d of the product `edges` sigma_c, bitwise equal to Eigen's, which sums the last component in another
     /// order.
     [[gnu::always_inline]] static Corners atCorners(const Eigen::Matrix<double, D, D>& edges, int d) {
       std::array<Corners, D> part;

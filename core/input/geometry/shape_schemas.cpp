@@ -12,7 +12,7 @@ namespace tushar::input {
 
 namespace {
 
-/// A label, which readGeometry reads itself.
+/// The schema of a shape with a label, which readGeometry itself reads.
 template <class T>
 Schema<T> shapeSchema(const std::string& name, const std::string& sentence) {
   Schema<T> schema(name, sentence);

@@ -14,7 +14,7 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// The state at t_0, complete with p_p and m_p: a step reads both from its start.
+/// The state at t_0, including p_p and m_p, which each step reads at its start.
 template <int D>
 void GasMpm<D>::scheduleInitialize(TaskList& tasks) const {
   tasks.newParticles("mpm::createParticles", createParticles<D>, materials_, creates(p::x<D>), creates(p::velocity<D>),

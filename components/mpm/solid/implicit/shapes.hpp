@@ -46,7 +46,7 @@ void forEachTouched(const Patch& patch, const Placed<D>& placed, const Vec3& com
 template <int D>
 struct ImplicitShapes {
   ShapedTasks<D> shaped;
-  int nodes;  ///< along each axis, that a particle touches
+  int nodes;  ///< number that a particle touches along each axis
   void (*forEachTouched)(const Patch& patch, const Placed<D>& placed, const Vec3& commonSize,
                          const VisitTouches<D>& visit);
 

@@ -14,7 +14,7 @@ struct PointSources {
   const Patch* patch = nullptr;
   Placed<D> placed;
   const Vec<D>* velocity = nullptr;       ///< m/s
-  const Vec<D>* acceleration = nullptr;   ///< m/s^2; null if a run starts: 0
+  const Vec<D>* acceleration = nullptr;   ///< m/s^2; null in the first step of a run: 0
   const Vec<D>* externalForce = nullptr;  ///< N
 };
 
@@ -22,9 +22,9 @@ struct PointSources {
 ///
 ///     r_i = sum_p V0_p P_p F_oldᵀ grad S_i + m_i a_i - f_i - m_i g = 0,
 ///
-/// for the displacement u of the nodes in the step, with P = J sigma F^-T, F = (I + sum_i u_i grad S_i) F_old and S_i
-/// at the particle positions at the start of the step; where the grid moves with the solid, at those at the start of
-/// the run, so that grad S = F_old^-T grad_0 S. By Newmark's rule with beta = 1/4, gamma = 1/2: a = 4 (u/dt - v_old)/dt
+/// with P = J sigma F^-T and F = (I + sum_i u_i grad S_i) F_old. The unknown is the nodal displacement u in the step.
+/// S_i is evaluated at the particle positions at the start of the step or, if the grid moves with the solid, of the
+/// run, so that grad S = F_old^-T grad_0 S. By Newmark's rule with beta = 1/4, gamma = 1/2: a = 4 (u/dt - v_old)/dt
 /// - a_old. Guilkey & Weiss, Int. J. Numer. Meth. Engng 57 (2003) 1323.
 template <int D>
 class ImplicitSystem : public solvers::NonlinearProblem {

@@ -272,7 +272,7 @@ void interpolateParticlesToGrid(const Patch& patch, const Material& material, co
   scatterParticles<Shape>(patch, material, clearsAll, from.x, scatter, record);
 }
 
-/// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i of any velocity of the particles, without forces.
+/// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i for any velocity of particles; no forces.
 template <class Shape, int D = Shape::dimension>
 void interpolateMomentum(const Patch& patch, const Material& material, const Vec3& commonSize,
                          const MomentumSources<D>& from, NodeView<NodeRecord> record) {

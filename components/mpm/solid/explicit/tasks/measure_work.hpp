@@ -16,7 +16,7 @@ namespace tushar::mpm::solid {
 // Phys. 180 (2002) 383); by APIC, PIC and XPIC through the viscosity of their transfer; by contact as two bodies come
 // to move as one.
 
-/// The numbers of p.work, as in total::work.
+/// Indices of the components of p.work, as in total::work.
 namespace works {
 inline constexpr int external = 0, boundary = 1, contact = 2, dissipated = 3, strain = 4, plastic = 5, start = 6;
 }
