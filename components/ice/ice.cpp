@@ -167,6 +167,17 @@ template class Ice<1>;
 template class Ice<2>;
 template class Ice<3>;
 
+namespace {
+
+/// The tasks of several gases reach farther than those of one.
+int cellsOfBlocks(const input::Element& root) {
+  const auto properties = root.child("MaterialProperties");
+  const auto gases = properties ? properties->child("ICE") : std::nullopt;
+  return gases && gases->children("material").size() > 1 ? 6 : 4;
+}
+
+}  // namespace
+
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind;
   kind.name = "ice";
@@ -176,6 +187,7 @@ simulation::ComponentKind kind() {
   kind.takesPartsOfSides = true;
   kind.takesFormulasAtSides = true;
   kind.amrSections = {"ICE"};
+  kind.cellsOfBlocks = cellsOfBlocks;
   kind.boundaryLabels = gasBoundaryLabels();
   kind.conditionWords = gasConditionWords(true);
   kind.describe = describeGas;

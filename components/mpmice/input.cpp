@@ -220,6 +220,7 @@ simulation::ComponentKind kind(bool areRigid) {
     mpm::solid::describe(out);
   };
   kind.nodesBeyond = mpm::solid::nodesBeyond;
+  kind.cellsOfBlocks = [](const input::Element&) { return 6; };
   kind.read = [areRigid](const Element& root, Diagnostics& diagnostics) {
     return readScene(root, areRigid, diagnostics);
   };

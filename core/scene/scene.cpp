@@ -260,7 +260,9 @@ void readSharedSections(const Element& root, Problem& problem, Diagnostics& diag
 
 AmrSettings amrOf(const Element& root, const ComponentKind* kind, Diagnostics& diagnostics) {
   const auto given = section(root, "AMR", false, diagnostics);
-  return given ? readAmr(*given, kind, diagnostics) : AmrSettings{};
+  AmrSettings amr = given ? readAmr(*given, kind, diagnostics) : AmrSettings{};
+  if (kind && kind->cellsOfBlocks) amr.fewestCellsOfBlock = kind->cellsOfBlocks(root);
+  return amr;
 }
 
 /// <Grid> for a component; for an unknown one, all that a grid may have.

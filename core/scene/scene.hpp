@@ -34,6 +34,7 @@ struct AmrSettings {
   simulation::RegridSettings regrid;
   std::optional<int> maxLevels;               ///< number of levels, including the coarsest
   std::optional<Index3> block;                ///< cells along x, y, z
+  int fewestCellsOfBlock = 4;                 ///< along an axis in use; even
   std::optional<std::vector<Index3>> ratios;  ///< ratios of cell widths from level to level
   std::optional<input::Element> tag;          ///< `AMR`, if given; for messages
   std::optional<Location> smallerSteps;       ///< the tag by which finer levels take smaller steps

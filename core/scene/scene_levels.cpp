@@ -79,9 +79,9 @@ Index3 resolutionOf(const GridBox& box, const LevelSection& level, const Element
 
 namespace {
 
-constexpr int mostLevels = 16;         ///< largest number of levels of a tree of blocks,
-constexpr int mostBlocks = 1 << 20;    ///< and of its finest blocks along an axis
-constexpr int fewestCellsOfBlock = 4;  ///< smallest number of cells of a block along an axis in use
+constexpr int fewestCells = 4;        ///< smallest number of cells of a block along an axis in use
+constexpr int mostLevels = 16;        ///< largest number of levels of a tree of blocks,
+constexpr int mostBlocks = 1 << 20;   ///< and of its finest blocks along an axis
 
 /// A tag of `Regridder` if it is given, otherwise another place for messages.
 Element tagOr(const AmrSettings& amr, const std::string& tag, const Element& other) {
@@ -270,22 +270,32 @@ class Refiner {
         elements_.front().children("Box").front(),
         fmt::format("its {} along {} cannot be cut into blocks of an even number of cells from {} to {}; "
                     "{}",
-                    counted(cells, "cell"), "xyz"[axis], fewestCellsOfBlock, most, instead));
+                    counted(cells, "cell"), "xyz"[axis], amr_.fewestCellsOfBlock, most, instead));
   }
 
   void checkBlock(int axis, int cells, const std::vector<int>& sizes) {
     const int size = (*amr_.block)[axis];
     const Element place = tagOr(amr_, "min_patch_size", elements_.front());
     refinement_.blockCells[axis] = size;
-    if (size < fewestCellsOfBlock || size % 2 != 0)
+    if (size < fewestCells || size % 2 != 0)
       diagnostics_.error(place, fmt::format("found {} along {}, expected an even number of cells, at least {}", size,
-                                            "xyz"[axis], fewestCellsOfBlock));
-    else if (cells % size != 0 && sizes.empty())
-      diagnostics_.error(place, fmt::format("blocks of {} cells do not divide the {} of the grid along {}; no even "
-                                            "number of at least 4 does: choose another <resolution>",
-                                            size, counted(cells, "cell"), "xyz"[axis]));
-    else if (cells % size != 0)
+                                            "xyz"[axis], fewestCells));
+    else if (cells % size == 0 && size >= amr_.fewestCellsOfBlock)
+      return;
+    else if (sizes.empty())
+      diagnostics_.error(
+          place, fmt::format("{}; no even number of at least {} divides the grid: choose another <resolution>",
+                             problemOfBlock(axis, cells, size), amr_.fewestCellsOfBlock));
+    else
       takeNearestBlock(axis, cells, size, sizes);
+  }
+
+  std::string problemOfBlock(int axis, int cells, int size) const {
+    if (size < amr_.fewestCellsOfBlock)
+      return fmt::format("blocks of {} cells along {} are too small for the tasks of this scene, which need {}", size,
+                         "xyz"[axis], amr_.fewestCellsOfBlock);
+    return fmt::format("blocks of {} cells do not divide the {} of the grid along {}", size, counted(cells, "cell"),
+                       "xyz"[axis]);
   }
 
   /// Chooses blocks that divide the cells instead of those that the scene requests.
@@ -295,15 +305,14 @@ class Refiner {
     refinement_.blockCells[axis] = nearest;
     diagnostics_.note(
         tagOr(amr_, "min_patch_size", elements_.front()),
-        fmt::format("blocks of {} cells do not divide the {} of the grid along {}: here blocks have {} along it", size,
-                    counted(cells, "cell"), "xyz"[axis], nearest));
+        fmt::format("{}; blocks of {} are used along this axis", problemOfBlock(axis, cells, size), nearest));
   }
 
   /// The even divisors of a number of cells, from the smallest block upwards.
-  static std::vector<int> blockSizes(int cells) {
+  std::vector<int> blockSizes(int cells) const {
     std::vector<int> sizes;
     const auto add = [&](int size) {
-      if (size % 2 == 0 && size >= fewestCellsOfBlock) sizes.push_back(size);
+      if (size % 2 == 0 && size >= amr_.fewestCellsOfBlock) sizes.push_back(size);
     };
     for (int size = 1; static_cast<long>(size) * size <= cells; ++size) {
       if (cells % size != 0) continue;

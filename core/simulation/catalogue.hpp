@@ -51,6 +51,9 @@ struct ComponentKind {
   std::function<void(std::ostream&)> describe;  ///< its manual
   /// Layers of nodes that the scene needs beyond the sides of the grid; an empty function means none.
   std::function<int(const input::Element& root)> nodesBeyond;
+  /// The smallest number of cells of a block along an axis that the tasks of a scene allow (see
+  /// tasks::fewestCellsOfBlock); an empty function means 4. Smaller blocks of a scene are replaced, with a note.
+  std::function<int(const input::Element& root)> cellsOfBlocks;
   /// The sections of a scene, for each way to write one; if the function is empty, `sections` may hold anything.
   std::function<std::vector<std::vector<SectionForm>>()> forms;
   bool takesLevels = false;           ///< whether its tasks run on grids of several levels

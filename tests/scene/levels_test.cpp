@@ -160,7 +160,7 @@ TEST(Blocks, ThatCannotBeGetASentence) {
   EXPECT_EQ(
       refused(along("25"), "<min_patch_size>[[8,1,1]]</min_patch_size>"),
       (Strings{"AMR/Regridder/min_patch_size: blocks of 8 cells do not divide the 25 cells of the grid along x; no "
-               "even number of at least 4 does: choose another <resolution>"}));
+               "even number of at least 4 divides the grid: choose another <resolution>"}));
   EXPECT_EQ(refused(along("100"), "<min_patch_size>[[5,1,1]]</min_patch_size>"),
             (Strings{"AMR/Regridder/min_patch_size: found 5 along x, expected an even number of cells, at least 4"}));
   EXPECT_EQ(refused(along("100"), "<min_patch_size>[[2,1,1]]</min_patch_size>"),
@@ -182,12 +182,30 @@ TEST(Blocks, AreWhatTheSceneSays) {
   EXPECT_EQ(found.refinement().blockCells[1], 16);
 }
 
+TEST(Blocks, ThatAreTooSmallForTheTasksGiveWayToTheNearestThatAreNot) {
+  const auto blocksOf4 = [](const std::string& cells) {
+    return read(level(box("0,0,0", "1,1,0", cells + ",60,1")),
+                amr(adaptive + "<min_patch_size>[[4,6,1]]</min_patch_size>", criteria), {}, 6);
+  };
+  const Read found = blocksOf4("60");
+  EXPECT_EQ(found.problems, Strings{});
+  EXPECT_EQ(found.refinement().blockCells[0], 6);
+  EXPECT_EQ(found.refinement().blockCells[1], 6);
+  EXPECT_EQ(found.notes,
+            (Strings{"AMR/Regridder/min_patch_size: blocks of 4 cells along x are too small for the tasks of this "
+                     "scene, which need 6; blocks of 6 are used along this axis"}));
+  EXPECT_EQ(blocksOf4("25").problems,
+            (Strings{"AMR/Regridder/min_patch_size: blocks of 4 cells along x are too small for the tasks of this "
+                     "scene, which need 6; no even number of at least 6 divides the grid: choose another "
+                     "<resolution>"}));
+}
+
 TEST(Blocks, ThatDoNotDivideTheGridGiveWayToTheNearestThatDo) {
   const Read found = read(square, amr(adaptive + "<min_patch_size>[[10,8,1]]</min_patch_size>", criteria));
   EXPECT_EQ(found.problems, Strings{});
   EXPECT_EQ(found.refinement().blockCells[0], 8);
   EXPECT_EQ(found.notes, (Strings{"AMR/Regridder/min_patch_size: blocks of 10 cells do not divide the 64 cells of the "
-                                  "grid along x: here blocks have 8 along it"}));
+                                  "grid along x; blocks of 8 are used along this axis"}));
 }
 
 }  // namespace tushar::scene

@@ -25,12 +25,14 @@ inline Strings sentencesOf(const std::vector<InputProblem>& problems) {
   return sentences;
 }
 
-inline Read read(const std::string& grid, const std::string& amr = "", const grid::Workers& workers = {}) {
+inline Read read(const std::string& grid, const std::string& amr = "", const grid::Workers& workers = {},
+                 int fewestCellsOfBlock = 4) {
   input::Diagnostics diagnostics;
   const input::Document document =
       input::Document::parse(input::scene("<Grid>" + grid + "</Grid>" + amr), "s.ups", diagnostics);
   Read read;
   if (const auto section = document.root().child("AMR")) read.amr = readAmr(*section, nullptr, diagnostics);
+  read.amr.fewestCellsOfBlock = fewestCellsOfBlock;
   read.domain = readGrid(*document.root().child("Grid"), {}, workers, read.amr, diagnostics);
   read.problems = sentencesOf(diagnostics.sorted());
   read.notes = sentencesOf(diagnostics.notes());
