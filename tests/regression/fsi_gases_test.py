@@ -68,7 +68,8 @@ class Conservation(ConservationTest):
         tags = (f"<add_heat_matls>{[1 + k for k in range(len(rates))]}</add_heat_matls>"
                 f"<add_heat_coeff>{list(rates.values())}</add_heat_coeff>"
                 "<add_heat_t_start>0</add_heat_t_start><add_heat_t_final>9</add_heat_t_final>")
-        heated = changed(text, ("<ICE>", f"<ICE><ADD_HEAT>{tags}</ADD_HEAT>"))
+        heated = changed(text, ('<advection type="SecondOrder"/>',
+                                '<advection type="SecondOrder"/>' + f"<ADD_HEAT>{tags}</ADD_HEAT>"))
         names = ("GasEnergy", "GasKineticEnergy", "KineticEnergy", "GasHeatToBodies", *rates)
         scene = self.scene(also(heated, *names))
         rows = list(zip(*globals_of(scene, *names, sets=("Time/maxTime=0.2",)).values()))

@@ -56,8 +56,8 @@ TEST(Levels, WithBoxesThatOverlapGetANote) {
   };
   EXPECT_EQ(notes(box("1,0,0", "2,.5,0", "64,32,1")), Strings{});
   EXPECT_EQ(notes(box(".5,.25,0", "1.5,.75,0", "64,32,1")),
-            (Strings{"Grid/Level/Box: overlaps the Box of the same level at s.ups:2:1; the cells that both contain are "
-                     "refined once"}));
+            (Strings{"Grid/Level/Box: overlaps the Box of the same level at s.ups:1:141; the cells that both contain "
+                     "are refined once"}));
 }
 
 TEST(Levels, LeaveOutAxesThatTheGridDoesNotUse) {
