@@ -83,7 +83,8 @@ FoundFile findFile(const std::string& path, const std::string& scene) {
 /// Whether the text of a tag is the path of a file, which must also be valid in the archive's copy of the scene.
 bool isPath(const pugi::xml_node& xml) {
   const std::string_view name = xml.name(), parent = xml.parent().name();
-  return name == "file" || name == "PrescribedDeformationFile" || (parent == "contact" && name == "filename") ||
+  return name == "file" || name == "PrescribedDeformationFile" || name == "InsertParticlesFile" ||
+         (parent == "contact" && name == "filename") ||
          ((parent == "tri" || parent == "line_segment") && name == "name");
 }
 

@@ -290,7 +290,7 @@ std::string toText(const Report& report) {
                                  report.ended, counted(report.cells, "cell"));
   if (report.particles > 0 || report.dropped > 0) {
     text += ", " + counted(report.particles, "particle");
-    if (report.dropped > 0) text += fmt::format(" ({} left the grid)", report.dropped);
+    if (report.dropped > 0) text += fmt::format(" ({} left the grid or were removed)", report.dropped);
     if (report.wallLoop > 0)
       text += fmt::format(", {:.3g} million particle-steps/s", 1e-6 * report.particleSteps / report.wallLoop);
   }

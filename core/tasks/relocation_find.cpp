@@ -179,7 +179,8 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
 template <int D>
 void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int departed,
                       PatchMoves& moves) {
-  if (x[0] == data::vanished) return;
+  if (x[0] == data::removed) ++moves.leaving;
+  if (x[0] == data::vanished || x[0] == data::removed) return;
   const grid::Level& level = warehouse_->grid().finest();
   const int place = moves.departed[departed];
   if (level.isPeriodic()) wrap<D>(level, x);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/contact/contact.hpp"
+#include "components/mpm/solid/loads/inserted_particles.hpp"
 #include "components/mpm/solid/loads/prescribed_deformation.hpp"
 #include "components/mpm/solid/method.hpp"
 #include "components/mpm/solid/surroundings.hpp"
@@ -17,6 +18,7 @@ struct Problem {
   std::vector<Contact> contacts;
   Start start;
   std::shared_ptr<const PrescribedDeformation> motion = nullptr;  ///< of all bodies; null: forces move them
+  std::vector<Insertion> insertions = {};                         ///< of particles, in the order of the file
   std::shared_ptr<const Surroundings> surroundings = nullptr;     ///< null: nothing surrounds them
   std::vector<InputProblem> notes = {};                           ///< notes on bodies without particles
 };

@@ -9,7 +9,6 @@ namespace tushar::mpm::solid {
 
 /// Switches of Uintah's that are missing here, and what there is instead.
 inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
-    {"InsertParticles", "give every body its position at the start"},
     {"refine_particles", "give the body more particles, by <res>"},
     {"use_cohesive_zones", "give the bodies a <contact>"},
     {"do_scalar_diffusion", "heat conduction obeys the same equation"},
@@ -30,7 +29,6 @@ inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"DeleteGeometryObjects", "shapes are not kept"},
     {"computeNodalHeatFlux", "nothing depends on it"},
     {"testForNegTemps_mpm", "nothing depends on it"},
-    {"InsertParticlesFile", "belongs to InsertParticles"},
     {"water_damping_coef", "belongs to coupled_flow_analysis"},
     {"solid_damping_coef", "belongs to coupled_flow_analysis"},
     {"PorePressureFilter", "belongs to coupled_flow_analysis"},

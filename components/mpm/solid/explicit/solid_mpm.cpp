@@ -173,9 +173,11 @@ void SolidMpm<D>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) con
 /// F and the stress, separately from the motion, with the velocity in `record`.
 template <int D>
 void SolidMpm<D>::scheduleComputeStressTensor(TaskList& tasks, const NodeLabel<NodeRecord>& record) const {
-  const auto body = problem_.method.sharesVolume ? bodies_->computeSharedStressTensor : bodies_->computeStressTensor;
-  tasks.perMaterial("mpm::computeStressTensor", body, problem_.materials, with(problem_.method), startTime(),
-                    requiresOld(delT), all<StateUpdate<D>>(shapes_.ghostNodes, keeps(), &record));
+  const Method& method = problem_.method;
+  const bool removes = method.removesInverted && method.stressUpdate != StressUpdate::first;
+  const auto body = method.sharesVolume ? bodies_->computeSharedStressTensor : bodies_->computeStressTensor;
+  tasks.perMaterial("mpm::computeStressTensor", body, problem_.materials, with(method), startTime(), requiresOld(delT),
+                    all<StateUpdate<D>>(shapes_.ghostNodes, keeps(), &record, removes));
   scheduleDamage(tasks);
 }
 

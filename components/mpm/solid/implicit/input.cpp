@@ -120,13 +120,14 @@ const Schema<Section>& sectionSchema() {
         .ignored("maximum_particle_velocity", "no particle is slowed down");
     refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have artificial viscosity");
     refuseSwitch(mpm, "UsePrescribedDeformation", "only explicit steps can follow a prescribed deformation");
+    refuseSwitch(mpm, "InsertParticles", "give every body its position at the start");
     refuseSwitch(mpm, "keepPressBCNormalToSurface", "a pressure keeps the direction of its surface at the start");
     refuseSwitch(mpm, "temperature_solve", "nodes take the mean temperature of their particles");
     for (const char* tag :
          {"artificial_viscosity_coeff1", "artificial_viscosity_coeff2", "artificial_viscosity_heating",
           "minimum_mass_for_acc", "minimum_subcycles_for_F", "XPIC2", "do_contact_friction_heating", "cpdi_lcrit",
-          "computeColinearNormals", "PrescribedDeformationFile", "exactDeformation", "UseMomentumForm",
-          "UseGradientEnhancedVelocityProjection"})
+          "computeColinearNormals", "PrescribedDeformationFile", "InsertParticlesFile", "exactDeformation",
+          "UseMomentumForm", "UseGradientEnhancedVelocityProjection"})
       mpm.ignored(tag, "as in Uintah, only explicit steps use it");
     addForeignTags(mpm);
     addFixedHeat(mpm);

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 
 #include <vector>
 
+#include "components/mpm/solid/explicit/tasks/remove_inverted.hpp"
 #include "components/mpm/solid/explicit/tasks/share_volume.hpp"
 #include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
 #include "components/mpm/solid/explicit/tasks/state_update.hpp"
@@ -247,20 +246,6 @@ void updateStress(const Level& level, const Material& material, const Method& me
   if (u.strainEnergy) updateStrainEnergy(material, u, results.energyDensity.data(), first, count);
 }
 
-/// The error for the first particle of a cell without a wave speed: its velocity is not a number, or it is inverted.
-template <int D>
-NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
-                                const data::ParticleRange& range) {
-  const auto isSound = [&](int p) { return u.velocity[p].allFinite() && u.deformation[p].determinant() > 0; };
-  int p = range.first;
-  while (p + 1 < range.last && isSound(p)) ++p;
-  const Vec3 x = level.expandPoint<D>(u.x[p]);
-  return {fmt::format("the wave speed of the particle at ({:g}, {:g}, {:g}) m is not a number: det F is {:g}, the "
-                      "particle's speed {:g} m/s",
-                      x[0], x[1], x[2], u.deformation[p].determinant(), u.velocity[p].norm()),
-          "", "p.deformationMeasure", level.cellNumber<D>(cell)};
-}
-
 /// Whether several particles are updated at once: only in three dimensions do cells contain enough of them.
 template <class Shape>
 inline constexpr bool updatesTogether = Shape::dimension == 3;
@@ -312,8 +297,8 @@ struct MovedParticles {
   }
 };
 
-/// Updates the stress of particles that have moved, and the stable time step of their cells. Throws NumericalError
-/// where a wave has no speed. No particle is left in `moved`.
+/// Updates the stress of particles that have moved, and the stable time step of their cells. Removes those that the
+/// step turns inside out, or throws NumericalError. No particle is left in `moved`.
 template <int D>
 void updateStresses(const Level& level, const Material& material, const Method& method, double time, double dt,
                     const StateUpdate<D>& u, const CrossingRate<D>& none, MovedParticles<D>& moved) {
@@ -323,9 +308,9 @@ void updateStresses(const Level& level, const Material& material, const Method& 
   });
   moved.cells.forEachCell([&](const Index<D>& cell, const data::ParticleRange& range) {
     CrossingRate<D> rate = none;
-    rate.add(moved.waveSpeed.data() + (range.first - moved.cells.first()), u.velocity.values() + range.first,
-             range.size());
-    if (!rate.isKnown()) throw withoutWaveSpeed<D>(level, u, cell, range);
+    const double* const waveSpeed = moved.waveSpeed.data() + (range.first - moved.cells.first());
+    rate.add(waveSpeed, u.velocity.values() + range.first, range.size());
+    if (!rate.isKnown()) rate = withoutInverted<D>(level, u, cell, range, none, waveSpeed);
     u.stableTimeStep[cell] = rate.time();
   });
   moved.cells.clear();
