@@ -68,7 +68,7 @@ void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<
       }
       for (std::size_t d = 0; d < D; ++d) brought[d][Footprint<D>::number(k)] = part * m * there[static_cast<int>(d)];
     });
-    momentum.add(footprint, batch.count, brought);
+    momentum.add(footprint, brought);
   });
   momentum.finish();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {

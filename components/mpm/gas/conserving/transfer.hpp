@@ -35,14 +35,14 @@ struct Gathering {
       parts[1][place] = part * energy;
       parts[2][place] = part * volume;
     });
-    cells.add(footprint, batch.count, parts);
+    cells.add(footprint, parts);
     typename GridSums<D, 1 + D, 1>::Brought brought;
     footprint.forEachWeight(velocity, [&](const Index<D>& k, const Lanes& w, const LanesVec<D>& u) {
       const std::size_t place = Footprint<D>::number(k);
       brought[0][place] = w * mass;
       for (std::size_t d = 0; d < D; ++d) brought[d + 1][place] = brought[0][place] * u[static_cast<int>(d)];
     });
-    nodes.add(footprint, batch.count, brought);
+    nodes.add(footprint, brought);
   }
   void finish() {
     nodes.finish();
@@ -213,9 +213,9 @@ Motion<D> motionOn(const Patch& patch, const ParticleUpdate<D>& update, double d
 template <int D>
 struct Reader {
   const Motion<D>& motion;
-  typename Motion<D>::Near near;
+  Index<D> first;
 
-  Lanes operator()(std::size_t field, const Index<D>& k) const { return motion.read(field, near, k); }
+  Lanes operator()(std::size_t field, const Index<D>& k) const { return motion.readRow(field, first + k); }
 };
 
 /// Adds nodes of a line, one per lane.
@@ -291,8 +291,9 @@ Lanes workOn(const Footprint<D>& footprint, const Reader<D>& read) {
 /// Requires a smaller time step if a box would shrink below 0.4 of its length or become longer than `most`.
 template <int D>
 void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after, double most, Minimum& factor) {
-  if (all((after > 0.4 * before) & (after < most), batch.count)) return;
-  for (int lane = 0; lane < batch.count; ++lane) {
+  if (batch.holds((after > 0.4 * before) & (after < most))) return;
+  for (int lane = 0; lane < Lanes::count; ++lane) {
+    if (batch.used[lane] == 0) continue;
     const double length = before[lane], change = after[lane] - length;
     if (!(after[lane] > 0.4 * length)) factor.add(-0.5 * length / change, "compression");
     if (!(after[lane] < most)) factor.add(0.9 * (most - length) / change, "stretch");
@@ -302,8 +303,9 @@ void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after, 
 /// Requires a smaller time step if work would take more than 0.8 of the internal energy, or make it negative.
 template <int D>
 void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy, Minimum& factor) {
-  if (all((work > -0.8) & (energy >= 0), batch.count)) return;
-  for (int lane = 0; lane < batch.count; ++lane) {
+  if (batch.holds((work > -0.8) & (energy >= 0))) return;
+  for (int lane = 0; lane < Lanes::count; ++lane) {
+    if (batch.used[lane] == 0) continue;
     if (!(work[lane] > -0.8)) factor.add(-0.7 / work[lane], "cooling");
     if (!(energy[lane] >= 0)) factor.add(0.5, "cooling");
   }
@@ -325,7 +327,7 @@ void updateParticles(const Patch& patch, const Gas&, const ParticleUpdate<D>& up
   forEachBatch<D>(patch.cells(), update.x, [&](const Batch<D>& batch) {
     const Footprint<D> footprint(patch.level(), batch, load(update.x, batch), load(update.edges, batch));
     const LanesModes<D> u = load(update.modes, batch);
-    const Reader<D> read{motion, {motion, footprint.first(), batch.count}};
+    const Reader<D> read{motion, footprint.first()};
     Index<D> at;
     const auto taken =
         gatherFromNodes<D, Scheme, D - 1>(footprint, at, read, fieldOf<D>(load(update.velocity, batch), u));
