@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <array>
 
-#include "core/base/lanes.hpp"
-#include "core/core.hpp"
+#include "components/mpm/gas/conserving/rows.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
-/// One vector for each particle of a batch.
-template <int D>
-using LanesVec = Eigen::Matrix<Lanes, D, 1, Eigen::DontAlign>;
 /// The velocity modes of each particle of a batch, as in Modes.
 template <int D>
-using LanesModes = Eigen::Matrix<Lanes, D, (1 << D) - 1, Eigen::DontAlign>;
+using LanesModes = LanesMatrix<D, (1 << D) - 1>;
 
 /// Particles side by side, at most one of each cell: lane k belongs to the k-th cell of a row from `start` on, so what
 /// the particles read from the grid and add to it also stands side by side. Lanes not in use repeat another particle.
@@ -93,10 +89,7 @@ template <int D>
 template <int D, int Rows, int Columns>
 [[gnu::always_inline]] inline auto load(
     const ParticleView<const Eigen::Matrix<double, Rows, Columns, Eigen::DontAlign>>& view, const Batch<D>& batch) {
-  const auto columns = loadColumns<Rows * Columns>(batch, [&](int p) { return view[p].data(); });
-  Eigen::Matrix<Lanes, Rows, Columns, Eigen::DontAlign> values;
-  for (int k = 0; k < Rows * Columns; ++k) values(k % Rows, k / Rows) = columns[static_cast<std::size_t>(k)];
-  return values;
+  return matrixOf<Rows, Columns>(loadColumns<Rows * Columns>(batch, [&](int p) { return view[p].data(); }));
 }
 
 /// The reverse of loadColumns.
@@ -117,11 +110,9 @@ template <int D>
 }
 template <int D, int Rows, int Columns>
 [[gnu::always_inline]] inline void store(
-    const Eigen::Matrix<Lanes, Rows, Columns, Eigen::DontAlign>& values,
+    const LanesMatrix<Rows, Columns>& values,
     const ParticleView<Eigen::Matrix<double, Rows, Columns, Eigen::DontAlign>>& view, const Batch<D>& batch) {
-  std::array<Lanes, Rows * Columns> columns;
-  for (int k = 0; k < Rows * Columns; ++k) columns[static_cast<std::size_t>(k)] = values(k % Rows, k / Rows);
-  storeColumns(columns, batch, [&](int p) { return view[p].data(); });
+  storeColumns(coefficientsOf<Rows, Columns>(values), batch, [&](int p) { return view[p].data(); });
 }
 
 }  // namespace tushar::mpm::gas::conserving

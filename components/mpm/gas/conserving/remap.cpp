@@ -5,9 +5,6 @@ namespace tushar::mpm::gas::conserving {
 
 namespace {
 
-template <int D>
-using LanesTensor = Eigen::Matrix<Lanes, D, D, Eigen::DontAlign>;
-
 /// Sums over the parts of particles in each cell; offsets dx are from the middle of the cell.
 template <int D>
 struct CellSums {

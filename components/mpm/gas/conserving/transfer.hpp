@@ -18,25 +18,28 @@ typename Footprint<D>::template Field<D - 1> fieldOf(const LanesVec<D>& velocity
   return field;
 }
 
-/// Sums over boxes: mass and momentum at nodes; mass, internal energy and volume in cells.
-template <int D>
+/// Sums over boxes: mass and momentum at nodes; mass, internal energy and, if `Fills`, volume in cells.
+template <int D, bool Fills>
 struct Gathering {
-  GridSums<D, 1 + D, 1> nodes;
-  GridSums<D, 3, 0> cells;
+  using Nodes = GridSums<D, 1 + D, 1>;
+  using Cells = GridSums<D, Fills ? 3 : 2, 0>;
+
+  Nodes nodes;
+  Cells cells;
 
   explicit Gathering(const Box& around) : nodes(around), cells(around) {}
 
-  void add(const Batch<D>& batch, const Footprint<D>& footprint, const Lanes& mass, const Lanes& energy,
-           const Lanes& volume, const typename Footprint<D>::template Field<D - 1>& velocity) {
-    typename GridSums<D, 3, 0>::Brought parts;
+  void add(const Footprint<D>& footprint, const Lanes& mass, const Lanes& energy, const Lanes& volume,
+           const typename Footprint<D>::template Field<D - 1>& velocity) {
+    typename Cells::Brought parts;
     footprint.forEachPart([&](const Index<D>& k, const Lanes& part) {
       const std::size_t place = Footprint<D>::number(k);
       parts[0][place] = part * mass;
       parts[1][place] = part * energy;
-      parts[2][place] = part * volume;
+      if constexpr (Fills) parts[2][place] = part * volume;
     });
     cells.add(footprint, parts);
-    typename GridSums<D, 1 + D, 1>::Brought brought;
+    typename Nodes::Brought brought;
     footprint.forEachWeight(velocity, [&](const Index<D>& k, const Lanes& w, const LanesVec<D>& u) {
       const std::size_t place = Footprint<D>::number(k);
       brought[0][place] = w * mass;
@@ -79,22 +82,22 @@ struct ParticlesToGrid {
 
 /// m_i = sum w m,   v_i = sum w m u(x_i) / m_i on the patch's nodes,   M_c = sum o m,   IE_c = sum o m e in its cells;
 /// w and o as in Footprint, u the velocity of the particle's modes. Symmetry planes: no normal velocity.
-/// Calls `visitFill(cell, volume)` with the volume of the boxes in each cell.
-template <int D, class Visit>
+/// If `Fills`, calls `visitFill(cell, volume)` with the volume of the boxes in each cell.
+template <int D, bool Fills, class Visit>
 void gatherOnGrid(const Patch& patch, const ParticlesToGrid<D>& t, Visit&& visitFill) {
-  Gathering<D> sums(t.x.cells());
+  Gathering<D, Fills> sums(t.x.cells());
   forEachBatch<D>(t.x.cells(), t.x, [&](const Batch<D>& batch) {
     const LanesVec<D> size = load(t.edges, batch);
     const Footprint<D> footprint(patch.level(), batch, load(t.x, batch), size);
     const Lanes m = batch.only(load(t.mass, batch));
-    sums.add(batch, footprint, m, m * load(t.internalEnergy, batch), batch.only(size.prod()),
+    sums.add(footprint, m, m * load(t.internalEnergy, batch), batch.only(size.prod()),
              fieldOf<D>(load(t.velocity, batch), load(t.modes, batch)));
   });
   sums.finish();
   forEach<D>(t.cellMass.box(), [&](const Index<D>& cell) {
     t.cellMass[cell] = sums.cells.at(0, cell);
     t.cellInternalEnergy[cell] = sums.cells.at(1, cell);
-    visitFill(cell, sums.cells.at(2, cell));
+    if constexpr (Fills) visitFill(cell, sums.cells.at(2, cell));
   });
   forEach<D>(t.nodeMass.box(), [&](const Index<D>& node) {
     const double m = sums.nodes.at(0, node), inverse = m > 0 ? 1 / m : 0;
@@ -108,7 +111,7 @@ void gatherOnGrid(const Patch& patch, const ParticlesToGrid<D>& t, Visit&& visit
 /// The task that only calls gatherOnGrid.
 template <int D>
 void interpolateParticlesToGrid(const Patch& patch, const Gas&, const ParticlesToGrid<D>& transfer) {
-  gatherOnGrid<D>(patch, transfer, [](const Index<D>&, double) {});
+  gatherOnGrid<D, false>(patch, transfer, [](const Index<D>&, double) {});
 }
 
 /// Calls gatherOnGrid, and computes the volume of the boxes in each cell over that of the cell: 1 if they tile the gas.
@@ -117,7 +120,7 @@ void interpolateAndMeasureFill(const Patch& patch, const Gas&, const ParticlesTo
                                CellView<double> fill, Maximum& greatest) {
   double inverse = 1;
   for (int d = 0; d < D; ++d) inverse *= patch.level().inverseSpacing(d);
-  gatherOnGrid<D>(patch, transfer, [&](const Index<D>& cell, double volume) {
+  gatherOnGrid<D, true>(patch, transfer, [&](const Index<D>& cell, double volume) {
     fill[cell] = volume * inverse;
     greatest.add(fill[cell]);
   });
@@ -127,7 +130,7 @@ void interpolateAndMeasureFill(const Patch& patch, const Gas&, const ParticlesTo
 /// (Axis = D - 1), with the weights along these axes.
 template <int D, int Axis>
 struct Gathered {
-  std::array<LanesVec<D>, (1 << (Axis + 1))> moments;  ///< y phi_a
+  std::array<LanesVec<D>, (1 << (Axis + 1))> moments;  ///< y phi_a; apic: only the first
   std::array<LanesVec<D>, Axis + 1> lower, upper;      ///< velocity of the lower and upper faces across each axis, m/s
   LanesVec<D> moving = LanesVec<D>::Zero();            ///< mean of that velocity over the nodes, m/s
   Lanes slipEnergy = 0;                                ///< beta (2 - beta) |r|² / 2, J/kg
@@ -234,7 +237,7 @@ template <int D, class Scheme>
   const LanesVec<D> r = field - v, moving = v + Scheme::faceTime * dv;
   const LanesVec<D> y = v + dv + (1 - beta) * r, wy = w * y;
   sum.moments[0] += wy;
-  sum.moments[1] += span.arm[k] * wy;
+  if constexpr (Scheme::transfer != Transfer::apic) sum.moments[1] += span.arm[k] * wy;
   sum.lower[0] += span.atLower[k] * moving;
   sum.upper[0] += span.atUpper[k] * moving;
   sum.moving += w * moving;
@@ -243,15 +246,16 @@ template <int D, class Scheme>
 }
 
 /// Adds a line to a plane, or a plane to the footprint.
-template <int D, int Axis>
+template <int D, class Scheme, int Axis>
 [[gnu::always_inline]] inline void addSlice(const Footprint<D>& footprint, std::size_t k,
                                             const Gathered<D, Axis - 1>& slice, Gathered<D, Axis>& sum) {
   constexpr std::size_t half = std::size_t{1} << Axis;
   const auto& span = footprint.along[Axis];
   const Lanes w = span.weight[k];
-  for (std::size_t a = 0; a < half; ++a) {
-    sum.moments[a] += w * slice.moments[a];
-    sum.moments[a + half] += w * span.arm[k] * slice.moments[a];
+  sum.moments[0] += w * slice.moments[0];
+  if constexpr (Scheme::transfer != Transfer::apic) {
+    for (std::size_t a = 1; a < half; ++a) sum.moments[a] += w * slice.moments[a];
+    for (std::size_t a = 0; a < half; ++a) sum.moments[a + half] += w * span.arm[k] * slice.moments[a];
   }
   for (std::size_t d = 0; d < Axis; ++d) {
     sum.lower[d] += w * slice.lower[d];
@@ -269,13 +273,14 @@ template <int D, class Scheme, int Axis>
     const Footprint<D>& footprint, Index<D>& at, const Reader<D>& read,
     const typename Footprint<D>::template Field<Axis>& field) {
   const auto& span = footprint.along[Axis];
-  return span.template sumOverNodes<Gathered<D, Axis>>([&](int node, Gathered<D, Axis>& sum) {
+  return span.template sumOverNodes<Gathered<D, Axis>>([&](int node, Gathered<D, Axis>& sum)
+                                                           __attribute__((always_inline)) {
     at[Axis] = node;
     const std::size_t k = node;
     if constexpr (Axis == 0)
       addNode<D, Scheme>(footprint, at, read, field[0] + span.arm[k] * field[1], sum);
     else
-      addSlice<D, Axis>(footprint, k,
+      addSlice<D, Scheme, Axis>(footprint, k,
                         gatherFromNodes<D, Scheme, Axis - 1>(footprint, at, read,
                                                              Footprint<D>::template slice<Axis>(field, span.arm[k])),
                         sum);
