@@ -128,18 +128,34 @@ void interpolateAndMeasureFill(const Patch& patch, const Gas&, const ParticlesTo
 
 /// Sums of (E1)-(E3) of updateParticles over the nodes on a line (Axis = 0), on a plane, or of the whole footprint
 /// (Axis = D - 1), with the weights along these axes.
-template <int D, int Axis>
+template <int D, class Scheme, int Axis>
 struct Gathered {
-  std::array<LanesVec<D>, (1 << (Axis + 1))> moments;  ///< y phi_a; apic: only the first
-  std::array<LanesVec<D>, Axis + 1> lower, upper;      ///< velocity of the lower and upper faces across each axis, m/s
-  LanesVec<D> moving = LanesVec<D>::Zero();            ///< mean of that velocity over the nodes, m/s
-  Lanes slipEnergy = 0;                                ///< beta (2 - beta) |r|² / 2, J/kg
-  Lanes square = 0;                                    ///< |y|², J/kg
+  static constexpr bool apic = Scheme::transfer == Transfer::apic;
+  /// The velocity of a face [m/s]; without apic only its normal component.
+  using FaceVelocity = std::conditional_t<apic, LanesVec<D>, Lanes>;
+
+  std::array<LanesVec<D>, apic ? 1 : 1 << (Axis + 1)> moments;  ///< y phi_a; apic: only the first
+  std::array<FaceVelocity, Axis + 1> lower, upper;              ///< of the faces across each axis
+  LanesVec<D> moving = LanesVec<D>::Zero();                     ///< mean of v + faceTime dt a over the nodes, m/s
+  Lanes slipEnergy = 0;                                         ///< beta (2 - beta) |r|² / 2, J/kg
+  Lanes square = 0;                                             ///< |y|², J/kg
 
   Gathered() {
     moments.fill(LanesVec<D>::Zero());
-    lower.fill(LanesVec<D>::Zero());
-    upper.fill(LanesVec<D>::Zero());
+    for (int d = 0; d <= Axis; ++d) lower[static_cast<std::size_t>(d)] = ofFace(d, LanesVec<D>::Zero());
+    upper = lower;
+  }
+  static FaceVelocity ofFace(int axis, const LanesVec<D>& velocity) {
+    if constexpr (apic)
+      return velocity;
+    else
+      return velocity[axis];
+  }
+  static Lanes normal(int axis, const FaceVelocity& velocity) {
+    if constexpr (apic)
+      return velocity[axis];
+    else
+      return velocity;
   }
   Gathered& operator+=(const Gathered& other) {
     for (std::size_t a = 0; a < moments.size(); ++a) moments[a] += other.moments[a];
@@ -154,11 +170,12 @@ struct Gathered {
   }
 };
 
-/// Grid fields that update particles: v and dt a at nodes along each axis, beta at nodes, f in cells.
+/// Grid fields that update particles: v, v + dt a and v + faceTime dt a at nodes along each axis, 1 - beta and
+/// beta (2 - beta) / 2 at nodes, f in cells.
 template <int D>
-struct Motion : GridFields<D, 2 * D + 2> {
-  static constexpr std::size_t change = D, relaxation = 2 * D, work = 2 * D + 1;
-  using GridFields<D, 2 * D + 2>::GridFields;
+struct Motion : GridFields<D, 3 * D + 3> {
+  static constexpr std::size_t accelerated = D, moving = 2 * D, kept = 3 * D, slip = kept + 1, work = kept + 2;
+  using GridFields<D, 3 * D + 3>::GridFields;
 };
 
 /// The variables that updateParticles reads and writes.
@@ -198,16 +215,21 @@ struct ParticleUpdate {
   }
 };
 
-template <int D>
+template <int D, class Scheme>
 Motion<D> motionOn(const Patch& patch, const ParticleUpdate<D>& update, double dt) {
   Motion<D> motion(patch.cells());
   forEach<D>(update.nodeVelocity.box(), [&](const Index<D>& node) {
-    for (int d = 0; d < D; ++d) {
-      motion.at(d, node) = update.nodeVelocity[node][d];
-      motion.at(Motion<D>::change + static_cast<std::size_t>(d), node) = dt * update.acceleration[node][d];
+    for (std::size_t d = 0; d < D; ++d) {
+      const double v = update.nodeVelocity[node][static_cast<int>(d)];
+      const double dv = dt * update.acceleration[node][static_cast<int>(d)];
+      motion.at(d, node) = v;
+      motion.at(Motion<D>::accelerated + d, node) = v + dv;
+      motion.at(Motion<D>::moving + d, node) = v + Scheme::faceTime * dv;
     }
+    const double beta = Scheme::transfer == Transfer::apic ? 1.0 : update.relaxation[node];
+    motion.at(Motion<D>::kept, node) = 1 - beta;
+    motion.at(Motion<D>::slip, node) = 0.5 * beta * (2 - beta);
   });
-  motion.copy(Motion<D>::relaxation, update.relaxation);
   motion.copy(Motion<D>::work, update.work);
   return motion;
 }
@@ -219,62 +241,63 @@ struct Reader {
   Index<D> first;
 
   Lanes operator()(std::size_t field, const Index<D>& k) const { return motion.readRow(field, first + k); }
+  LanesVec<D> vector(std::size_t field, const Index<D>& k) const {
+    LanesVec<D> values;
+    for (std::size_t d = 0; d < D; ++d) values[static_cast<int>(d)] = (*this)(field + d, k);
+    return values;
+  }
 };
 
 /// Adds nodes of a line, one per lane.
 template <int D, class Scheme>
 [[gnu::always_inline]] inline void addNode(const Footprint<D>& footprint, const Index<D>& at, const Reader<D>& read,
-                                           const LanesVec<D>& field, Gathered<D, 0>& sum) {
+                                           const LanesVec<D>& field, Gathered<D, Scheme, 0>& sum) {
+  using Sum = Gathered<D, Scheme, 0>;
   const auto& span = footprint.along[0];
   const std::size_t k = at[0];
   const Lanes w = span.weight[k];
-  LanesVec<D> v, dv;
-  for (int d = 0; d < D; ++d) {
-    v[d] = read(static_cast<std::size_t>(d), at);
-    dv[d] = read(Motion<D>::change + static_cast<std::size_t>(d), at);
-  }
-  const Lanes beta = Scheme::transfer == Transfer::apic ? Lanes(1.0) : read(Motion<D>::relaxation, at);
-  const LanesVec<D> r = field - v, moving = v + Scheme::faceTime * dv;
-  const LanesVec<D> y = v + dv + (1 - beta) * r, wy = w * y;
+  const LanesVec<D> r = field - read.vector(0, at), moving = read.vector(Motion<D>::moving, at);
+  const LanesVec<D> y = read.vector(Motion<D>::accelerated, at) + read(Motion<D>::kept, at) * r, wy = w * y;
   sum.moments[0] += wy;
-  if constexpr (Scheme::transfer != Transfer::apic) sum.moments[1] += span.arm[k] * wy;
-  sum.lower[0] += span.atLower[k] * moving;
-  sum.upper[0] += span.atUpper[k] * moving;
+  if constexpr (!Sum::apic) sum.moments[1] += span.arm[k] * wy;
+  sum.lower[0] += span.atLower[k] * Sum::ofFace(0, moving);
+  sum.upper[0] += span.atUpper[k] * Sum::ofFace(0, moving);
   sum.moving += w * moving;
-  sum.slipEnergy += w * (0.5 * beta * (2 - beta)) * r.squaredNorm();
+  sum.slipEnergy += w * read(Motion<D>::slip, at) * r.squaredNorm();
   sum.square += wy.dot(y);
 }
 
 /// Adds a line to a plane, or a plane to the footprint.
 template <int D, class Scheme, int Axis>
 [[gnu::always_inline]] inline void addSlice(const Footprint<D>& footprint, std::size_t k,
-                                            const Gathered<D, Axis - 1>& slice, Gathered<D, Axis>& sum) {
+                                            const Gathered<D, Scheme, Axis - 1>& slice,
+                                            Gathered<D, Scheme, Axis>& sum) {
+  using Sum = Gathered<D, Scheme, Axis>;
   constexpr std::size_t half = std::size_t{1} << Axis;
   const auto& span = footprint.along[Axis];
   const Lanes w = span.weight[k];
-  sum.moments[0] += w * slice.moments[0];
-  if constexpr (Scheme::transfer != Transfer::apic) {
-    for (std::size_t a = 1; a < half; ++a) sum.moments[a] += w * slice.moments[a];
-    for (std::size_t a = 0; a < half; ++a) sum.moments[a + half] += w * span.arm[k] * slice.moments[a];
+  for (std::size_t a = 0; a < slice.moments.size(); ++a) {
+    sum.moments[a] += w * slice.moments[a];
+    if constexpr (!Sum::apic) sum.moments[a + half] += w * span.arm[k] * slice.moments[a];
   }
   for (std::size_t d = 0; d < Axis; ++d) {
     sum.lower[d] += w * slice.lower[d];
     sum.upper[d] += w * slice.upper[d];
   }
-  sum.lower[Axis] += span.atLower[k] * slice.moving;
-  sum.upper[Axis] += span.atUpper[k] * slice.moving;
+  sum.lower[Axis] += span.atLower[k] * Sum::ofFace(Axis, slice.moving);
+  sum.upper[Axis] += span.atUpper[k] * Sum::ofFace(Axis, slice.moving);
   sum.moving += w * slice.moving;
   sum.slipEnergy += w * slice.slipEnergy;
   sum.square += w * slice.square;
 }
 
 template <int D, class Scheme, int Axis>
-[[gnu::always_inline]] inline Gathered<D, Axis> gatherFromNodes(
+[[gnu::always_inline]] inline Gathered<D, Scheme, Axis> gatherFromNodes(
     const Footprint<D>& footprint, Index<D>& at, const Reader<D>& read,
     const typename Footprint<D>::template Field<Axis>& field) {
   const auto& span = footprint.along[Axis];
-  return span.template sumOverNodes<Gathered<D, Axis>>([&](int node, Gathered<D, Axis>& sum)
-                                                           __attribute__((always_inline)) {
+  using Sum = Gathered<D, Scheme, Axis>;
+  return span.template sumOverNodes<Sum>([&](int node, Sum& sum) __attribute__((always_inline)) {
     at[Axis] = node;
     const std::size_t k = node;
     if constexpr (Axis == 0)
@@ -328,7 +351,7 @@ void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy,
 template <int D, class Scheme>
 void updateParticles(const Patch& patch, const Gas&, const ParticleUpdate<D>& update, double dt, Minimum& factor) {
   constexpr bool apic = Scheme::transfer == Transfer::apic;
-  const Motion<D> motion = motionOn<D>(patch, update, dt);
+  const Motion<D> motion = motionOn<D, Scheme>(patch, update, dt);
   forEachBatch<D>(patch.cells(), update.x, [&](const Batch<D>& batch) {
     const Footprint<D> footprint(patch.level(), batch, load(update.x, batch), load(update.edges, batch));
     const LanesModes<D> u = load(update.modes, batch);
@@ -343,7 +366,8 @@ void updateParticles(const Patch& patch, const Gas&, const ParticleUpdate<D>& up
     for (std::size_t d = 0; d < D; ++d) {
       const auto& span = footprint.along[d];
       const int axis = static_cast<int>(d);
-      const Lanes lower = span.lower + dt * taken.lower[d][axis], upper = span.upper + dt * taken.upper[d][axis];
+      const Lanes lower = span.lower + dt * taken.normal(axis, taken.lower[d]);
+      const Lanes upper = span.upper + dt * taken.normal(axis, taken.upper[d]);
       centre[axis] = 0.5 * (lower + upper);
       size[axis] = upper - lower;
       limitEdges(batch, span.length(), size[axis], Footprint<D>::longest * patch.level().spacing(axis), factor);
