@@ -64,10 +64,7 @@ struct Gas {
   /// e [J/kg] for a density rho [kg/m³] and the energy that particles carry [J/kg].
   double fullEnergy(double rho, double energy) const { return energy + (pInfinity - carried) / rho; }
   /// Square of the speed of sound [m²/s²].
-  template <class Number>
-  Number soundSpeedSquared(Number epsilon) const {
-    return gamma * (gamma - 1) * epsilon;
-  }
+  double soundSpeedSquared(double epsilon) const { return gamma * (gamma - 1) * epsilon; }
 };
 
 /// The laws of the gases for exact solutions; none if a gas has a source of heat.

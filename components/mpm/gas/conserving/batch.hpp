@@ -104,8 +104,7 @@ template <int D, std::size_t numbers, class At>
 }
 
 template <int D>
-[[gnu::always_inline]] inline void store(const Lanes& values, const ParticleView<double>& view,
-                                         const Batch<D>& batch) {
+[[gnu::always_inline]] inline void store(const Lanes& values, const ParticleView<double>& view, const Batch<D>& batch) {
   storeColumns(std::array{values}, batch, [&](int p) { return &view[p]; });
 }
 template <int D, int Rows, int Columns>

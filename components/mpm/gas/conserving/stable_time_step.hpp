@@ -57,9 +57,10 @@ void measureSignals(const Patch& patch, const Gas& gas, ParticleView<const Vec<D
                     CellView<const double> cellInternalEnergy, CellView<const Tensor<D>> gradient, Maximum& pastGrid,
                     Maximum& pastGas) {
   pastGrid.add(fastestSignal<D>(gas, velocity, internalEnergy));
+  const double perEnergy = gas.soundSpeedSquared(1);
   Lanes fastest = 0;
   forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
-    const Lanes m = load(mass, cells), cSquared = gas.soundSpeedSquared(load(cellInternalEnergy, cells) / m);
+    const Lanes m = load(mass, cells), cSquared = perEnergy * (load(cellInternalEnergy, cells) / m);
     const Lanes signal = signalInCells(patch.level(), load(gradient, cells).trace(), cSquared);
     fastest = max(fastest, select(m > 0, signal, 0));
   });

@@ -304,9 +304,9 @@ template <int D, class Scheme, int Axis>
       addNode<D, Scheme>(footprint, at, read, field[0] + span.arm[k] * field[1], sum);
     else
       addSlice<D, Scheme, Axis>(footprint, k,
-                        gatherFromNodes<D, Scheme, Axis - 1>(footprint, at, read,
-                                                             Footprint<D>::template slice<Axis>(field, span.arm[k])),
-                        sum);
+                                gatherFromNodes<D, Scheme, Axis - 1>(
+                                    footprint, at, read, Footprint<D>::template slice<Axis>(field, span.arm[k])),
+                                sum);
   });
 }
 
