@@ -7,21 +7,43 @@
 
 namespace tushar::mpm::gas::conserving {
 
+/// Adds to a Sum in one lane for each cell of a part of a row.
+class LanesSum {
+ public:
+  explicit LanesSum(Sum& sum) : sum_(&sum) {}
+  LanesSum(const LanesSum&) = delete;
+  LanesSum& operator=(const LanesSum&) = delete;
+  ~LanesSum() {
+    for (int lane = 0; lane < Lanes::count; ++lane) sum_->merge({value_[lane], error_[lane], rest_[lane]});
+  }
+  void add(Lanes x) {
+    data::addExactly(value_, x);
+    data::addExactly(error_, x);
+    rest_ += x;
+  }
+
+ private:
+  Lanes value_ = 0, error_ = 0, rest_ = 0;
+  Sum* sum_;
+};
+
 /// Kinetic (the motion about the mean included), internal and total energy of all particles [J].
 template <int D>
 void sumEnergy(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy, Sum& kinetic,
                Sum& internal, Sum& total) {
-  WideSum kineticSum(kinetic), internalSum(internal), totalSum(total);
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    double ke = 0, ie = 0;
-    for (const int p : mass.in(cell)) {
-      ke += mass[p] * (0.5 * velocity[p].squaredNorm() + affineEnergy[p]);
-      ie += mass[p] * internalEnergy[p];
-    }
-    kineticSum.add(ke);
-    internalSum.add(ie);
-    totalSum.add(ke + ie);
+  LanesSum kineticSum(kinetic), internalSum(internal), totalSum(total);
+  forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
+    std::array<double, Lanes::count> ke{}, ie{};
+    for (int lane = 0; lane < cells.count; ++lane)
+      for (const int p : mass.in(cells.at(lane))) {
+        ke[lane] += mass[p] * (0.5 * velocity[p].squaredNorm() + affineEnergy[p]);
+        ie[lane] += mass[p] * internalEnergy[p];
+      }
+    const Lanes moving = Lanes::at(ke.data()), warm = Lanes::at(ie.data());
+    kineticSum.add(moving);
+    internalSum.add(warm);
+    totalSum.add(moving + warm);
   });
 }
 
@@ -68,7 +90,7 @@ void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<
       }
       for (std::size_t d = 0; d < D; ++d) brought[d][Footprint<D>::number(k)] = part * m * there[static_cast<int>(d)];
     });
-    momentum.add(footprint, batch.count, brought);
+    momentum.add(footprint, brought);
   });
   momentum.finish();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {

@@ -133,6 +133,7 @@ struct Footprint {
   static constexpr double longest = D == 1 ? 3 : 2;
 
   std::array<Span<overhang>, D> along;
+  Index<D> start;  ///< the cell of the first lane
 
   Footprint(const Level& level, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges)
       : Footprint(level, batch, centre, edges, std::make_index_sequence<D>()) {}
@@ -143,11 +144,11 @@ struct Footprint {
     return all;
   }
 
-  /// The first cell of each box, which has the number of the node below it.
-  std::array<LaneIntegers, D> first() const {
-    std::array<LaneIntegers, D> all;
-    for (std::size_t d = 0; d < D; ++d) all[d] = along[d].first;
-    return all;
+  /// The first cell of the first lane, which has the number of the node below it. Those of the other lanes follow.
+  Index<D> first() const {
+    Index<D> first = start;
+    for (std::size_t d = 0; d < D; ++d) first[static_cast<int>(d)] -= along[d].below;
+    return first;
   }
 
   /// Sum of `value(k, part)` over the cells k of the footprint; the same for the mirror image.
@@ -196,7 +197,7 @@ struct Footprint {
   template <std::size_t... Axis>
   Footprint(const Level& level, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges,
             std::index_sequence<Axis...>)
-      : along{{{level, static_cast<int>(Axis), batch.cell[Axis], centre[Axis], edges[Axis]}...}} {}
+      : along{{{level, static_cast<int>(Axis), batch.cell[Axis], centre[Axis], edges[Axis]}...}}, start(batch.start) {}
 
   template <int Axis, class Value>
   Lanes sumAlong(Index<D>& k, const Lanes& part, Value& value) const {

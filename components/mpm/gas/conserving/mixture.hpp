@@ -133,9 +133,9 @@ void computeMixturePressure(const Patch& patch, const std::vector<Gas>& gases, c
     const CellState state = shockViscosity(mixture.pressure(), mixture.density, std::sqrt(mixture.soundSpeedSquared()),
                                            difference, viscosity);
     for (std::size_t k = 0; k < gases.size(); ++k) {
-      pressure[k][cell] = state.pressure;
-      artificial[k][cell] = state.viscosity;
-      shock[k][cell] = state.shock;
+      pressure[k][cell] = state.pressure[0];
+      artificial[k][cell] = state.viscosity[0];
+      shock[k][cell] = state.shock[0];
     }
   });
 }
@@ -204,7 +204,7 @@ void measureMixtureSignals(const Patch& patch, const std::vector<Gas>& gases, co
     for (int k = 0; k < Linear<D>::nodes; ++k)
       fastest = std::max(fastest, velocity.front()[Linear<D>::node(cell, k)].norm());
     onGrid = std::max(onGrid, fastest + std::sqrt(cSquared));
-    inGas = std::max(inGas, signalInCell<D>(patch.level(), gradient.front()[cell], cSquared));
+    inGas = std::max(inGas, signalInCells(patch.level(), gradient.front()[cell].trace(), cSquared)[0]);
   });
   pastGrid.add(onGrid);
   pastGas.add(inGas);

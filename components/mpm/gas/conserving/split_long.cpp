@@ -42,13 +42,12 @@ void addHalved(const Patch& patch, double longestInCells, const GasBox<D>& piece
 template <int D>
 void splitLong(const Patch& patch, double longestInCells, const OldBoxes<D>& old, ParticleMaker& maker,
                const NewBoxes<D>& fresh) {
-  Vec<D> longest;
-  for (int d = 0; d < D; ++d) longest[d] = longestInCells * patch.level().spacing(d);
-  bool any = false;
-  forEach<D>(old.x.cells(), [&](const Index<D>& cell) {
-    for (const int p : old.x.in(cell)) any = any || (old.edges[p].array() > longest.array()).any();
+  Lanes::Mask isLong{};
+  forEachBatch<D>(old.x.cells(), old.x, [&](const Batch<D>& batch) {
+    const LanesVec<D> edges = load(old.edges, batch);
+    for (int d = 0; d < D; ++d) isLong |= edges[d] > longestInCells * patch.level().spacing(d);
   });
-  if (!any) return maker.keepAll();
+  if (all(~isLong)) return maker.keepAll();
   forEach<D>(old.x.cells(), [&](const Index<D>& cell) {
     for (const int p : old.x.in(cell)) addHalved(patch, longestInCells, old.at(p), 0, maker, fresh);
   });

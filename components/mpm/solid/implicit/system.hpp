@@ -93,8 +93,9 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   bool addInternalForces(std::span<const double> u, std::span<double> r);
   void addInternalForce(const PointRun& run, std::span<double> r) const;
   Strain strainOf(std::size_t point) const;
-  Local stiffnessOf(const PointGroup& group, int k, const Matrix9& tangent) const;
-  void addStiffness(const PointGroup& group, int k, Local stiffness, solvers::Matrix& matrix) const;
+  void addStiffnessOf(const PointGroup& group, int k, const Matrix9& tangent, Local& stiffness) const;
+  /// Adds the stiffness between nodes to the matrix, without the rows and columns of prescribed displacements.
+  void addStiffness(std::span<const int> numbers, Local& stiffness, solvers::Matrix& matrix) const;
   void addRunStiffness(const PointRun& run, solvers::Matrix& matrix);
   /// The numbers of the touches_ nodes of a point.
   std::array<int, mostTouches<D>> numbersOf(std::size_t point) const;
