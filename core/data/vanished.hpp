@@ -6,8 +6,7 @@ namespace tushar::data {
 
 /// The first coordinate of a particle that is no more: the next relocation drops it.
 inline constexpr double vanished = std::numeric_limits<double>::max();
-/// The first coordinate of a particle that cannot be continued: the next relocation drops it, and counts it with those
-/// that left the grid.
+/// The first coordinate of a particle that cannot be continued: the next relocation drops it, and counts it.
 inline constexpr double removed = std::numeric_limits<double>::lowest();
 
 }  // namespace tushar::data

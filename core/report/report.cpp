@@ -267,6 +267,7 @@ std::string toJson(const Report& report) {
   json["failure"] = report.failure;
   json["particles"] = report.particles;
   json["particles_dropped"] = report.dropped;
+  json["particles_removed"] = report.removed;
   json["particle_steps_per_second"] = report.wallLoop > 0 ? report.particleSteps / report.wallLoop : 0;
   json["memory"] = {{"resident", report.memory.now},
                     {"peak", report.memory.peak},
@@ -285,12 +286,24 @@ std::string toJson(const Report& report) {
   return json.dump(2) + "\n";
 }
 
+namespace {
+
+/// In parentheses, the particles that a run has lost; empty if none.
+std::string lossesOf(const Report& report) {
+  std::string text;
+  if (report.dropped > 0) text = fmt::format("{} left the grid", report.dropped);
+  if (report.removed > 0)
+    text += fmt::format("{}{} removed, since a step turned them inside out", text.empty() ? "" : ", ", report.removed);
+  return text.empty() ? "" : " (" + text + ")";
+}
+
+}  // namespace
+
 std::string toText(const Report& report) {
   std::string text = fmt::format("{} to t = {:.6g} s ({}), {}", counted(report.steps, "step"), report.time,
                                  report.ended, counted(report.cells, "cell"));
-  if (report.particles > 0 || report.dropped > 0) {
-    text += ", " + counted(report.particles, "particle");
-    if (report.dropped > 0) text += fmt::format(" ({} left the grid or were removed)", report.dropped);
+  if (report.particles > 0 || report.dropped > 0 || report.removed > 0) {
+    text += ", " + counted(report.particles, "particle") + lossesOf(report);
     if (report.wallLoop > 0)
       text += fmt::format(", {:.3g} million particle-steps/s", 1e-6 * report.particleSteps / report.wallLoop);
   }

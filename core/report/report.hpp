@@ -66,7 +66,9 @@ struct TaskTime {
 struct Report {
   std::string scene, title, component, version, build;
   int dimension = 0, patches = 0, ranks = 1, threads = 1;
-  long cells = 0, particles = 0, dropped = 0;
+  long cells = 0, particles = 0;
+  long dropped = 0;            ///< particles that left the grid
+  long removed = 0;            ///< particles that could not be continued
   double spacing = 0;          ///< smallest cell width, m
   int steps = 0, retries = 0;  ///< steps taken; undone and repeated
   std::vector<std::pair<std::string, int>>

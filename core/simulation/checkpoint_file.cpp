@@ -80,7 +80,8 @@ void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTa
   file.attribute("/", "step", run.time.step());
   file.attribute("/", "time", run.time.time());
   file.attribute("/", "delT", run.time.delT());
-  file.attribute("/", "dropped", static_cast<std::uint64_t>(target.dropped));
+  file.attribute("/", "dropped", static_cast<std::uint64_t>(target.lost.left));
+  file.text("/removed", std::to_string(target.lost.removed));
   file.attribute("/", "version", std::string(TUSHAR_VERSION));
   file.attribute("/", "component", run.problem.componentName);
   writeGrid(file, collect::gridInfo(run.problem.grid->level()));
@@ -106,6 +107,16 @@ std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTar
   return parts;
 }
 
+namespace {
+
+/// Checkpoints of older versions have no removed particles.
+tasks::LostParticles lostIn(const output::Hdf5Input& file) {
+  return {.left = static_cast<long>(file.count("/", "dropped")),
+          .removed = file.has("/removed") ? std::stol(file.text("/removed")) : 0};
+}
+
+}  // namespace
+
 void readCheckpoint(RunState& run) {
   const output::Hdf5Input file(run.problem.restart->state());
   checkScene(file, run.problem);
@@ -113,7 +124,7 @@ void readCheckpoint(RunState& run) {
   output::CheckedParts checks(run.problem.restart->state().parent_path(), run.problem.restart->parts, run.ranks);
   collect::readState(file, run.warehouse, stateNames(run), run.phases.state(), checks);
   run.time.resume(file.integer("/", "step"), file.real("/", "time"), file.real("/", "delT"));
-  if (run.ranks.isFirst()) run.scheduler.relocation().setDropped(static_cast<long>(file.count("/", "dropped")));
+  if (run.ranks.isFirst()) run.scheduler.relocation().setLost(lostIn(file));
   for (const ConservedTotal& total : run.phases.totals())
     run.totalsAtStart.push_back(std::get<std::vector<double>>(file.dataset("/totals/" + total.name())));
 }

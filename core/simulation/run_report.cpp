@@ -106,7 +106,9 @@ void RunReport::addLayout(Report& report) {
 
 void RunReport::addProgress(Report& report) {
   report.particles = collect::particleCount(run_.warehouse, run_.materials());
-  report.dropped = run_.ranks.sum(run_.scheduler.relocation().dropped());
+  const tasks::LostParticles lost = run_.lostParticles();
+  report.dropped = lost.left;
+  report.removed = lost.removed;
   report.steps = run_.time.step();
   report.retries = run_.time.retries();
   for (const auto& [limit, steps] : run_.time.limits())

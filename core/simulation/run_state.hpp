@@ -37,6 +37,9 @@ struct RunState {
   /// The totals of the current state, computed by a graph.
   Totals measureTotals(tasks::TaskGraph& graph);
 
+  /// Particles that all ranks have lost since the start; all ranks call it.
+  tasks::LostParticles lostParticles();
+
   /// The variables that outlive a step.
   tasks::MigratedVariables migratedVariables() const;
 

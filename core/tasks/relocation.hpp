@@ -15,6 +15,18 @@
 
 namespace tushar::tasks {
 
+/// Numbers of particles that are no longer in a run.
+struct LostParticles {
+  long left = 0;     ///< through free faces of the grid
+  long removed = 0;  ///< where they could not be continued (`data::removed`)
+
+  LostParticles& operator+=(const LostParticles& other) {
+    left += other.left;
+    removed += other.removed;
+    return *this;
+  }
+};
+
 /// Assigns particles and their variables to the cells and patches of their new positions, in the order (cell, id).
 ///
 /// Keeps its working memory from step to step. Finding the moves, which may fail, is separate from making them: if
@@ -39,13 +51,13 @@ class Relocation {
   void forgetLayout();
 
   /// Starts a step, possibly again.
-  void start() { leaving_ = 0; }
+  void start() { losing_ = {}; }
   /// Accepts the moves of the step.
-  void commit() { dropped_ += std::exchange(leaving_, 0); }
-  /// Number of particles that have left the grid from this rank since the start.
-  long dropped() const { return dropped_; }
+  void commit() { lost_ += std::exchange(losing_, {}); }
+  /// Particles that this rank has lost since the start.
+  const LostParticles& lost() const { return lost_; }
   /// Continues the count of another run.
-  void setDropped(long dropped) { dropped_ = dropped; }
+  void setLost(const LostParticles& lost) { lost_ = lost; }
   /// Advice for a particle that comes too close to coarser cells.
   void setAdviceNearCoarser(std::string advice) { advice_near_coarser_ = std::move(advice); }
 
@@ -102,7 +114,7 @@ class Relocation {
     std::size_t packed = 0;          ///< index of the first departed particle among those of all patches
     int count = 0;                   ///< number of particles in the new set
     std::optional<Escape> escape;
-    long leaving = 0;  ///< number that leave through free faces of the grid
+    LostParticles losing;
 
     /// Whether the patch keeps all its particles where they are.
     bool staysAsItIs(data::Generation to) const {
@@ -182,8 +194,8 @@ class Relocation {
   int margin_ = 0;  ///< number of cells of the finest level required around particles
   Threads* threads_;
   std::deque<Moves> moves_;  ///< by material
-  long leaving_ = 0;         ///< in the current step
-  long dropped_ = 0;
+  LostParticles losing_;     ///< in the current step
+  LostParticles lost_;
   std::string advice_near_coarser_;
 };
 

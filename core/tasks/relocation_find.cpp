@@ -152,7 +152,7 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
   moves.incoming.clear();
   moves.arrivals.clear();
   moves.escape.reset();
-  moves.leaving = 0;
+  moves.losing = {};
   if (set.owned() == 0) return;
   const grid::Level& level = warehouse_->grid().finest();
   set.forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
@@ -179,14 +179,14 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
 template <int D>
 void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int departed,
                       PatchMoves& moves) {
-  if (x[0] == data::removed) ++moves.leaving;
+  if (x[0] == data::removed) ++moves.losing.removed;
   if (x[0] == data::vanished || x[0] == data::removed) return;
   const grid::Level& level = warehouse_->grid().finest();
   const int place = moves.departed[departed];
   if (level.isPeriodic()) wrap<D>(level, x);
   const Index<D> cell = level.cellOf<D>(x);
   if (!level.cells().contains(cell)) {
-    ++moves.leaving;
+    ++moves.losing.left;
     const Escape escape{level.cellNumber<D>(fromCell), id, from.id(), place};
     if (!mayLeave<D>(level, x, cell) && (!moves.escape || escape < *moves.escape)) moves.escape = escape;
     return;
@@ -227,7 +227,7 @@ Relocation::Verdict Relocation::gather(Moves& moves, bool hasStopped) {
   for (const Patch& from : grid.patches()) {
     if (hasStopped) break;
     const PatchMoves& ofPatch = of(moves, from.id());
-    leaving_ += ofPatch.leaving;
+    losing_ += ofPatch.losing;
     if (ofPatch.escape) verdict.merge({false, true, false, verdict.rank, *ofPatch.escape});
     for (const Outgoing& one : ofPatch.outgoing)
       if (const int patch = grid.patchOf(one.cell, grid.finest().number()).id(); !grid.isMine(patch))

@@ -58,8 +58,8 @@ class RemovedParticles(unittest.TestCase):
         reports = [run(COLLISION, f"Grid/Level/Box/patches={layout}", *UNSTABLE).report
                    for layout in ("[1,1,1]", "[3,2,1]")]
         self.assertEqual(reports[0]["steps"], 60)
-        self.assertGreater(reports[0]["particles_dropped"], 0)
-        for key in ("fingerprint", "particles", "particles_dropped"):
+        self.assertGreater(reports[0]["particles_removed"], 0)
+        for key in ("fingerprint", "particles", "particles_removed"):
             self.assertEqual(reports[0][key], reports[1][key])
 
     def test_are_counted_across_a_restart(self):
@@ -69,7 +69,7 @@ class RemovedParticles(unittest.TestCase):
         folder.run(COLLISION, *UNSTABLE, "DataArchiver/checkpoint/@timestepInterval=55", "Time/max_Timesteps=55")
         code, errors, report = folder.restart("Time/max_Timesteps=60", step=55)
         self.assertEqual((code, errors), (0, ""))
-        for key in ("fingerprint", "particles_dropped"):
+        for key in ("fingerprint", "particles_removed"):
             self.assertEqual(report[key], expected[key])
 
     def test_stop_the_run_if_the_scene_says_so(self):

@@ -169,7 +169,7 @@ std::string shifted(double shift, bool open, long& dropped) {
   start.newParticles("create", create<1>, gas, creates(x<1>), creates(mark));
   shiftAll(advance, shift);
   const auto error = errorOf(run, start, advance);
-  dropped = run.scheduler.relocation().dropped();
+  dropped = run.scheduler.relocation().lost().left;
   return error ? error->what() : "";
 }
 
@@ -233,7 +233,8 @@ TEST(Relocation, DropsWhatHasVanishedWithoutCountingItAndCountsWhatIsRemoved) {
 
   EXPECT_FALSE(errorOf(run, start, advance));
 
-  EXPECT_EQ(run.scheduler.relocation().dropped(), 8);
+  EXPECT_EQ(run.scheduler.relocation().lost().left, 0);
+  EXPECT_EQ(run.scheduler.relocation().lost().removed, 8);
   EXPECT_EQ(
       run.warehouse.particles(Generation::old, 0, 0).owned() + run.warehouse.particles(Generation::old, 0, 1).owned(),
       8);
