@@ -38,7 +38,7 @@ const input::Schema<AverageSettings>& averageSchema() {
   static const input::Schema<Weight> weight =
       input::Schema<Weight>("weight", "The variable whose sum divides those of weighting=\"mass\".")
           .location(&Weight::where, "label")
-          .requiredAttribute("label", &Weight::label, "1", "a variable of cells, such as c.density");
+          .requiredAttribute("label", &Weight::label, "1", "a cell variable, such as c.density");
   static const input::Schema<AverageSettings> schema =
       samplingSchema<AverageSettings>("planeAverage", "Means over planes of cells, one file per variable and time.",
                                       weightedSchema())

@@ -179,7 +179,7 @@ const input::Schema<Settings>& schema() {
 
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind = simulation::kindWithSection<Burgers>(
-      "burgers", "Burgers' equation by finite volumes", schema(), {boundary::velocity, grid::symmetric});
+      "burgers", "Burgers' equation, solved with finite volumes", schema(), {boundary::velocity, grid::symmetric});
   kind.takesLevels = true;
   kind.takesPartsOfSides = true;
   return kind;

@@ -23,7 +23,7 @@ BurgersWave::BurgersWave(BurgersProblem problem) : problem_(std::move(problem)) 
   if (!(problem_.viscosity >= 0 && problem_.upper > problem_.lower))
     throw std::invalid_argument(
         fmt::format("A wave of Burgers' equation needs a viscosity of at least 0 and an interval that is not empty, "
-                    "not {} and [{}, {}].",
+                    "but has {} and [{}, {}].",
                     problem_.viscosity, problem_.lower, problem_.upper));
   step_ = (problem_.upper - problem_.lower) / kSteps;
   least_ = greatest_ = problem_.velocity(problem_.lower);

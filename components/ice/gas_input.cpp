@@ -36,7 +36,7 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   if (var == nameOf(BoundaryKind::neumann)) {
     if ((number && *number != 0) || (vector && *vector != Vec3::Zero()))
       diagnostics.error(
-          *text, fmt::format("found '{}', expected 0: a Neumann condition continues {} unchanged beyond the grid",
+          *text, fmt::format("found '{}', expected 0: a Neumann condition continues {} unchanged outside the grid",
                              text->text(), label));
     return;
   }
@@ -56,12 +56,12 @@ void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagn
     const int material = materialOf(condition);
     if (material >= gas + gases)
       diagnostics.error(condition.whereOf("id"), condition.path(),
-                        gases == 1 ? fmt::format("there is no material {}: the gas is number {}", material, gas)
-                                   : fmt::format("there is no material {}: the gases are numbers {} to {}", material,
+                        gases == 1 ? fmt::format("there is no material {}: the gas has index {}", material, gas)
+                                   : fmt::format("there is no material {}: the gases have indices {} to {}", material,
                                                  gas, gas + gases - 1));
     if (material >= 0 && material < gas && condition.attribute("label") == euler::boundary::density.name)
       diagnostics.note(condition,
-                       fmt::format("does nothing: material {} is a body; the gas is number {}", material, gas));
+                       fmt::format("does nothing: material {} is a body; the gas has index {}", material, gas));
     const bool isShared = condition.attribute("label") == euler::boundary::pressure.name;
     if (material < 0 || material >= gas || isShared) checkCondition(condition, diagnostics);
   }
@@ -107,8 +107,9 @@ void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element
   const double density = body.density(Vec3::Zero());
   const double pressure = gas.pressureOf(density, gas.lastAt(density, body.temperature(Vec3::Zero())));
   if (std::abs(given - pressure) > 1e-3 * pressure)
-    diagnostics.note(*element.child("pressure"),
-                     fmt::format("does nothing: density and temperature give {:g} Pa", pressure));
+    diagnostics.note(
+        *element.child("pressure"),
+        fmt::format("does nothing: the pressure follows from density and temperature, and is {:g} Pa", pressure));
 }
 
 /// The Dirichlet condition of a face for the gas, if it has one; the pressure is shared with material 0.
@@ -138,13 +139,16 @@ void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagn
     if (!density || !pressure || !temperature) continue;
     const auto rho = valueOf(*density), p = valueOf(*pressure), t = valueOf(*temperature);
     if (!rho || !p || !t) {
-      diagnostics.error(*temperature, "Density and Pressure already give a temperature; keep two of the three");
+      diagnostics.error(*temperature,
+                        "the temperature already follows from Density and Pressure; keep two of the three");
       continue;
     }
     const double fitting = *p / (gas.gasConstant() * *rho);
     if (std::abs(*t - fitting) <= 1e-3 * fitting) continue;
     if (std::abs(*t - fitting) <= 1e-2 * fitting)  // rounded, or changed a little in one of them
-      diagnostics.note(*temperature, fmt::format("does nothing: Density and Pressure give {:g} K", fitting));
+      diagnostics.note(
+          *temperature,
+          fmt::format("does nothing: the temperature follows from Density and Pressure, and is {:g} K", fitting));
     else
       diagnostics.error(*temperature,
                         fmt::format("found {:g} K, but the Density, at {}, and the Pressure, at {}, give {:g} K; keep "
@@ -181,7 +185,7 @@ void checkShares(const GasMaterial& material, Diagnostics& diagnostics) {
   for (const GasBody& body : material.bodies)
     if (body.share && !(body.share->isConstant() && (*body.share)(Vec3::Zero()) == 1))
       diagnostics.error(body.share->where(), "MaterialProperties/ICE/material/geom_object/volumeFraction",
-                        fmt::format("found '{}', expected 1: the gas fills the region", body.share->text()));
+                        fmt::format("found '{}', expected 1: a single gas fills the region", body.share->text()));
 }
 
 /// The diffusion of a gas, with the eddies of the scene.
@@ -226,7 +230,7 @@ bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit;
 void noteIdle(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   if (const auto solver = root.child(solverTag))
     diagnostics.note(*solver, isImplicit(ice) ? "does nothing: the settings of the solve are in <ImplicitSolver>"
-                                              : "does nothing: steps are explicit, without a system of equations");
+                                              : "does nothing: explicit steps solve no system of equations");
   if (ice.steps && !isImplicit(ice))
     diagnostics.note(*root.child("CFD")->child("ICE")->child("TimeStepControl"),
                      "does nothing: steps follow from <cfl>, and from the sound speed and the diffusion in each cell");
@@ -252,7 +256,7 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
 /// Refuses what a gas can have only without bodies.
 void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   const Element tag = *root.child("CFD")->child("ICE");
-  const char* sentence = "is not available beside bodies: remove it, or keep only the gas";
+  const char* sentence = "is not available with bodies: remove it, or keep only the gas";
   if (ice.push) diagnostics.error(*tag.child("fixedPressureGradient"), sentence);
 }
 

@@ -181,7 +181,7 @@ int cellsOfBlocks(const input::Element& root) {
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind;
   kind.name = "ice";
-  kind.sentence = "a compressible gas with the input of Uintah's ICE, by the method of euler";
+  kind.sentence = "a compressible gas with the input of Uintah's ICE and the method of euler";
   kind.sections = gasSections();
   kind.takesLevels = true;
   kind.takesPartsOfSides = true;

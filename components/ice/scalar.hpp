@@ -25,7 +25,7 @@ struct ScalarRegion {
   double at(const Vec3& point) const;
 };
 
-/// `<Model type="PassiveScalar">`: a number per mass that the gas carries along.
+/// `<Model type="PassiveScalar">`: a quantity per mass that is transported with the gas.
 struct ScalarSettings {
   Location where;  ///< in the scene
   std::string name;
@@ -57,7 +57,7 @@ class CarriedScalar {
   ScalarSettings settings_;
   std::array<std::string, 4> words_;
   BoundaryLabel<double> atSides_{words_[0]};
-  CellLabel<double> value_{words_[1], "1", "a number per mass that the gas carries along"};
+  CellLabel<double> value_{words_[1], "1", "a quantity per mass that is transported with the gas"};
   CellLabel<double> held_{words_[2], "kg/m^3", "the scalar times density"};
   ReductionLabel<Sum> total_{words_[3], "kg", "amount of the scalar in all cells"};
 };

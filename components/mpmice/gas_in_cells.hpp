@@ -126,11 +126,10 @@ template <int D>
 [[noreturn]] void refuseGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, double free,
                             double density, double last) {
   const Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
-  throw NumericalError(
-      fmt::format("the gas beside a body became unphysical: {:.6g} kg/m^3 and {:.6g} Pa in the free {:.3g} of the cell "
-                  "at ({:g}, {:g}, {:g}) m",
-                  density, gas.pressureOf(density, last), free, at[0], at[1], at[2]),
-      "", "c.density", level.cellNumber<D>(cell));
+  throw NumericalError(fmt::format("the gas next to a body became unphysical: {:.6g} kg/m^3 and {:.6g} Pa in the free "
+                                   "fraction {:.3g} of the cell at ({:g}, {:g}, {:g}) m",
+                                   density, gas.pressureOf(density, last), free, at[0], at[1], at[2]),
+                       "", "c.density", level.cellNumber<D>(cell));
 }
 
 inline constexpr auto readsOld = [](const auto& label, int ghost) { return requiresOld(label, ghost); };

@@ -76,7 +76,7 @@ class Communicator {
   template <class T>
   T broadcast(T value, int from = 0) const {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>,
-                  "a value that contains pointers has no meaning on another rank");
+                  "a value that contains pointers is meaningless on another rank");
     Bytes bytes(sizeof(T));
     std::memcpy(bytes.data(), &value, sizeof(T));
     bytes = broadcast(std::move(bytes), from);

@@ -205,9 +205,10 @@ class StateReader : StateWalk {
   /// Refuses a dataset whose size or type differs from what the scene needs.
   void check(const std::string& path, const Array::Values& found, std::size_t size, const Array::Values& type,
              std::size_t count) const {
-    if (found.index() != type.index()) refuse(fmt::format("the checkpoint stores {} as another type of number", path));
+    if (found.index() != type.index())
+      refuse(fmt::format("the checkpoint stores {} with a different type of numbers", path));
     if (size != count)
-      refuse(fmt::format("the checkpoint has {} numbers for {}, but the scene needs {}", size, path, count));
+      refuse(fmt::format("the checkpoint has {} values of {}, but the scene needs {}", size, path, count));
   }
 
   /// A dataset with a number of values of a type.

@@ -76,11 +76,11 @@ struct FieldLabel : Label {
               bounded, nullptr} {
     if (bounded != Bound::none && Stored<T>::number != Number::real)
       throw std::invalid_argument("only real numbers have bounds");
-    if (!called.starts_with(prefix())) throw std::invalid_argument("a label starts with p., g. or c.");
+    if (!called.starts_with(prefix())) throw std::invalid_argument("the name of a label must start with p., g. or c.");
   }
   constexpr FieldLabel(std::string_view called, std::string_view inUnit, std::string_view meaning, Counts where)
       : FieldLabel(called, inUnit, meaning) {
-    if (C != Centring::node) throw std::invalid_argument("Counts::nearParticles is for node labels only");
+    if (C != Centring::node) throw std::invalid_argument("Counts::nearParticles is only for node labels");
     counts = where;
   }
   /// Keeps `count` values of T for each particle, node or cell.

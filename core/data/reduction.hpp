@@ -20,7 +20,7 @@ class Reason {
   /// Takes a literal of at most 31 characters.
   template <std::size_t N>
   constexpr Reason(const char (&words)[N]) {
-    static_assert(N <= std::tuple_size_v<decltype(letters_)>, "a reason has at most 31 characters");
+    static_assert(N <= std::tuple_size_v<decltype(letters_)>, "a reason must have at most 31 characters");
     for (std::size_t k = 0; k < N; ++k) letters_[k] = words[k];
   }
   /// Takes any text, cut off after 31 characters.

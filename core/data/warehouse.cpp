@@ -97,7 +97,7 @@ void Warehouse::takeRestored(int number) {
   if (restored == restored_.end()) return;
   const std::span<std::byte> bytes = reductions_[number]->bytes();
   if (bytes.size() != restored->second.size())
-    throw AccessError(fmt::format("{} was restored from another type", (*table_)[number].label->name));
+    throw AccessError(fmt::format("{} was restored from a different type", (*table_)[number].label->name));
   std::copy(restored->second.begin(), restored->second.end(), bytes.begin());
   restored_.erase(restored);
 }

@@ -35,7 +35,8 @@ struct BoundaryVariable {
 /// A variable with conditions whose values are of type T: a number or a Vec3 along x, y and z.
 template <class T>
 struct BoundaryLabel : BoundaryVariable {
-  static_assert(std::is_same_v<T, double> || std::is_same_v<T, Vec3>, "the value of a condition is a number or a Vec3");
+  static_assert(std::is_same_v<T, double> || std::is_same_v<T, Vec3>,
+                "the value of a condition must be a number or a Vec3");
   constexpr explicit BoundaryLabel(std::string_view called) : BoundaryVariable{called, std::is_same_v<T, Vec3>} {}
 };
 

@@ -92,8 +92,9 @@ bool isPath(const pugi::xml_node& xml) {
 void TreeBuilder::resolvePath(const XmlFile& file, Node& node) {
   const FoundFile found = findFile(node.text, file.name());
   if (found.hasMoved)
-    diagnostics_.note(node.where, node.name,
-                      fmt::format("there is no '{}': the file of that name next to the scene is used", node.text));
+    diagnostics_.note(
+        node.where, node.name,
+        fmt::format("there is no '{}', so the file of the same name next to the scene is used", node.text));
   node.text = found.path;
 }
 

@@ -56,7 +56,8 @@ void requiredChoiceOrRefusal(input::Schema<S>& schema, const std::string& tag, E
           if (given->text() == word) read.*member = value;
         for (const auto& [word, nearest] : lacking)
           if (given->text() == word)
-            return diagnostics.error(*given, "'" + word + "' of Uintah is not available; the nearest is " + nearest);
+            return diagnostics.error(*given,
+                                     "'" + word + "' of Uintah is not available; the most similar one is " + nearest);
         const std::string problem = input::choiceProblem(given->text(), words);
         if (!problem.empty()) diagnostics.error(*given, problem);
       },

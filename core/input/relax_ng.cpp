@@ -253,7 +253,7 @@ class Grammar {
     allowAttributes(element, {});
     refer(element, anything);
     xml_node other = named(named(grammar_, "define", include), "element", "include");
-    document(other, "Is replaced by the tags of another file.");
+    document(other, "Is replaced by the contents of another file.");
     named(other, "attribute", "href").append_child("text");
     for (const char* name : {"section", "excludeSectionTag"})
       named(other.append_child("optional"), "attribute", name).append_child("text");

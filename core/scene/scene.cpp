@@ -291,14 +291,14 @@ std::optional<Location> smallerStepsOn(const grid::Grid& grid, const AmrSettings
 
 const std::vector<std::pair<std::string, std::string>>& idleSections() {
   static const std::vector<std::pair<std::string, std::string>> sections{
-      {"LoadBalancer", "does nothing here: patches and tasks are placed without it"},
-      {"Scheduler", "does nothing here: patches and tasks are placed without it"},
-      {"ParallelOptions", "does nothing here: patches and tasks are placed without it"},
-      {"SimulationController", "does nothing here: sus has options of its own"},
+      {"LoadBalancer", "does nothing here: it does not affect the distribution of patches and tasks"},
+      {"Scheduler", "does nothing here: it does not affect the distribution of patches and tasks"},
+      {"ParallelOptions", "does nothing here: it does not affect the distribution of patches and tasks"},
+      {"SimulationController", "does nothing here: use the options of sus instead"},
       {"Debug", "does nothing here: see sus --trace and --schedule"},
-      {"ParticlePosition", "does nothing here: the <res> of a body says where its particles start"},
-      {"InitialConditions", "does nothing here: no component reads it"},
-      {"CFD", "does nothing here: no component reads it"}};
+      {"ParticlePosition", "does nothing here: the <res> of a body determines where its particles start"},
+      {"InitialConditions", "does nothing here: no component uses it"},
+      {"CFD", "does nothing here: no component uses it"}};
   return sections;
 }
 

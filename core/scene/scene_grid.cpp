@@ -78,14 +78,14 @@ void checkSize(const grid::Domain& domain, const Element& element, Diagnostics& 
   for (int axis = 0; axis < 3; ++axis) {
     cells *= domain.resolution[axis];
     if (domain.upper[axis] == domain.lower[axis] && domain.resolution[axis] > 1)
-      diagnostics.error(element, fmt::format("there are {} cells along {}, where the box has no extent",
+      diagnostics.error(element, fmt::format("there are {} cells along {}, but the box has no extent along this axis",
                                              domain.resolution[axis], "xyz"[axis]));
   }
   if (domain.upper == domain.lower) diagnostics.error(element, "the box has no extent along any axis");
   if (cells > mostCells)
     diagnostics.error(element,
-                      fmt::format("resolution [{},{},{}] makes {:.3g} cells; the most is {:.3g}", domain.resolution[0],
-                                  domain.resolution[1], domain.resolution[2], cells, mostCells));
+                      fmt::format("resolution [{},{},{}] gives {:.3g} cells; at most {:.3g} are possible",
+                                  domain.resolution[0], domain.resolution[1], domain.resolution[2], cells, mostCells));
 }
 
 /// The domain of a grid of one level.

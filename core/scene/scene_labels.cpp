@@ -47,7 +47,7 @@ void checkLabels(const Component& component, const std::vector<std::unique_ptr<A
                            !phases.saveable().contains(save.label);
     if (isLacking)
       diagnostics.note(save.where, "DataArchiver/save",
-                       fmt::format("'{}' is not saved: no task computes it here", save.label));
+                       fmt::format("'{}' is not saved, since no task computes it in this scene", save.label));
     return isLacking;
   });
   for (const SaveRequest& save : saves)

@@ -133,7 +133,7 @@ void Simulation::initialize() {
   if (hasParticles && collect::particleCount(run_.warehouse, run_.materials()) == 0)
     throw InputError({{{run_.problem.scenePath, 0, 0},
                        "MaterialProperties",
-                       "there are no particles: no geom_object has a point on the grid"}});
+                       "there are no particles: no geom_object overlaps the grid"}});
 }
 
 void Simulation::refuseCoarseParticles() {

@@ -11,9 +11,9 @@ namespace tushar::solvers {
 
 // The results of a solve that a scene may save.
 inline constexpr data::ReductionLabel<data::Maximum> assemblyTime{"AssemblyTime", "s",
-                                                                  "filling the matrix of the last solve"};
-inline constexpr data::ReductionLabel<data::Maximum> preconditionerTime{"PreconditionerTime", "s",
-                                                                        "making the preconditioner of the last solve"};
+                                                                  "time to fill the matrix of the last solve"};
+inline constexpr data::ReductionLabel<data::Maximum> preconditionerTime{
+    "PreconditionerTime", "s", "time to build the preconditioner of the last solve"};
 inline constexpr data::ReductionLabel<data::Maximum> solveTime{"SolveTime", "s", "iterations of the last solve"};
 
 inline void addTimes(const Outcome& outcome, data::Maximum& assembly, data::Maximum& preconditioner,

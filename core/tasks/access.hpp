@@ -130,8 +130,9 @@ struct OptionalAccess {
 template <class Label, AccessKind Kind>
 OptionalAccess<FieldAccess<Label, Kind>> when(bool on, FieldAccess<Label, Kind> access) {
   using View = decltype(access.bind(std::declval<const TaskContext&>()));
-  static_assert(!std::is_reference_v<View>,
-                "when(...) takes accesses that become views; a reducer or a list of new values cannot be optional");
+  static_assert(
+      !std::is_reference_v<View>,
+      "when(...) accepts only accesses that become views; a reducer or a list of new values cannot be optional");
   return {on, access};
 }
 
@@ -171,7 +172,7 @@ struct FluxAccess {
 /// scheduleTimeAdvance whose change of a cell is dt times the difference of such fluxes over h.
 template <class T>
 FluxAccess<T> keepsFlux(const data::CellLabel<T>& label) {
-  static_assert(data::Stored<T>::number == data::Number::real, "keepsFlux(...) takes labels of real numbers");
+  static_assert(data::Stored<T>::number == data::Number::real, "keepsFlux(...) accepts only labels of real numbers");
   return {&label};
 }
 
@@ -226,7 +227,7 @@ struct WithoutMaterial {
 /// single group. perMaterial may only read such variables.
 template <class Argument>
 WithoutMaterial<Argument> withoutMaterial(Argument argument) {
-  static_assert(isOfMaterialAndPatch<Argument>, "withoutMaterial(...) takes an access to a variable of a patch");
+  static_assert(isOfMaterialAndPatch<Argument>, "withoutMaterial(...) accepts only an access to a variable of a patch");
   return {std::move(argument)};
 }
 template <class Argument>

@@ -258,8 +258,8 @@ NumericalError Relocation::refusal(int position, const Escape& escape) const {
   };
   const Vec<D> x = at(Generation::fresh);
   if (const Index<D> cell = level.cellOf<D>(x); level.cells().contains(cell))
-    return {fmt::format("particle {} came within {} of coarser cells, where no particles can be; patch {}", escape.id,
-                        counted(margin_, "cell"), escape.patch),
+    return {fmt::format("particle {} came within {} of coarser cells, where particles are not allowed; patch {}",
+                        escape.id, counted(margin_, "cell"), escape.patch),
             advice_near_coarser_, "p.x", escape.cell};
   int through = 0, side = 0;
   for (int d = 0; d < D; ++d)

@@ -124,7 +124,7 @@ MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::Varia
 
 std::vector<Carried> TaskGraph::carriedBy(std::size_t t, int material, data::VariableTable& table) const {
   if (sets_[t] == Generation::fresh)
-    throw TaskError("task relocate: a list may relocate once, and only before it makes new particles");
+    throw TaskError("task relocate: a list may relocate particles only once, and only before it makes new ones");
   const std::vector<Task> before(pruned_.kept.begin(), pruned_.kept.begin() + static_cast<std::ptrdiff_t>(t));
   const Names produced = producedBy(before);
   const auto labels = labelsOf(pruned_.kept);

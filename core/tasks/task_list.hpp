@@ -19,7 +19,8 @@ class TaskList {
   template <class Body, class... Arguments>
   void perPatch(std::string_view name, Body body, Arguments... arguments) {
     check<false, false, Arguments...>();
-    static_assert(!(isWithoutMaterial<Arguments> || ...), "a task of perPatch has no materials to leave out");
+    static_assert(!(isWithoutMaterial<Arguments> || ...),
+                  "withoutMaterial(...) is not needed in perPatch, whose tasks have no materials");
     std::vector<Access> accesses = declare<false>(arguments...);
     add(name, TaskKind::work, {}, std::move(accesses),
         [body, ... bound = arguments](const TaskContext& context) { body(context.patch(), bound.bind(context)...); });
@@ -112,11 +113,11 @@ class TaskList {
   /// Refuses arguments that mean nothing to a kind of task.
   template <bool makesParticles, bool isOnRank, class... Arguments>
   static constexpr void check() {
-    static_assert(makesParticles || !(isCreation<Arguments> || ...), "creates(...) belongs to newParticles");
+    static_assert(makesParticles || !(isCreation<Arguments> || ...), "creates(...) is allowed only in newParticles");
     static_assert(isOnRank || !(isOfRanks<Arguments> || ...),
-                  "togetherOnRanks() belongs to perRank and perRankAcrossMaterials");
+                  "togetherOnRanks() is allowed only in perRank and perRankAcrossMaterials");
     static_assert(!isOnRank || !(isWithoutMaterial<Arguments> || ...),
-                  "withoutMaterial(...) belongs to perMaterial and acrossMaterials");
+                  "withoutMaterial(...) is allowed only in perMaterial and acrossMaterials");
   }
   template <bool makesParticles, class Argument>
   static void declareOne(Argument& argument, std::vector<Access>& accesses) {

@@ -72,7 +72,8 @@ class Validator {
     const bool writes = std::any_of(task.accesses.begin(), task.accesses.end(), [&](const Access& other) {
       return other.kind == AccessKind::modifies && other.label->name == access.label->name;
     });
-    if (writes) complain(task, access, "is read beyond the patch and written by the same task; write another label");
+    if (writes)
+      complain(task, access, "is read outside the patch and written by the same task; write to another label");
   }
 
   static std::string nearest(const Access& access, const Names& available) {

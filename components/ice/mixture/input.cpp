@@ -21,10 +21,10 @@ void checkSubstance(const GasMaterial& material, const Element& element, Diagnos
   const auto kind = material.state.kind;
   if (kind != EquationOfState::Kind::ideal && kind != EquationOfState::Kind::stiffened)
     diagnostics.error(*element.child("EOS"),
-                      "is not available beside a second gas: several gases are of type ideal_gas or stiffened_gas");
+                      "is not available with a second gas: several gases must be of type ideal_gas or stiffened_gas");
   if (material.varying.varies())
     diagnostics.error(*element.child("dynamicViscosityModels"),
-                      "is not available beside a second gas: give <dynamic_viscosity>, or keep one gas");
+                      "is not available with a second gas: give <dynamic_viscosity>, or keep one gas");
 }
 
 /// The coefficients have a number for each pair of materials, and each pair of gases has one velocity.

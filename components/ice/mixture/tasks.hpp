@@ -37,8 +37,8 @@ struct MixtureStart {
   void check(const Gases& gases, const Vec3& point) const {
     if (!(std::abs(filled - 1) < 1e-9))
       throw InputError({{gases.front().where, "MaterialProperties/ICE/material",
-                         fmt::format("the gases fill {:.6g} of the cell around ({:g}, {:g}, {:g}): several gases fill "
-                                     "the grid, and share a cell by a <volumeFraction> of each",
+                         fmt::format("the gases fill {:.6g} of the cell around ({:g}, {:g}, {:g}): together they must "
+                                     "fill the grid; in cells that they share, each needs a <volumeFraction>",
                                      filled, point[0], point[1], point[2])}});
   }
 };

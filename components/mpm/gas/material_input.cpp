@@ -32,8 +32,8 @@ const Schema<GasObjectSection>& objectSchema() {
         .choice("placement", &GasObjectSection::placement,
                 {{"midpoint", Placement::midpoint}, {"jittered", Placement::jittered}, {"random", Placement::random}},
                 Placement::midpoint,
-                "particles start at the centres of equal parts of a cell, at random points of these parts, or at "
-                "random points of the cell")
+                "particles start at the centres of equal parts of a cell, at random points in these parts, or at "
+                "random points in the cell")
         .ours()
         .value("seed", &GasObjectSection::seed, 0, "1", "seed of the random points", input::nonNegative())
         .ours()

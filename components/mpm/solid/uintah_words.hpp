@@ -10,11 +10,11 @@ namespace tushar::mpm::solid {
 /// Switches of Uintah's that are missing here, and what there is instead.
 inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
     {"InsertParticles", "give every body its position at the start"},
-    {"refine_particles", "give the body more particles, by <res>"},
+    {"refine_particles", "use a larger <res> to give the body more particles"},
     {"use_cohesive_zones", "give the bodies a <contact>"},
     {"do_scalar_diffusion", "heat conduction obeys the same equation"},
     {"coupled_flow_analysis", "there is one phase"},
-    {"AMR", "solids are on one level: choose a finer <resolution>"},
+    {"AMR", "solids are on one level: choose a higher <resolution>"},
     {"DoCapDensity", "remove it: density is not capped"},
     {"DoGranularMPM", "remove it"},
     {"DoDefGradAveraging", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
@@ -26,10 +26,10 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
 inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it"},
     {"create_new_particles", "particles stay as they are"},
-    {"CanAddMPMMaterial", "all materials are there from the start"},
-    {"DeleteGeometryObjects", "shapes are not kept"},
-    {"computeNodalHeatFlux", "nothing depends on it"},
-    {"testForNegTemps_mpm", "nothing depends on it"},
+    {"CanAddMPMMaterial", "all materials exist from the start"},
+    {"DeleteGeometryObjects", "shapes are not stored"},
+    {"computeNodalHeatFlux", "it has no effect"},
+    {"testForNegTemps_mpm", "it has no effect"},
     {"InsertParticlesFile", "belongs to InsertParticles"},
     {"water_damping_coef", "belongs to coupled_flow_analysis"},
     {"solid_damping_coef", "belongs to coupled_flow_analysis"},

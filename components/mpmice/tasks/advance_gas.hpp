@@ -198,7 +198,7 @@ void requireFinest(const Patch& patch, const NearBodies<D>& near) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (near(cell))
       throw NumericalError(
-          fmt::format("bodies came within {} cells of a cell that is not among the finest", nearLayers),
+          fmt::format("bodies came within {} cells of a cell that is not on the finest level", nearLayers),
           "a larger <Level>, or <adaptive> in <Regridder> of <AMR>", "c.freeVolume", level.cellNumber<D>(cell));
   });
 }

@@ -126,7 +126,8 @@ std::string whyOpen(const Triangles& triangles) {
   if (first == uses.end()) return {};
   const auto& [a, b] = first->first;
   return fmt::format(
-      "{} of its {} edges belong to an odd number of triangles, so the surface is not closed; one such edge goes from "
+      "{} of its {} edges belong to an odd number of triangles, so the surface is not closed; one of these edges goes "
+      "from "
       "({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m",
       std::count_if(uses.begin(), uses.end(), isOpen), uses.size(), a[0], a[1], a[2], b[0], b[1], b[2]);
 }

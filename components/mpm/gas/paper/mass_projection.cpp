@@ -162,8 +162,8 @@ void measureMassProjection(const Patch& patch, const Gas&, ParticleView<const Ve
 
 simulation::AnalysisKind massProjectionKind() {
   return simulation::plainModule(
-      "massProjection", "error of the nodal mass against its bound",
-      "Error of the nodal mass against its bound, equations (19)-(23) of Tran, Kim & Berzins.", makeModule);
+      "massProjection", "error of the nodal mass, compared with its bound",
+      "Error of the nodal mass, compared with its bound, equations (19)-(23) of Tran, Kim & Berzins.", makeModule);
 }
 
 }  // namespace tushar::mpm::gas::paper

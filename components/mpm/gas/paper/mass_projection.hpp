@@ -20,13 +20,14 @@ simulation::AnalysisKind massProjectionKind();
 namespace g {
 using namespace gas::g;
 inline constexpr NodeLabel<double> massProjectionError{
-    "g.massProjectionError", "kg", "E_m^i: integral of shape function times density, less the mass from particles"};
+    "g.massProjectionError", "kg",
+    "E_m^i: integral of shape function times density, minus the mass gathered from particles"};
 inline constexpr NodeLabel<double> massProjectionBound{"g.massProjectionBound", "kg", "bound of |E_m^i|"};
 }  // namespace g
 
 /// The largest |E_m^i| over the volume of a cell, which is |E_m^i| / h in the paper.
 inline constexpr ReductionLabel<Maximum> massProjectionError{
-    "MassProjectionError", "kg/m^3", "largest error of the mass projection, over the cell volume"};
+    "MassProjectionError", "kg/m^3", "largest error of the mass projection, divided by the cell volume"};
 inline constexpr ReductionLabel<Maximum> massProjectionRatio{
     "MassProjectionRatio", "1", "largest ratio of the error of the mass projection to its bound"};
 

@@ -48,7 +48,8 @@ class EnergyBudget : public simulation::Analysis {
 std::unique_ptr<simulation::Analysis> makeModule(const Component& component, const Level&) {
   const auto* solids = dynamic_cast<const Solids*>(&component);
   if (!solids || !solids->measuresWork())
-    throw std::invalid_argument("only solids with explicit time steps have an energy budget; remove the module");
+    throw std::invalid_argument(
+        "the energy budget is available only for solids with explicit time steps; remove the module");
   return std::make_unique<EnergyBudget>(storesAllStrain(solids->problem()));
 }
 

@@ -32,7 +32,7 @@ struct NonlocalDruckerPrager {
        {"p.eta", "Pa", "strength gained from the plastic strain at the point"},
        {"p.eta_nl", "Pa", "strength gained from the plastic strain around the point"},
        {"p.plasticIncrement", "1", "plastic strain of the last step"},
-       {"p.meanPlasticIncrement", "1", "mean of that plastic strain within l_nonlocal"}}};
+       {"p.meanPlasticIncrement", "1", "mean of the plastic strain of the last step within l_nonlocal"}}};
   static constexpr std::string_view name = "nonlocal_drucker_prager";
   static constexpr bool strainEnergyIsRate = true;
 
@@ -127,9 +127,9 @@ struct NonlocalDruckerPrager {
         .required("alpha", &Self::friction, "1", "coefficient of pressure in the strength", input::nonNegative())
         .required("alpha_p", &Self::dilation, "1", "coefficient of dilation in plastic flow", input::nonNegative())
         .required("k_o", &Self::strength, "Pa", "strength at the start, in shear without pressure", input::positive())
-        .value("h_local", &Self::localModulus, 0, "Pa", "growth of the strength with the plastic strain at the point")
+        .value("h_local", &Self::localModulus, 0, "Pa", "increase of the strength with the plastic strain at the point")
         .value("h_nonlocal", &Self::nonlocalModulus, 0, "Pa",
-               "growth of the strength with the mean plastic strain within l_nonlocal")
+               "increase of the strength with the mean plastic strain within l_nonlocal")
         .value("l_nonlocal", &Self::length, 0, "m", "radius of the mean; 0: only the point itself",
                input::nonNegative())
         .value("minimum_yield_stress", &Self::leastStrength, 0, "Pa", "smallest strength after softening",

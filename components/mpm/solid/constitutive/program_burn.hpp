@@ -82,7 +82,7 @@ struct ProgramBurn {
         .required("rho0", &Self::density, "kg/m^3", "density at zero pressure", input::positive())
         .required("D", &Self::detonationVelocity, "m/s", "velocity of the detonation", input::positive())
         .value("T0", &Self::ignitionTime, 0, "s", "time at which the detonation starts")
-        .ignored("P0", "no pressure depends on it");
+        .ignored("P0", "it has no effect on the pressure");
     declareVector(tags, "starting_location", &Self::origin, true, "point (m) at which the detonation starts");
     declareVector(
         tags, "direction_if_plane", &Self::direction, false,

@@ -124,7 +124,7 @@ struct ViscoTransIsoHyper : FibreElasticity {
     addTags(tags);
     tags.choice("StrainEnergy", in<Self>(&FibreElasticity::rubber),
                 {{"MooneyRivlin", Rubber::mooneyRivlin}, {"VerondaWestmann", Rubber::verondaWestmann}},
-                Rubber::mooneyRivlin, "energy of the matrix; <c2> of VerondaWestmann has no unit");
+                Rubber::mooneyRivlin, "strain energy of the matrix; with VerondaWestmann, <c2> has no unit");
     const std::array<std::pair<double Self::*, double Self::*>, 6> members{{{&Self::y1, &Self::t1},
                                                                             {&Self::y2, &Self::t2},
                                                                             {&Self::y3, &Self::t3},
@@ -133,10 +133,10 @@ struct ViscoTransIsoHyper : FibreElasticity {
                                                                             {&Self::y6, &Self::t6}}};
     for (int k = 0; k < 6; ++k) {
       const std::string number = std::to_string(k + 1);
-      tags.required("y" + number, members[k].first, "1", "stiffness of a Maxwell element, relative to the elastic one",
+      tags.required("y" + number, members[k].first, "1",
+                    "stiffness of a Maxwell element, relative to the elastic stiffness", input::nonNegative());
+      tags.required("t" + number, members[k].second, "s", "relaxation time of this element; 0: the element is omitted",
                     input::nonNegative());
-      tags.required("t" + number, members[k].second, "s",
-                    "relaxation time of this element; 0: the element does not exist", input::nonNegative());
     }
     refuseSwitch(tags, "active", "the stress follows from the deformation alone");
     return tags;

@@ -34,10 +34,10 @@ inline int loadsOn(const Level& level, const Start& start, const Material& mater
     ++number;
     if (!acts) return;
     if (factor > 65536)
-      throw InputError({{body.where, "geom_object",
-                         fmt::format("more than three loads act on the particle at ({:g}, {:g}, {:g}) m; the most is "
-                                     "three",
-                                     point[0], point[1], point[2])}});
+      throw InputError(
+          {{body.where, "geom_object",
+            fmt::format("more than three loads act on the particle at ({:g}, {:g}, {:g}) m; at most three are possible",
+                        point[0], point[1], point[2])}});
     ids += factor * number;
     factor *= 256;
   };
@@ -84,7 +84,7 @@ struct NewParticles {
     if (mass.back() <= start.leastMass)
       throw InputError(
           {{body.where, "geom_object",
-            fmt::format("the particle at ({:g}, {:g}, {:g}) m has {:g} kg; <minimum_particle_mass> is {:g} kg",
+            fmt::format("the particle at ({:g}, {:g}, {:g}) m has {:g} kg, but <minimum_particle_mass> is {:g} kg",
                         point[0], point[1], point[2], mass.back(), start.leastMass)}});
     temperature.push_back(body.temperature(point));
     color.push_back(body.color);

@@ -10,7 +10,7 @@ namespace tushar::mpm::solid {
 
 namespace p {
 inline constexpr ParticleLabel<double> plasticIncrement{"p.nonlocalSource", "1",
-                                                        "plastic strain that acts on other particles"};
+                                                        "plastic strain that affects other particles"};
 }  // namespace p
 
 /// The index of a variable among the numbers of the State, for a nonlocal model; -1 for other models.

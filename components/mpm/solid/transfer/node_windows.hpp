@@ -34,7 +34,7 @@ NodeWindow<Record, D> windowOf(const NodeView<Record>& records, const Stencil& s
     Index<D> last = stencil.first;
     for (int d = 0; d < D; ++d) last[d] += Stencil::nodes - 1;
     if (!stored.contains(stencil.first) || !stored.contains(last))
-      throw data::AccessError("a particle touches nodes beyond those that are stored");
+      throw data::AccessError("a particle touches nodes outside those that are stored");
   }
   return windowFrom(records, stencil.first);
 }

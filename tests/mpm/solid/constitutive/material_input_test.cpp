@@ -205,7 +205,8 @@ TEST(MaterialInput, PassesOverWordsThatUintahDoesNotReadEither) {
 }
 
 TEST(MaterialInput, SaysWhatThereIsInsteadOfAModelOfUintah) {
-  expectProblem(sceneOf("camclay", ""), "the model 'camclay' of Uintah is not available; the nearest is MohrCoulomb");
+  expectProblem(sceneOf("camclay", ""),
+                "the model 'camclay' of Uintah is not available; the most similar one is MohrCoulomb");
   expectProblem(sceneOf("comp_neo_hok", ""), "did you mean 'comp_neo_hook'");
 }
 
