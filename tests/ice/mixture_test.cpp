@@ -117,7 +117,7 @@ TEST(IceMixture, RefusesGasesThatDoNotFillTheGrid) {
     test::runScene(tube, {"MaterialProperties/ICE/material[1]/geom_object/box/max=[0.4,1,1]"});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("several gases fill the grid"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("together they must fill the grid"), std::string::npos) << error.what();
   }
 }
 

@@ -110,7 +110,7 @@ TEST(IceScene, TakesNeumannConditionsForAnOpenSide) {
 
 TEST(IceScene, RefusesAGradientAtASide) {
   EXPECT_EQ(problemOf(withSide(R"(<BCType id="0" label="Density" var="Neumann"><value>1</value></BCType>)")),
-            "found '1', expected 0: a Neumann condition continues Density unchanged beyond the grid");
+            "found '1', expected 0: a Neumann condition continues Density unchanged outside the grid");
 }
 
 TEST(IceScene, RefusesAnInflowOfNoTemperature) {
@@ -224,9 +224,9 @@ TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
 }
 
 TEST(IceScene, RefusesModels) {
-  EXPECT_EQ(
-      problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"DDT1\"/></Models>\n  <CFD>")),
-      "the type 'DDT1' is not available, but PassiveScalar, Test, Simple_Burn, Steady_Burn are; remove the model");
+  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"DDT1\"/></Models>\n  <CFD>")),
+            "the type 'DDT1' is not available; available are PassiveScalar, Test, Simple_Burn, Steady_Burn; remove the "
+            "model");
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {

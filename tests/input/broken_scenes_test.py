@@ -110,7 +110,7 @@ OVERRIDES = {
                                "mean 'gas'?); available: 'gas'"),
     "checkpoint without interval": ("DataArchiver/checkpoint/@cycle=2",
                                     "DataArchiver/checkpoint: gives none of interval, "
-                                    "timestepInterval, walltimeInterval and walltimeIntervalHours; give one"),
+                                    "timestepInterval, walltimeInterval and walltimeIntervalHours; give exactly one"),
     "no checkpoint kept": ("DataArchiver/checkpoint/@cycle=0", "DataArchiver/checkpoint: attribute 'cycle': found '0', "
                            "expected a value of at least 1"),
     "unknown checkpoint interval": ("DataArchiver/checkpoint/@timestepinterval=2",
@@ -119,9 +119,7 @@ OVERRIDES = {
     "redistribution that cannot be": (GAS + "redistribute/min_particles=20",
                                       GAS + "redistribute: min_particles is greater than "
                                       "max_particles"),
-    "ambiguous override": (MATERIAL + "geom_object/cfl=1", f"--set {MATERIAL}geom_object/cfl=1: 2 tags <geom_object> "
-                                                           f"match in <material>; "
-                           "say which one, such as geom_object[1] or geom_object["),
+    "ambiguous override": (MATERIAL + "geom_object/cfl=1", f"--set {MATERIAL}geom_object/cfl=1: 2 tags <geom_object> in <material> match; choose one, such as geom_object[1] or geom_object["),
     "override without a value": ("Time/maxTime", "--set Time/maxTime: expected PATH=VALUE, such as Time/maxTime=0.2"),
 }
 
@@ -156,7 +154,7 @@ TEXTS = {
     "two checkpoint intervals": (SOD.replace("<filebase>", '<checkpoint interval="1" timestepInterval="2"/><filebase>'),
                                  ":36:6",
                                  "gives more than one of interval, timestepInterval, walltimeInterval and "
-                                 "walltimeIntervalHours; give one"),
+                                 "walltimeIntervalHours; give exactly one"),
     "start without wall time": (SOD.replace("<filebase>", '<checkpoint interval="1" walltimeStart="2"/><filebase>'),
                                 ":36:6",
                                 "DataArchiver/checkpoint: gives walltimeStart without walltimeInterval"),

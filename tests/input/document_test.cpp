@@ -121,13 +121,13 @@ TEST(Document, SaysWhereXmlIsMalformed) {
 }
 
 TEST(Document, NamesTheTagThatIsNotClosed) {
-  EXPECT_EQ(
-      problemsOf("<Uintah_specification>\n <Time>\n <!-- <a> --> <b c='</b>'/>\n</Uintah_specification>"),
-      Lines{
-          "s.ups:4:3: found </Uintah_specification> while <Time> of s.ups:2:3 is still open; is its </Time> missing?"});
+  EXPECT_EQ(problemsOf("<Uintah_specification>\n <Time>\n <!-- <a> --> <b c='</b>'/>\n</Uintah_specification>"),
+            Lines{"s.ups:4:3: found </Uintah_specification> while <Time> of s.ups:2:3 is still open; its </Time> may "
+                  "be missing"});
   EXPECT_EQ(
       problemsOf("<Uintah_specification>\n <Time>\n"),
-      Lines{"s.ups:3:1: found the end of the file while <Time> of s.ups:2:3 is still open; is its </Time> missing?"});
+      Lines{
+          "s.ups:3:1: found the end of the file while <Time> of s.ups:2:3 is still open; its </Time> may be missing"});
   EXPECT_EQ(problemsOf("<Uintah_specification/></Time>"), Lines{"s.ups:1:26: found </Time>, but no tag is open here"});
 }
 

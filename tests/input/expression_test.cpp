@@ -92,7 +92,7 @@ TEST(VectorExpression, SplitsAtTheOuterCommas) {
 
 TEST(VectorExpression, SaysWhyTextIsNotThreeFormulas) {
   EXPECT_EQ(VectorExpression::parse("1").problem, "found '1', expected three formulas, such as [a,b,c]");
-  EXPECT_EQ(VectorExpression::parse("").problem, "found nothing, expected three formulas, as [a,b,c]");
+  EXPECT_EQ(VectorExpression::parse("").problem, "found nothing, expected three formulas, such as [a,b,c]");
   EXPECT_EQ(VectorExpression::parse("[1,2]").problem, "found '[1,2]', expected three formulas, such as [a,b,c]");
   EXPECT_EQ(VectorExpression::parse("[1,,2]").problem, "in '[1,,2]': found nothing, expected a number or a formula");
 }

@@ -65,7 +65,7 @@ class Sides(SceneTest):
 
     def test_parts_that_overlap(self):
         self.assert_refused(JET.replace("</Face>", SECOND, 1), "overlaps the part at SCENE",
-                            "both have the face at (0, ")
+                            "both contain the face at (0, ")
 
     def test_the_same_part_twice_with_one_condition(self):
         again = SECOND.replace(CIRCLE, SLOT)

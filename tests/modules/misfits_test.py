@@ -57,7 +57,7 @@ class Misfits(unittest.TestCase):
                       self.misfit(None, "-UTUSHAR_VERSION", '-DTUSHAR_VERSION="9.8.7"'))
 
     def test_another_compiler(self):
-        self.assertIn("it was compiled by clang 99, but this program by ",
+        self.assertIn("it was compiled by clang 99, but this program was compiled by ",
                       self.misfit('{TUSHAR_VERSION, "clang 99", "0", checksEveryIndex, __BIGGEST_ALIGNMENT__}'))
 
     def test_other_checks(self):

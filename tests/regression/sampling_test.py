@@ -188,7 +188,7 @@ class Sampling(ModuleTest):
             module("minMx"): "did you mean 'minMax'?",
             module("lineExtract"): "lines",
             module("lineExtract", "<lines>" + extent("line", "a", (0, 0, 0), (1, 1, 0)) + "</lines>"):
-                "a line goes along one axis",
+                "a line is parallel to one axis",
             module("lineExtract", "<lines>" + extent("line", "a", (0, 0, 0), (9, 0, 0)) + "</lines>"):
                 "found x from 0 to 9 m, expected positions on the grid, from -5 to 5 m",
             module("lineExtract", "<lines>" + 2 * extent("line", "a", (0, 0, 0), (1, 0, 0)) + "</lines>"):
@@ -196,7 +196,7 @@ class Sampling(ModuleTest):
             module("lineExtract", "<lines>" + extent("line", "../a", (0, 0, 0), (1, 0, 0)) + "</lines>"):
                 "expected the name of a folder, without '/'",
             module("planeExtract", "<planes>" + extent("plane", "a", (0, 0, 0), (1, 0, 0)) + "</planes>"):
-                "a plane goes along two axes",
+                "a plane is parallel to two axes",
             module("planeAverage", "<planeOrientation>XX</planeOrientation>"): "found 'XX', expected",
             module("planeAverage", "<planeOrientation>XY</planeOrientation>",
                    ('label="c.density" weighting="mass"',)): 'missing tag <weight> in <Module>: weighting="mass"',

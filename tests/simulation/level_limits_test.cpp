@@ -79,7 +79,7 @@ TEST(LevelLimits, RefuseGhostsOfNodesButAroundParticles) {
   ofGas.perMaterial("ofGas", readNodesOfGas, gases, requiresNew(corner, 1));
   EXPECT_EQ(problemsOf(own), "");
   EXPECT_EQ(problemsOf(beyond),
-            "a.ups:7:3: task beyond reads g.corner of nodes beyond a patch, which needs a grid of one level\n");
+            "a.ups:7:3: task beyond reads g.corner of nodes outside a patch, which needs a grid of one level\n");
   EXPECT_EQ(problemsOf(ofGas), "");
   EXPECT_EQ(problemsOf(beyond, 1), "");
 }

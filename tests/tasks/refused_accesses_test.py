@@ -67,11 +67,11 @@ class RefusedAccesses(unittest.TestCase):
     def test_a_group_takes_no_plain_value(self):
         for value in ("with(1.0)", "startTime()"):
             members = f".density = take(requiresNew(::density)), .other = (take({value}), take(computes(::other)))"
-            self.assertIn("take(...) takes accesses to labels", complaints(piece(members=members)))
+            self.assertIn("take(...) accepts only accesses to labels", complaints(piece(members=members)))
 
     def test_ranks_belong_to_tasks_of_a_rank(self):
         said = complaints(piece(task='list.perPatch("solve", body, togetherOnRanks())'))
-        self.assertIn("togetherOnRanks() belongs to perRank", said)
+        self.assertIn("togetherOnRanks() is allowed only in perRank", said)
 
     def test_a_group_writes_nothing_that_it_reads(self):
         self.assertIn("read-only", complaints(piece(use="group.density[cell] = 1")))

@@ -98,7 +98,7 @@ class Coarsen(unittest.TestCase):
             output = pathlib.Path(fake_uda.make_refined(folder), "t00010.h5")
             result = run(SCENE, f"DataAnalysis/Module/file={output}")
         self.assertEqual(result.code, 3)
-        self.assertIn("contains boxes of several levels: tools/coarsen turns it into a table", result.err)
+        self.assertIn("contains boxes of several levels: use tools/coarsen to make a table from it", result.err)
 
     def test_a_table_that_is_not_there_is_a_bad_scene(self):
         result = run(SCENE, "DataAnalysis/Module/file=none.h5")
