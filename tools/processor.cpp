@@ -51,8 +51,8 @@ TUSHAR_ANY_PROCESSOR void checkProcessor() {
   if (missing == nullptr) return;
   say("sus: this processor lacks instructions (");
   say(missing);
-  say(") for which sus was compiled; build it on this machine, or with -DTUSHAR_NATIVE=OFF -DTUSHAR_PROCESSOR=x86-64 "
-      "for any [T709]\n");
+  say(") for which sus was compiled; build it on this machine, or for any machine with -DTUSHAR_NATIVE=OFF "
+      "-DTUSHAR_PROCESSOR=x86-64 [T709]\n");
   _exit(1);
 }
 

@@ -52,7 +52,8 @@ OVERRIDES = {
     "zero resolution": (BOX + "resolution=[0,1,1]",
                         BOX + "resolution: found '[0,1,1]', expected a value of at least 1"),
     "huge resolution": (BOX + "resolution=[2000000000,100,1]",
-                        "Grid/Level/Box: resolution [2000000000,100,1] gives 2e+11 cells; at most 2 are possible.15e+09"),
+                        "Grid/Level/Box: resolution [2000000000,100,1] gives 2e+11 cells; at most 2.15e+09 are "
+                        "possible"),
     "fractional resolution": (BOX + "resolution=[1.5,1,1]", BOX +
                               "resolution: in '[1.5,1,1]': found '1.5', expected an integer"),
     "not a number": ("Time/maxTime=soon", "Time/maxTime: found 'soon', expected a number"),
@@ -63,7 +64,8 @@ OVERRIDES = {
                                                     "than 0"),
     "negative cfl": (GAS + "cfl=-1", GAS + "cfl: found '-1', expected a value greater than 0"),
     "inverted box": (BOX + "upper=[-1,1,1]", "Grid/Level/Box: upper is below lower along x: -1 < 0 m"),
-    "no extent": (BOX + "upper=[0,1,1]", "Grid/Level/Box: there are 100 cells along x, but the box has no extent along this axis"),
+    "no extent": (BOX + "upper=[0,1,1]", "Grid/Level/Box: there are 100 cells along x, but the box has no extent "
+                                         "along this axis"),
     "more patches than cells": (BOX + "patches=[101,1,1]", "Grid/Level/Box: there are 101 patches along x, but only "
                                                            "100 cells"),
     "both patches and autoPatch": (BOX + "autoPatch=4", "Grid/Level/Box: gives both patches and autoPatch; keep one"),
@@ -119,7 +121,9 @@ OVERRIDES = {
     "redistribution that cannot be": (GAS + "redistribute/min_particles=20",
                                       GAS + "redistribute: min_particles is greater than "
                                       "max_particles"),
-    "ambiguous override": (MATERIAL + "geom_object/cfl=1", f"--set {MATERIAL}geom_object/cfl=1: 2 tags <geom_object> in <material> match; choose one, such as geom_object[1] or geom_object["),
+    "ambiguous override": (MATERIAL + "geom_object/cfl=1", f"--set {MATERIAL}geom_object/cfl=1: 2 tags <geom_object> "
+                                                           f"in <material> match; choose one, such as geom_object[1] "
+                                                           f"or geom_object["),
     "override without a value": ("Time/maxTime", "--set Time/maxTime: expected PATH=VALUE, such as Time/maxTime=0.2"),
 }
 

@@ -17,7 +17,8 @@ SECOND = f'</Face><Face {CIRCLE}><BCType id="0" label="Velocity" var="Dirichlet"
 # What stands in place of the slot's attributes, and its sentence.
 FACES = {
     "":
-        ("missing attribute 'side' of <Face>, or one of the attributes for a part of a side: 'circle', 'annulus', 'ellipse', "
+        ("missing attribute 'side' of <Face>, or one of the attributes for a part of a side: 'circle', 'annulus', "
+         "'ellipse', "
          "'rectangle' and 'rectangulus'"),
     'rectangel="x-" lower="0 0 0" upper="0 1 1"':
         "unknown attribute 'rectangel' of <Face> (did you mean 'rectangle'?)",
@@ -93,7 +94,8 @@ class Sides(SceneTest):
 
     def test_a_component_that_takes_no_parts(self):
         text = (ROOT / "ups/mpm/sod.ups").read_text().replace('<Face side="x-">', f"<Face {CIRCLE}>")
-        self.assert_refused(text, "conditions on a part of a side (circle) are not available; use side=\"x-\" to apply them to the whole side")
+        self.assert_refused(text, "conditions on a part of a side (circle) are not available; use side=\"x-\" to "
+                                  "apply them to the whole side")
 
     def test_values_that_are_neither_numbers_nor_formulas(self):
         self.assert_refused(JET.replace("<value>3<", "<value>3+<"), "BCType: value: found '3+', expected a number")

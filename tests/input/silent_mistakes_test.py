@@ -40,7 +40,9 @@ class SilentMistakes(unittest.TestCase):
         sets = (how + "mode=reseed", how + "target_particles=5", how + "max_particles=8")
         plane, space = "Grid/Level/Box/resolution=[20,2,1]", "Grid/Level/Box/resolution=[20,2,2]"
         self.assert_refused(run("ups/mpm/sod_redistribute.ups", *sets, plane, outputs=True),
-                            "ups/mpm/sod_redistribute.ups:57:8: MPM/gas_dynamics/redistribute: target_particles: 5 in a cell become 9, 3 along each of 2 axes, but max_particles is 8; decrease target_particles or increase max_particles")
+                            "ups/mpm/sod_redistribute.ups:57:8: MPM/gas_dynamics/redistribute: target_particles: 5 "
+                            "in a cell become 9, 3 along each of 2 axes, but max_particles is 8; decrease "
+                            "target_particles or increase max_particles")
         self.assertEqual(run("ups/mpm/sod_redistribute.ups", *sets, "Time/max_Timesteps=1").code, 0)
         self.assertEqual(run("ups/mpm/sod_redistribute.ups", *sets, space, "Time/max_Timesteps=1").code, 0)
 
@@ -100,7 +102,8 @@ class SilentMistakes(unittest.TestCase):
         refused(plane, plane.replace('symmetry"/>', 'Dirichlet"><value>3</value></BCType>'),
                 "found label 'Symmetric' with var 'Dirichlet'; 'Symmetric' and 'symmetry' are allowed only together")
         refused(plane, plane.replace("Symmetric", "Temperature"), "found label 'Temperature' with var 'symmetry'")
-        refused(plane, plane + cold, "this face is a symmetry plane: the only other condition that it allows is a Neumann condition of 0")
+        refused(plane, plane + cold, "this face is a symmetry plane: the only other condition that it allows is a "
+                                     "Neumann condition of 0")
         refused(cold, cold.replace("0<", "[1,2,3]<"), "value: found '[1,2,3]', expected a number")
         refused("[2.576693,0,0]", "2.576693", "value: found '2.576693', expected three formulas, such as [a,b,c]",
                 scene="ups/euler/shock_bubble.ups")

@@ -72,7 +72,8 @@ class Misfits(unittest.TestCase):
         bytes_here = int(said.split("__BIGGEST_ALIGNMENT__ ")[1].split()[0])
         flags = ("-mavx",) if bytes_here == 16 else ("-march=x86-64",)
         there = 32 if bytes_here == 16 else 16
-        self.assertIn(f"it was compiled for vectors of {there} bytes, but this program for {bytes_here} bytes: use the same -march", self.misfit(None, *flags))
+        self.assertIn(f"it was compiled for vectors of {there} bytes, but this program for {bytes_here} bytes: use "
+                      f"the same -march", self.misfit(None, *flags))
 
     def test_other_headers(self):
         self.assertIn("it was built with different headers of the same version",

@@ -80,7 +80,8 @@ class Slice(ModuleTest):
             "<plane>z</plane>" + LABELS + STEPS:
                 "plane: found 'z', expected an axis and a coordinate in m, such as z = 0.5",
             "<plane>z=0</plane><plane>z = 0.0</plane>" + LABELS + STEPS: "plane: the plane z = 0.0 is given twice",
-            "<plane>z=2</plane>" + LABELS + STEPS: "plane: found z = 2 m, expected a position on the grid, from -1.25 to",
+            "<plane>z=2</plane>" + LABELS + STEPS: "plane: found z = 2 m, expected a position on the grid, from "
+                                                   "-1.25 to",
             PLANES + "<label>p.x</label>" + STEPS: "found 'p.x', expected a cell variable (c.) or a node variable (g.)",
             PLANES + "<label>c.densty</label>" + STEPS: "computes 'c.densty' (did you mean 'c.density'?)",
             PLANES + LABELS: "a slice needs one of outputInterval and outputTimestepInterval: there is no default",
@@ -88,7 +89,8 @@ class Slice(ModuleTest):
                 "gives both outputInterval and outputTimestepInterval; keep one",
             PLANES + LABELS + "<outputInterval>0</outputInterval>": "found '0', expected a value greater than 0 s",
             PLANES + LABELS + "<outputInterval>5e-12</outputInterval>":
-                "outputInterval: found 5e-12 s, expected more than 1e-11 s, which is the resolution of times up to maxTime",
+                "outputInterval: found 5e-12 s, expected more than 1e-11 s, which is the resolution of times up to "
+                "maxTime",
             PLANES + LABELS + "<outputTimestepInterval>0</outputTimestepInterval>":
                 "found '0', expected a value greater than 0",
             PLANES + STEPS: "label",

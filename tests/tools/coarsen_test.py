@@ -67,9 +67,9 @@ class Coarsen(unittest.TestCase):
 
     def test_refuses_what_does_not_fit(self):
         self.assertEqual(coarsen(self.archive, "--by", 5, "--out", self.table),
-                         (1, "coarsen: 48 x 48 x 1 cells cannot be joined by 5 along each axis\n"))
+                         (1, "coarsen: 48 x 48 x 1 cells cannot be merged by 5 along each axis\n"))
         self.assertEqual(coarsen(self.archive, "--by", 2, "--lower", "2,0,0", "--out", self.table),
-                         (1, "coarsen: the box between --lower and --upper holds no cells\n"))
+                         (1, "coarsen: the box between --lower and --upper contains no cells\n"))
         self.assertEqual(coarsen(self.archive, "--by", 2, "--lower", "2,0", "--out", self.table)[0], 2)
         self.assertEqual(coarsen(self.folder.name, "--by", 2, "--out", self.table)[0], 1)
 

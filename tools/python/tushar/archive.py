@@ -125,7 +125,7 @@ class Archive(Sequence[Snapshot]):
         path = os.path.join(self.folder, "index.xml")
         index = _xml(path)
         if index.tag == "Uintah_DataArchive":
-            raise ArchiveError(f"'{self.folder}' is an archive of Uintah, which this reader does not know")
+            raise ArchiveError(f"'{self.folder}' is an archive of Uintah, which this reader does not support")
         try:
             self._read(index)
         except ValueError as error:
@@ -135,8 +135,8 @@ class Archive(Sequence[Snapshot]):
         """Contents of the index; ValueError for words where numbers belong."""
         self.version = index.get("version", "")
         if int(index.get("format", FORMAT)) > FORMAT:
-            raise ArchiveError(f"'{self.folder}' has format {index.get('format')}, and this reader knows formats up to "
-                               f"{FORMAT}; sus {self.version} wrote it")
+            raise ArchiveError(f"'{self.folder}' has format {index.get('format')}, but this reader supports only "
+                               f"formats up to {FORMAT}; it was written by sus {self.version}")
         self.variables = {item.get("name", ""): self._variable(item) for item in index.iterfind("variables/variable")}
         totals = {item.get("name", ""): item for item in index.iterfind("globals/global")}
         files = {name: os.path.join(self.folder, item.get("href", "")) for name, item in totals.items()}
@@ -153,9 +153,9 @@ class Archive(Sequence[Snapshot]):
         numbered = sorted(glob.glob(glob.escape(self.folder) + ".[0-9]*"))
         above, name = os.path.split(self.folder)
         if os.path.isdir(self.folder):
-            what, near = "has no index.xml, so it is no archive", numbered or self._links(self.folder)
+            what, near = "has no index.xml, so it is not an archive", numbered or self._links(self.folder)
         elif os.path.exists(self.folder):
-            what, near = "is a file, and an archive is a folder", []
+            what, near = "is a file, but an archive is a folder", []
             if os.path.isfile(os.path.join(above, "index.xml")):
                 what = f"is a file of an archive, which is the folder '{above or '.'}'"
         else:
@@ -270,7 +270,7 @@ class Archive(Sequence[Snapshot]):
                 continue
             if isinstance(found, dict) and os.path.basename(found.get("archive", "")) == os.path.basename(own):
                 return found
-        raise ArchiveError(f"there is no report of '{self.folder}': sus --json report.json writes one beside it")
+        raise ArchiveError(f"there is no report of '{self.folder}': sus --json report.json writes one next to it")
 
     def particles(self, ids: Optional[Sequence[int]] = None, material: Optional[str] = None) -> Tracks:
         """Particles over time, by their ids; all of the last output's if none are named."""

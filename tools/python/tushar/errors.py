@@ -70,4 +70,4 @@ def need(module: str, what: str) -> ModuleType:
     except ImportError:
         name = module.split(".")[0]
         advice = f"python3 -m pip install {name}"
-        raise MissingLibrary(f"{what} needs {name}, which this Python has not got: {advice}") from None
+        raise MissingLibrary(f"{what} needs {name}, which this Python does not have: {advice}") from None

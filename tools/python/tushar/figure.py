@@ -41,7 +41,7 @@ def choose(output: Output) -> Tuple[List[str], List[str]]:
     gas = [label for label, _, _ in GAS if label in names]
     if gas:
         missing = [(label, name) for label, _, name in GAS if label not in gas] if dimension == 1 else []
-        notes = [f'no {name}: the scene does not save it; add <save label="{label}"/> to DataArchiver'
+        notes = [f'there is no {name}: the scene does not save it; add <save label="{label}"/> to DataArchiver'
                  for label, name in missing]
         return gas if dimension == 1 else gas[:1], notes
     fields = [v.name for v in archive.variables.values() if v.centring in ("cell", "node")
@@ -51,7 +51,7 @@ def choose(output: Output) -> Tuple[List[str], List[str]]:
     if held and not fields and not others:
         return ["p.x"], []  # where the particles of each material are
     if not fields and not others:
-        raise ArchiveError(f"'{archive.folder}' holds nothing to draw at this output")
+        raise ArchiveError(f"'{archive.folder}' contains nothing to draw at this output")
     return (fields or others)[:4 if dimension == 1 else 1], []
 
 
@@ -223,8 +223,8 @@ class Figure:
             panel.set_title(f"{'xyz'[cut]} = {middle[cut]:.4g} m", fontsize=10, loc="left")
             panels.append(panel)
         self._bar(part, drawn, quantity, panels)
-        self.notes.append(f"{quantity.label}: three planes; --slice chooses another, and with pyvista there "
-                          "is a view in three dimensions")
+        self.notes.append(f"{quantity.label}: three planes; --slice selects another plane, and with pyvista "
+                          "installed there is a three-dimensional view")
 
 
 def _beyond(drawn: Any) -> str:

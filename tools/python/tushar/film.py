@@ -43,7 +43,7 @@ def common_ranges(archive: Archive, variables: Sequence[str], view: View) -> Tup
                 values = values[values > 0] if view.log else values
                 found.setdefault(quantity.label, []).extend([values.min(), values.max()] if len(values) else [])
     if not any(found.values()) and not view.log:
-        raise ArchiveError(f"'{archive.folder}' holds no values of {', '.join(labels)}" +
+        raise ArchiveError(f"'{archive.folder}' contains no values of {', '.join(labels)}" +
                            (" in the slice" if view.slices else ""))
     return labels, {label: _round(min(values), max(values), view) for label, values in found.items() if values}
 
@@ -83,7 +83,7 @@ def check_path(path: str) -> str:
     """The ending of a film's name; ArchiveError for another, and where there is no such folder."""
     ending = pathlib.Path(path).suffix.lower()
     if ending not in (".gif", ".mp4"):
-        raise ArchiveError(f"'{path}' is no film: its name must end in .mp4 or .gif")
+        raise ArchiveError(f"'{path}' is not a film: its name must end in .mp4 or .gif")
     if not pathlib.Path(path).parent.is_dir():
         raise ArchiveError(f"'{path}': there is no folder '{pathlib.Path(path).parent}'")
     return ending
@@ -98,7 +98,7 @@ def write(archive: Archive, path: str, variables: Sequence[str] = (), title: Opt
     program = ffmpeg() if ending == ".mp4" else None
     if ending == ".mp4" and not program:
         path = str(pathlib.Path(path).with_suffix(".gif"))
-        notes.append("there is no ffmpeg, which writes .mp4: the film is a .gif")
+        notes.append("ffmpeg, which writes .mp4, is not installed: the film is a .gif")
     rate = float(np.clip(len(archive) / SECONDS, SLOWEST, FASTEST))
     pictures = _pictures(archive, figures(archive, variables, title, view or View()), notes, progress)
     if program:
@@ -188,4 +188,4 @@ def follow(archive: Archive, draw: Callable[[], None], every: float = 0.5) -> No
         else:
             time.sleep(every)
     if not drawn:
-        raise ArchiveError(f"'{archive.folder}' has no outputs, and no run writes to it")
+        raise ArchiveError(f"'{archive.folder}' has no outputs, and no run is writing to it")

@@ -76,7 +76,7 @@ def of_snapshot(snapshot: Snapshot, of: Optional[str], material: Optional[str]) 
     if of is not None:
         check_name("kind of value", of, kinds)
     elif not kinds:
-        raise ArchiveError(f"output {snapshot.index} of '{snapshot.archive.folder}' holds nothing")
+        raise ArchiveError(f"output {snapshot.index} of '{snapshot.archive.folder}' contains nothing")
     kind = of or kinds[0]
     if kind == "particles":
         return of_particles(snapshot.particles(material))
@@ -185,7 +185,7 @@ def dataset(archive: Archive, snapshots: Sequence[Snapshot], names: Optional[Seq
         coordinates.update(_places(grid, variable.centring))
         coordinates.update(_names_of_components(variable))
     if not found:
-        raise ArchiveError(f"'{archive.folder}' holds no fields on cells or nodes")
+        raise ArchiveError(f"'{archive.folder}' contains no fields on cells or nodes")
     return xarray.Dataset(found, coordinates, {"title": archive.title})
 
 
@@ -231,5 +231,5 @@ def _values(snapshot: Snapshot, variable: Variable, owner: Optional[str], key: A
         if field.shape == like.shape:
             return np.asarray(field[key])
         if not isinstance(field, Refined):
-            raise ArchiveError(f"output {own.index} has other cells than the last: each by itself has its to_xarray()")
+            raise ArchiveError(f"output {own.index} has other cells than the last: use to_xarray() of each output")
         return np.asarray(field.level(like.grid.levels - 1 if isinstance(like, Refined) else 0)[key])

@@ -73,7 +73,7 @@ class Grid:
     def nearest(self, centring: str, axis: int, place: float) -> int:
         """The row of cells or nodes nearest to a place along an axis [m]; ArchiveError for one outside of the grid."""
         if not self.lower[axis] <= place <= self.upper[axis]:
-            raise ArchiveError(f"{'xyz'[axis]} = {place:g} m is outside of the grid, which reaches from "
+            raise ArchiveError(f"{'xyz'[axis]} = {place:g} m is outside the grid, which extends from "
                                f"{self.lower[axis]:g} to {self.upper[axis]:g} m")
         return int(np.argmin(np.abs(self.coordinates(centring)[axis] - place)))
 

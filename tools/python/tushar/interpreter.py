@@ -55,5 +55,5 @@ def _has(python: str, modules: Sequence[str]) -> bool:
 def _advice(missing: Sequence[str], modules: Sequence[str]) -> str:
     packages = " ".join("python3-" + module for module in modules)
     noun = "library" if len(missing) == 1 else "libraries"
-    return (f"This tool needs the Python {noun} {' and '.join(missing)}, which no Python found here has: install "
+    return (f"This tool needs the Python {noun} {' and '.join(missing)}, which no Python on this machine has: install "
             f"{packages} (Debian, Ubuntu) or run 'python3 -m pip install {' '.join(modules)}'.")

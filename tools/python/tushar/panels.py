@@ -137,7 +137,7 @@ def image(panel: Any, output: Output, quantity: Quantity, axes: List[int],
     """A field in a plane; what the colour bar belongs to."""
     owners = output.owners(quantity)
     if len(owners) > 1:
-        output.notes.append(f"{quantity.label}: only that of {owners[0]}; --material names another")
+        output.notes.append(f"{quantity.label}: only that of {owners[0]}; --material selects another one")
     values = output.field(quantity, owners[0], slices=slices)
     across, up = axes
     pad = output.grid.spacing / 2 if quantity.variable.centring == "node" else np.zeros(3)
@@ -207,7 +207,7 @@ def bounds(output: Output, quantity: Quantity, values: Values) -> Tuple[float, f
     if output.view.log:
         known = known[known > 0]
         if not len(known) and (low is None or high is None):
-            raise ArchiveError(f"'{quantity.label}' has no values above 0, so there is no logarithmic scale of them")
+            raise ArchiveError(f"'{quantity.label}' has no values above 0, so a logarithmic scale is impossible")
     least, most = (float(known.min()), float(known.max())) if len(known) else (0.0, 1.0)
     if output.other and quantity.is_scalar and low is None and high is None:
         least, most = -max(abs(least), abs(most)), max(abs(least), abs(most))

@@ -41,7 +41,7 @@ def find_sus(sus: Optional[Path] = None) -> str:
     if named:
         found = shutil.which(os.fspath(named))
         if not found:
-            raise SusError(f"'{os.fspath(named)}'{'' if sus else ', which $SUS names,'} is no program")
+            raise SusError(f"'{os.fspath(named)}'{'' if sus else ', which $SUS names,'} is not a program")
         return os.path.abspath(found)
     built = [ROOT / "build" / preset / "sus" for preset in PRESETS]
     for path in [*built, *sorted((ROOT / "build").glob("*/sus"))]:
@@ -49,8 +49,8 @@ def find_sus(sus: Optional[Path] = None) -> str:
             return str(path)
     installed = shutil.which("sus")
     if not installed:
-        raise SusError(f"there is no sus: not in $SUS, not in {ROOT / 'build'}, not on the PATH; tools/run builds it "
-                       "in the repository, and $SUS may name it: SUS=REPOSITORY/build/release/sus")
+        raise SusError(f"sus was not found in $SUS, in {ROOT / 'build'} or on the PATH; tools/run builds it in the "
+                       f"repository, and $SUS can name it: SUS=REPOSITORY/build/release/sus")
     return installed
 
 
@@ -72,7 +72,7 @@ def run_scene(sus: Path, scene: Path, sets: Sequence[str], folder: Path) -> Dict
         raise SceneError(f"{scene}: {done.stderr.strip() or 'sus failed'}", done.returncode)
     report = read_report(folder)
     if done.returncode == 0 and report is None:
-        raise SceneError(f"{sus} wrote no report: is it sus?")
+        raise SceneError(f"{sus} wrote no report; it may not be sus")
     return {"failure": done.stderr.strip()} if report is None else report
 
 

@@ -76,7 +76,8 @@ def to_yt(snapshot: Snapshot) -> Any:
     if fields:
         return yt.load_uniform_grid({**fields, **particles}, tuple(map(int, grid.cells)), **common)
     if not particles:
-        raise ArchiveError(f"output {snapshot.index} of '{snapshot.archive.folder}' holds neither cells nor particles")
+        raise ArchiveError(f"output {snapshot.index} of '{snapshot.archive.folder}' contains neither cells nor "
+                           "particles")
     return yt.load_particles({name: values for (_, name), values in particles.items()}, **common)
 
 

@@ -49,7 +49,7 @@ def run_shown(scene: str, sets: Sequence[str]) -> str:
         report: Dict[str, Any] = read_report(folder) or {}
     archive = str(report.get("archive", ""))
     if code:
-        kept = f"; what it saved is in {archive}" if archive else ""
+        kept = f"; its outputs are in {archive}" if archive else ""
         code = 128 - code if code < 0 else code
         raise SusError(f"the run of {scene} ended with exit code {code}, so nothing is drawn{kept}", code)
     if not archive:

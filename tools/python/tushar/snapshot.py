@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from tushar.archive import Archive, Variable
 
 ID = "p.particleID"
-NO_IDS = f'the scene does not save the names of particles; add <save label="{ID}"/> to its DataArchiver'
+NO_IDS = f'the scene does not save the ids of particles; add <save label="{ID}"/> to its DataArchiver'
 
 
 class Snapshot:
@@ -58,7 +58,7 @@ class Snapshot:
             except OSError as error:
                 if not os.path.exists(self.path):
                     raise ArchiveError(f"the file of output {self.index}, '{self.path}', is missing") from None
-                raise ArchiveError(f"cannot read '{self.path}', which is damaged or not whole: {error}") from None
+                raise ArchiveError(f"cannot read '{self.path}', which is damaged or incomplete: {error}") from None
         return self._opened
 
     @property
@@ -119,10 +119,11 @@ class Snapshot:
             return self._on_grid(group[name], variable)
         names = [material] if material else [other for other in variable.materials if name in group.get(other, {})]
         if len(names) > 1:
-            raise ArchiveError(f"'{name}' belongs to several materials; name one: {', '.join(names)}")
+            raise ArchiveError(f"'{name}' belongs to several materials; choose one: {', '.join(names)}")
         if not names or name not in group.get(names[0], {}):
-            why = "; a step computes it, and this is the start" if self.file.attrs["step"] == 0 else ""
-            raise ArchiveError(f"output {self.index} holds no '{name}'{why}")
+            initial = self.file.attrs["step"] == 0
+            why = "; it is computed in a step, and this output is the initial state" if initial else ""
+            raise ArchiveError(f"output {self.index} contains no '{name}'{why}")
         return self._on_grid(group[names[0]][name], variable)
 
     def _on_grid(self, data: h5py.Dataset, variable: Variable) -> Array:
@@ -188,7 +189,7 @@ class Particles:
         parts = [group[name] for group in groups if name in group]
         if not parts:
             of = f" of material '{self._asked}'" if self._asked else ""
-            raise ArchiveError(f"output {self.snapshot.index} holds no '{name}'{of}")
+            raise ArchiveError(f"output {self.snapshot.index} contains no '{name}'{of}")
         return Snapshot._array(parts, variable)
 
     def to_pandas(self) -> Any:

@@ -56,7 +56,8 @@ class Tracks:
                 seen |= self._read(snapshot, name, row)
         if not seen.all():
             gone = [str(number) for number in self.ids[~seen]]
-            raise ArchiveError(f"no output has a particle of id {', '.join(gone[:5])}{', …' if len(gone) > 5 else ''}")
+            raise ArchiveError(f"no output has a particle with id "
+                               f"{', '.join(gone[:5])}{', …' if len(gone) > 5 else ''}")
         return values[..., 0] if components == 1 else values
 
     def _read(self, snapshot: Snapshot, name: str, row: Values) -> Values:

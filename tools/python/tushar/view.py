@@ -32,7 +32,7 @@ class View:
 
     def __post_init__(self) -> None:
         if self.log and self.other:
-            raise ArchiveError("a difference has values below 0, so --log and --diff do not go together")
+            raise ArchiveError("a difference has values below 0, so --log and --diff cannot be combined")
 
     def with_ranges(self, ranges: Dict[str, Range]) -> View:
         return dataclasses.replace(self, ranges=ranges)
@@ -61,8 +61,8 @@ class Quantity:
             check_name(f"component of {base}", tail, names)
             return Quantity(label, archive.variables[base], names.index(tail))
         if label in archive.globals:
-            raise ArchiveError(f"'{label}' is one number for all places, and a picture shows values in the grid; "
-                               f"tools/uda {archive.folder} {label} prints it over time")
+            raise ArchiveError(f"'{label}' is a global value, which cannot be drawn on the grid; tools/uda "
+                               f"{archive.folder} {label} prints it over time")
         return Quantity(label, archive.variables[check_name("variable", label, archive.variables)])
 
     @property
@@ -91,7 +91,7 @@ class Output:
                 used = ", ".join("xyz"[other] for other in self.grid.axes)
                 raise ArchiveError(f"there is no slice at {'xyz'[axis]}: the grid has only {used}")
         if len(view.slices) >= self.grid.dimension:
-            raise ArchiveError("slices along all axes leave nothing to draw")
+            raise ArchiveError("with slices along all axes, nothing remains to draw")
         self.axes = [axis for axis in self.grid.axes if axis not in view.slices]
         if view.material:
             check_name("material", view.material, snapshot.archive.materials)
@@ -105,7 +105,7 @@ class Output:
             return None
         other = self.view.other.at(self.snapshot.time)
         if abs(other.time - self.snapshot.time) > 1e-9 * max(abs(self.snapshot.time), 1e-300):
-            self.notes.append(f"the difference is to t = {other.time:g} s, the nearest output of "
+            self.notes.append(f"the difference is relative to t = {other.time:g} s, the nearest output of "
                               f"'{self.view.other.folder}'")
         return other
 
@@ -116,7 +116,7 @@ class Output:
         if self.view.material:
             held = [name for name in held if name == self.view.material]
         if not held:
-            raise ArchiveError(f"output {self.snapshot.index} holds no '{variable.name}' of "
+            raise ArchiveError(f"output {self.snapshot.index} contains no '{variable.name}' of "
                                + (f"material '{self.view.material}'" if self.view.material else "any particles"))
         return held
 
@@ -157,7 +157,7 @@ class Output:
         if self.other:
             if not self.other.grid == self.grid:
                 raise ArchiveError(f"the grids differ, {shape_of(self.grid)} here and {shape_of(self.other.grid)} in "
-                                   f"'{self.other.archive.folder}': there is no difference to draw")
+                                   f"'{self.other.archive.folder}', so there is no difference to draw")
             values = values - self.other[name, owner][key]
         return quantity.scalar(np.asarray(values), axis)
 
@@ -228,5 +228,6 @@ def _minus(own: Particles, other: Particles, name: str) -> Tuple[Values, Values]
         _, mine, theirs = np.intersect1d(own.ids.values, other.ids.values, return_indices=True)
         return x[mine], here[mine] - there[theirs]
     if len(here) != len(there):
-        raise ArchiveError(f"{len(here)} particles here and {len(there)} there: a difference needs {ID} in both")
+        raise ArchiveError(f"{len(here)} particles in one archive and {len(there)} in the other: a difference needs "
+                           f"{ID} in both")
     return x, here - there

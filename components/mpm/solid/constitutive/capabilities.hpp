@@ -290,7 +290,8 @@ struct OptionalState {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, OptionalState>;
     constexpr bool isAbsent = requires { &Both<M, Name>::keepsState; };
-    static_assert(isNamed || isAbsent, "the member `keepsState` is used only if the model lists capability::OptionalState");
+    static_assert(isNamed || isAbsent,
+                  "the member `keepsState` is used only if the model lists capability::OptionalState");
     constexpr bool fits = requires { Member<M, bool>{&M::keepsState}; };
     static_assert(!isNamed || fits, "capability::OptionalState needs the public member `bool keepsState() const`");
     return true;
@@ -307,7 +308,8 @@ struct PartialState {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, PartialState>;
     constexpr bool isAbsent = requires { &Both<M, Name>::keptNumbers; };
-    static_assert(isNamed || isAbsent, "the member `keptNumbers` is used only if the model lists capability::PartialState");
+    static_assert(isNamed || isAbsent,
+                  "the member `keptNumbers` is used only if the model lists capability::PartialState");
     constexpr bool fits = requires { Member<M, int>{&M::keptNumbers}; };
     static_assert(!isNamed || fits, "capability::PartialState needs the public member `int keptNumbers() const`");
     return true;
@@ -324,7 +326,8 @@ struct Nonlocal {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, Nonlocal>;
     constexpr bool isAbsent = requires { &Both<M, Name>::nonlocalLength; };
-    static_assert(isNamed || isAbsent, "the member `nonlocalLength` is used only if the model lists capability::Nonlocal");
+    static_assert(isNamed || isAbsent,
+                  "the member `nonlocalLength` is used only if the model lists capability::Nonlocal");
     constexpr bool fits = requires { Member<M, double>{&M::nonlocalLength}; };
     static_assert(!isNamed || fits, "capability::Nonlocal needs the public member `double nonlocalLength() const`");
     return true;

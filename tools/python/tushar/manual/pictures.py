@@ -57,7 +57,7 @@ class Album:
                 if done.returncode:
                     print(f"  no picture: {done.stderr.strip()}")
             except subprocess.TimeoutExpired:
-                print(f"  it takes more than {SECONDS} s: no picture")
+                print(f"  it takes more than {SECONDS} s, so there is no picture")
             for file in filter(os.path.exists, (report, picture)):
                 shutil.copyfile(file, stem.with_suffix(pathlib.Path(file).suffix))
         stem.with_suffix(".done").touch()

@@ -208,7 +208,7 @@ def stopped_after(outcome, report):
 
 def ended_by(code):
     """The reason why a program ended without a message."""
-    return f"ended by signal {-code}" if code < 0 else f"ended with exit code {code}, without a sentence"
+    return f"ended by signal {-code}" if code < 0 else f"ended with exit code {code}, without a message"
 
 
 def short(sentence):

@@ -30,7 +30,8 @@ def finest(scene, value):
         return resolution(scene, value)
     levels = math.log2(int(value) / cells_of(scene)[0])
     if levels < 0 or not levels.is_integer():
-        raise ValueError(f"{scene} has {cells_of(scene)[0]} cells along x, and each further level is twice as fine")
+        raise ValueError(f"{scene} has {cells_of(scene)[0]} cells along x, and the cells of each further level are "
+                         "half as wide")
     return [f"AMR/Regridder/max_levels={int(levels) + 1}", f"AMR/Regridder/adaptive={'true' if levels else 'false'}"]
 
 

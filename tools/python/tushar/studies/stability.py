@@ -149,7 +149,7 @@ def is_stable(run, first):
 def judge(run, case, isOurs):
     """`pass`, or the bound that a run breaks. The error counts for the default method alone: others have no bound."""
     if case.fails:
-        return ["pass"] if case.fails in run["failure"] else ["did not fail as it must"]
+        return ["pass"] if case.fails in run["failure"] else ["did not fail as it should"]
     if run["failure"]:
         return ["died"]
     broken = [] if run["ended"] == "maxTime" else [run["ended"]]

@@ -120,7 +120,7 @@ class Study:
     def _change(self, case, folder):
         measured = self.change.measured(folder)
         if measured is None:
-            raise StudyError(f"{case.method.scene} does not save {self.change.name}, or it has no number "
+            raise StudyError(f"{case.method.scene} does not save {self.change.name}, or has no component "
                              f"{self.change.component}")
         return measured
 
@@ -179,7 +179,7 @@ def value_at(tree, path):
     """errors, `density.cell.L1` -> number; StudyError with the available names."""
     for word in path.split("."):
         if word not in tree:
-            raise StudyError(f"there is no error '{path}': at '{word}' there is only {', '.join(tree) or 'nothing'}")
+            raise StudyError(f"there is no error '{path}': at '{word}', available: {', '.join(tree) or 'nothing'}")
         tree = tree[word]
     return tree
 

@@ -112,7 +112,7 @@ def _time_by_task(lines):
     axes.set_yticks(heights, [_name_of_bar(method, row) for method, row in bars], fontsize=8)
     axes.invert_yaxis()
     axes.margins(x=0.1)
-    axes.set_xlabel("time per step and cell [ns]; at the end of each bar the whole time loop")
+    axes.set_xlabel("time per step and cell [ns]; the label of each bar is the time of the whole time loop")
     axes.grid(False, axis="y")
     key.axis("off")
     key.legend([plt.Rectangle((0, 0), 1, 1, color=colour) for colour in colours.values()], colours, loc="center",

@@ -31,7 +31,8 @@ struct Hardening {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<Flow, Hardening>;
     constexpr bool isAbsent = requires { &Both<Flow, Name>::hardening; };
-    static_assert(isNamed || isAbsent, "the member `hardening` is used only if the flow model lists capability::Hardening");
+    static_assert(isNamed || isAbsent,
+                  "the member `hardening` is used only if the flow model lists capability::Hardening");
     constexpr bool fits = requires { Member<Flow, double, const FlowState&>{&Flow::hardening}; };
     static_assert(!isNamed || fits,
                   "capability::Hardening needs the public member `double hardening(const FlowState&) const`");
