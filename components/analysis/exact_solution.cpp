@@ -64,13 +64,13 @@ const Schema<ExactSolutionSettings>& exactSolutionSchema() {
   return schema;
 }
 
-/// A variable that can be measured, and whether diagnostics compute it from the state.
+/// A variable that can be compared, and whether diagnostics compute it from the state.
 struct Measurable {
   Label label;
   bool derived;
 };
 
-/// The variables of cells and nodes, vectors or scalars, that a component has without a material, by name.
+/// The cell and node variables of a component, vectors or scalars, that belong to no material, by name.
 std::map<std::string, Measurable> measurables(const Component& component, bool vectors) {
   TaskList state, derived;
   component.scheduleInitialize(state);
@@ -105,7 +105,7 @@ Measurable findMeasurable(const Component& component, const ExactSolutionSetting
   throw InputError({{where, "DataAnalysis/Module/label", names.empty() ? none : input::choiceProblem(name, names)}});
 }
 
-/// Errors of a number, or of a component of a vector along an axis of the scene.
+/// Errors of a scalar, or of a component of a vector along an axis of the scene.
 template <Centring C, int D, class T>
 void measure(const Patch& patch, const ExactSolutionSettings& settings, const double* time,
              data::GridView<C, const T> field, Norm& error) {

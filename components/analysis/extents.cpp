@@ -16,7 +16,7 @@ using input::Schema;
 
 namespace {
 
-constexpr double slack = 1e-9;  ///< fraction of a cell within which a point counts as on a face
+constexpr double slack = 1e-9;  ///< fraction of a cell within which a point is considered to be on a face
 
 Schema<Extent> extentSchema(const std::string& tag, const std::string& sentence) {
   return Schema<Extent>(tag, sentence)
@@ -41,7 +41,7 @@ std::string problemOfName(const std::string& name) {
   return {};
 }
 
-/// Why the points are invalid; empty if there are cells of the grid between them.
+/// Why the points are invalid; empty if the grid has cells between them.
 std::string problemOf(const Extent& extent, int axes, const Level& level) {
   const Vec3 lower = level.domain().lower, upper = level.domain().upper;
   int along = 0;

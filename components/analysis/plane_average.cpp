@@ -131,9 +131,10 @@ class PlaneAverage : public SamplingModule {
   }
 
   const Level* level_;
-  int across_ = -1;  ///< kernel axis perpendicular to the planes; -1: the grid leaves it out, and there is one plane
-  std::map<std::string, Weighting> weightings_;  ///< by place of the variable in the scene
-  std::string weight_;                           ///< place of the variable of <weight>
+  int across_ =
+      -1;  ///< kernel axis perpendicular to the planes; -1 if the grid does not use it, so that there is one plane
+  std::map<std::string, Weighting> weightings_;  ///< ordered by the position of the variable in the scene
+  std::string weight_;                           ///< position of the variable of <weight>
 };
 
 }  // namespace

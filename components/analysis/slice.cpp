@@ -169,7 +169,7 @@ class Slice : public Analysis {
       archives_[k]->write(parts[k]);
     }
   }
-  /// Updates the lists of each plane's archive, as a restart removes outputs that are not listed.
+  /// Updates the lists of each plane's archive, because a restart removes outputs that are not listed.
   void flush() override {
     for (const auto& archive : archives_)
       if (archive) archive->flush();

@@ -56,7 +56,7 @@ double BurgersWave::profile(double y) const {
   return problem_.velocity(std::clamp(y, problem_.lower, problem_.upper));
 }
 
-/// U at any node, also beyond the table.
+/// U at any node, also outside the table.
 double BurgersWave::integralAt(long node) const {
   if (problem_.periodic) {
     const long turns = node >= 0 ? node / kSteps : -((kSteps - 1 - node) / kSteps);

@@ -21,7 +21,8 @@ namespace {
 
 constexpr const char* solverTag = "Solver";
 
-/// The number of the material for which a condition holds; -1 for all, or if the id is invalid, which the grid reports.
+/// The index of the material to which a condition applies; -1 for all materials, or if the id is invalid, which the
+/// grid reports.
 int materialOf(const Element& condition) {
   return input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
 }
@@ -50,7 +51,7 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   limit(euler::boundary::temperature, "K");
 }
 
-/// Checks the conditions of the gas, which is material `gas` of the scene, and of further gases after it.
+/// Checks the conditions of the gas, which is material `gas` of the scene, and of the gases that follow it.
 void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const int material = materialOf(condition);
@@ -79,7 +80,7 @@ void checkBeside(const Element& condition, bool slips, bool relaxes, Diagnostics
     diagnostics.error(condition, "with var LODI for the Pressure, only a Temperature may be given as well");
 }
 
-/// Reports conditions of faces that contradict one another, or that need another one.
+/// Reports conditions of faces that contradict one another, or that require another condition.
 void checkWords(const Element& root, Diagnostics& diagnostics) {
   const auto group = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   for (const Element& face : group ? group->children("Face") : std::vector<Element>()) {
@@ -99,7 +100,8 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
   }
 }
 
-/// Notes a given pressure that differs from the one that follows; as in Uintah, it is ignored.
+/// Notes a given pressure that differs from the one that follows from density and temperature; as in Uintah, it is
+/// ignored.
 void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
   if (!body.pressure) return;
   if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;
@@ -226,7 +228,7 @@ void readGases(const std::vector<GasMaterial>& materials, const Element& root, G
 
 bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }
 
-/// Sections of implicit steps that do nothing here.
+/// Sections of implicit steps that have no effect in Tushar.
 void noteIdle(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   if (const auto solver = root.child(solverTag))
     diagnostics.note(*solver, isImplicit(ice) ? "does nothing: the settings of the solve are in <ImplicitSolver>"
@@ -253,7 +255,7 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
   return read;
 }
 
-/// Refuses what a gas can have only without bodies.
+/// Refuses features of a gas that are not available with bodies.
 void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   const Element tag = *root.child("CFD")->child("ICE");
   const char* sentence = "is not available with bodies: remove it, or keep only the gas";
@@ -291,7 +293,7 @@ Vec3 middleOf(const Element& root) {
   return 0.5 * (corner("upper") - corner("lower"));
 }
 
-/// Takes the velocity and the temperature that <customInitialization> gives the gas at the start.
+/// Applies the velocity and the temperature of <customInitialization> to the initial gas.
 void takeDisturbance(const CustomStart& start, const std::vector<GasMaterial>& materials, const Element& root,
                      euler::Settings& gas, Diagnostics& diagnostics) {
   if (const std::string problem = start.problem(materials.size()); !problem.empty())

@@ -169,7 +169,7 @@ template class Ice<3>;
 
 namespace {
 
-/// The tasks of several gases reach farther than those of one.
+/// The tasks of several gases need more ghosts than those of one.
 int cellsOfBlocks(const input::Element& root) {
   const auto properties = root.child("MaterialProperties");
   const auto gases = properties ? properties->child("ICE") : std::nullopt;

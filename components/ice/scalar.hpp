@@ -11,7 +11,7 @@
 
 namespace tushar::ice {
 
-/// A region of a scalar: where it starts, or where it rises.
+/// A region of a scalar, with its initial value or its increase.
 struct ScalarRegion {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
@@ -30,8 +30,8 @@ struct ScalarSettings {
   Location where;  ///< in the scene
   std::string name;
   double diffusivity = 0;              ///< m²/s
-  std::vector<ScalarRegion> start;     ///< where they overlap, the last one counts
-  std::vector<ScalarRegion> interior;  ///< sources: regions where it rises in each step
+  std::vector<ScalarRegion> start;     ///< where they overlap, the last one applies
+  std::vector<ScalarRegion> interior;  ///< sources: regions where it increases in each step
 };
 
 /// A scalar and the names of its variables, whose addresses must not change while tasks refer to them.

@@ -23,8 +23,8 @@ struct OpenFaces {
   double wall(int side) const { return area - open[side]; }
 };
 
-/// The degree to which the walls of a cell face the same way: 1 for one plane wall, 0 for two walls that face each
-/// other.
+/// The degree to which the walls of a cell face in the same direction: 1 for one plane wall, 0 for two walls that face
+/// each other.
 template <int D>
 double facingOneWay(const Level& level, const std::array<OpenFaces, D>& faces) {
   double open = 0, all = 0;
@@ -54,14 +54,14 @@ class FreeSpace {
     return side == 0 ? cell[axis] == level_->cells().lower[axis] : cell[axis] == level_->cells().upper[axis] - 1;
   }
 
-  /// The cell, or the one on the grid that is nearest to it.
+  /// The cell, or the nearest cell on the grid.
   Index<D> onGrid(Index<D> cell) const {
     for (int d = 0; d < D; ++d)
       if (!level_->isPeriodic(d)) cell[d] = std::clamp(cell[d], level_->cells().lower[d], level_->cells().upper[d] - 1);
     return cell;
   }
 
-  /// Open share of a face.
+  /// Open fraction of a face.
   double aperture(const Index<D>& cell, int axis, int side) const {
     if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : roomOf(cells_.free[cell]);
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);

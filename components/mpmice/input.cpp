@@ -66,7 +66,7 @@ ice::HeatCoefficients heatOf(const ice::Exchange& exchange, int solids, int gase
   return heat;
 }
 
-/// Refuses what gives a burning surface a wrong area or pressure.
+/// Refuses settings that would give a burning surface a wrong area or pressure.
 void checkBurning(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
   if (scene.burns.size() > 1)
     diagnostics.error(scene.burns[1].where, "Models/Model",
@@ -79,7 +79,7 @@ void checkBurning(const ice::GasScene& scene, const Element& root, Diagnostics& 
                       "is not available with a burning body: remove it, or run with --set CFD/ICE/explicit=true");
 }
 
-/// The place of a material among those of its kind; reports a name that is not among them.
+/// The index of a material among those of its kind; reports a name that is not among them.
 std::size_t placeOf(const std::string& name, const std::vector<std::string>& names,
                     const std::vector<std::string>& others, const char* kind, const char* otherKind,
                     const std::function<void(const std::string&)>& refuse) {
@@ -93,7 +93,7 @@ std::size_t placeOf(const std::string& name, const std::vector<std::string>& nam
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// The body that burns, if one does.
+/// The burning body, if there is one.
 std::optional<Burning> burningOf(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
   if (scene.burns.empty()) return {};
   checkBurning(scene, root, diagnostics);
@@ -134,7 +134,7 @@ void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diag
                                   scene.gas.cfl, greatestCfl));
 }
 
-/// Notes that conditions on a part of a side hold only for the gas, and that bodies have those of the whole side.
+/// Notes that conditions on a part of a side apply only to the gas, and that bodies have those of the whole side.
 void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagnostics) {
   const auto grid = root.child("Grid");
   const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;

@@ -44,7 +44,7 @@ template <int D>
 inline constexpr OnWalls<D> wallYield{
     {{"c.wallYieldBelow", "m/(s^2 Pa)", "acceleration per pressure of walls at the lower faces"},
      {"c.wallYieldAbove", "m/(s^2 Pa)", "acceleration per pressure of walls at the upper faces"}}};
-/// The state before small cells share theirs with others.
+/// The state before small cells are merged with others.
 inline constexpr CellLabel<double> unsharedDensity{"c.unsharedDensity", "kg/m^3",
                                                    "before small cells are merged with others"};
 template <int D>
@@ -52,8 +52,8 @@ inline constexpr CellLabel<Vec<D>> unsharedMomentum{"c.unsharedMomentum", "kg/(m
                                                     "before small cells are merged with others"};
 inline constexpr CellLabel<double> unsharedEnergy{"c.unsharedEnergy", "J/m^3",
                                                   "before small cells are merged with others"};
-/// For each of several gases, by its number: its mass per volume of the cell, its share of the gas's volume and, before
-/// small cells share theirs, its mass and volume per volume of the cell.
+/// For each of several gases, by its number: its mass per volume of the cell, its volume fraction of the gas and,
+/// before small cells are merged, its mass and volume per volume of the cell.
 inline constexpr std::array<CellLabel<double>, 3> massOfGas{{{"c.massOfGas0", "kg/m^3", "mass of the first gas"},
                                                              {"c.massOfGas1", "kg/m^3", "mass of the second gas"},
                                                              {"c.massOfGas2", "kg/m^3", "mass of the third gas"}}};

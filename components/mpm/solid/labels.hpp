@@ -38,7 +38,7 @@ template <int D>
 inline constexpr ParticleLabel<Vec<D>> externalForce{"p.externalforce", "N", "force of loads"};
 inline constexpr ParticleLabel<Matrix3> scaleFactor{"p.scalefactor", "m",
                                                     "edges of the particle, deformed by F, one per column"};
-/// The work on a particle since the start, J: one number for each of total::work.
+/// The work on a particle since the start, J: one number for each variable of total::work.
 using Works = Eigen::Matrix<double, 1, 7, Eigen::DontAlign | Eigen::RowMajor>;
 inline constexpr ParticleLabel<Works> work{
     "p.work", "J",

@@ -42,11 +42,11 @@ std::vector<std::string> modelNames() {
   return names;
 }
 
-/// Uintah's older names of models that exist here.
+/// Uintah's older names of models that are available.
 const std::map<std::string, std::string> otherWords{
     {"arenisca", "Arenisca"}, {"cnh_damage", "UCNH"}, {"cnhp_damage", "comp_neo_hook_plastic"}};
 
-/// Models of Uintah that are missing here, and their nearest alternatives.
+/// Models of Uintah that are not available, and the most similar ones.
 const std::vector<std::pair<std::string, std::string>> lackingModels{
     {"membrane", "comp_neo_hook, with bodies as thick as a cell"},
     {"three_factor_mooney", "comp_mooney_rivlin"},
@@ -74,7 +74,7 @@ void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagn
 /// Whether a tag that names Arenisca3 has the tags of Arenisca alone, as some scenes of Uintah do.
 bool hasOlderTags(const Element& tag) { return tag.child("p4_fluid_effect") && !tag.child("STREN"); }
 
-/// The model of a tag, by its name here.
+/// The model of a tag, by its name in Tushar.
 std::string typeOf(const Element& tag) {
   const std::string type = tag.attribute("type").value_or("");
   const auto yields = tag.child("usePlasticity");
@@ -92,7 +92,7 @@ template <class M>
 inline constexpr bool expands =
     std::is_same_v<M, CompNeoHook> || std::is_same_v<M, Ucnh> || std::is_same_v<M, CompNeoHookPlastic>;
 
-/// Thermal expansion of a model with that bulk modulus, Pa.
+/// Thermal expansion of a model with this bulk modulus, Pa.
 template <class M>
 std::shared_ptr<const Model> expandingIfAsked(const M& model, double bulkModulus, const Material& material) {
   if (material.thermalExpansion > 0)
@@ -136,7 +136,7 @@ void readModel(Material& material, const Element& parent, Diagnostics& diagnosti
   if (!material.model) refuseModel(*tag, type, diagnostics);
 }
 
-/// The tag by each of the models.
+/// The tag, read as each of the models.
 std::vector<input::Alternative> modelAlternatives() {
   std::vector<input::Alternative> alternatives;
   forEachModel([&]<class M>(const M&) {

@@ -65,7 +65,7 @@ bool hasParticles(const Level& level, const Body& body) {
   return found;
 }
 
-/// A note on each body without particles: it lies outside the grid, or between the points where they would start.
+/// A note on each body without particles, which is outside the grid, or between the points where particles would start.
 std::vector<InputProblem> notesOnEmptyBodies(const Level& level, const std::vector<Material>& materials) {
   std::vector<InputProblem> notes;
   for (const Material& material : materials)

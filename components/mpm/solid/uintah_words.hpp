@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Switches of Uintah's that are missing here, and what there is instead.
+/// Flags of Uintah that are not available, with the alternatives.
 inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
     {"InsertParticles", "give every body its position at the start"},
     {"refine_particles", "use a larger <res> to give the body more particles"},
@@ -22,7 +22,7 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
     {"restartOnLargeNodalVelocity", "recompute_timestep in <Time> repeats a step that fails"},
 };
 
-/// Tags of Uintah's that change nothing here, and why.
+/// Tags of Uintah that have no effect in Tushar, with the reasons.
 inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it"},
     {"create_new_particles", "particles stay as they are"},
@@ -84,7 +84,7 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "BndyContactCellArea_zminus",
                                                     "BndyContactCellArea_zplus"};
 
-/// Variables of particles that Uintah's MohrCoulomb saves by names without p., and older names of Arenisca's.
+/// Particle variables that Uintah's MohrCoulomb saves under names without p., and older names of variables of Arenisca.
 inline const simulation::OtherNames soilNames{
     {"Suction", "p.Suction"},        {"SpecificVol", "p.SpecificVol"}, {"c", "p.cohesion"},
     {"p.plasticStrainVol", "p.evp"}, {"p.elasticStrainVol", "p.eve"},  {"p.kappa", "p.Kappa"},

@@ -20,7 +20,8 @@ struct WarmBodies {
   }
 };
 
-/// What the exchange of heat reads and changes of the gas after a step: its energy and, of several gases, the shares.
+/// The variables of the gas that the heat exchange reads and changes after a step: its energy and, for several gases,
+/// the volume fractions.
 template <int D>
 struct HeatedGas {
   CellView<const double> free, density;
@@ -39,8 +40,8 @@ struct HeatedGas {
   }
 };
 
-/// Heat between bodies and gases, and among each of these, in the cells where they are together, in the manner of
-/// Uintah's exchange coefficients: what one gives, the others get.
+/// Heat exchange between bodies and gases, between bodies, and between gases, in the cells that they share, with
+/// Uintah's exchange coefficients; heat is conserved.
 template <int D>
 class HeatExchange {
  public:
@@ -136,7 +137,7 @@ void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& m
   });
 }
 
-/// Heat of gases that exchange none with bodies.
+/// Heat exchange of gases that exchange none with bodies.
 template <int D>
 void heatGases(const Patch& patch, const Settings& settings, double time, double dt, const HeatedGas<D>& gas) {
   const std::vector<WarmBodies> none;

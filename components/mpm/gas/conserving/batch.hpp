@@ -17,7 +17,7 @@ using LanesModes = Eigen::Matrix<Lanes, D, (1 << D) - 1, Eigen::DontAlign>;
 /// Particles side by side, one per lane.
 template <int D>
 struct Batch {
-  int count = 0;  ///< number of lanes in use; the others repeat the last particle
+  int count = 0;  ///< number of lanes in use; the other lanes repeat the last particle
   LaneIntegers place;
   std::array<LaneIntegers, D> cell;
 

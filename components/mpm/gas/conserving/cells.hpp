@@ -32,7 +32,7 @@ struct CellState {
 /// the derivative times the least cell width h; Delta is the sum of these differences over the axes [m/s].
 struct Compression {
   double difference = 0;  ///< Delta of the cell
-  double smooth = 0;      ///< J_0: Delta less van Leer's harmonic means with the differences of neighbours
+  double smooth = 0;      ///< J_0: Delta minus van Leer's harmonic means with the differences of the neighbours
   double nearby = 0;      ///< largest -Delta of the neighbours
 };
 

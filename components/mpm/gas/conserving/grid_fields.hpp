@@ -36,7 +36,7 @@ class GridFields {
    private:
     friend GridFields;
     LaneIntegers place_;
-    bool consecutive_ = true;  ///< whether each is next to that of the previous lane
+    bool consecutive_ = true;  ///< whether each is next to the one of the previous lane
   };
 
   /// A field at the nodes or cells offset by `k`.

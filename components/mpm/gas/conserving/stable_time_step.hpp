@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// dt <= 0.4 over the rates at which cells are compressed, -div v, cool by expansion, (gamma - 1) div v, and are
+/// dt <= 0.4 divided by the rates at which cells are compressed, -div v, cool by expansion, (gamma - 1) div v, and are
 /// stretched along an axis, |dv_d/dx_d|: no box doubles its length, no cell loses half its volume or energy. In cells
 /// without gas the rates count half: a front moves by at most .8 of the width of an empty cell.
 template <int D>
@@ -39,9 +39,9 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, const ConservingG
 }
 
 /// The largest speed of signals in a cell relative to its gas [m/s], 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|,
-/// where Delta is the velocity difference over the cell, as shocks are faster than sound. The form is that of D. J.
-/// Benson, Comput. Methods Appl. Mech. Eng. 99 (1992) 235; with these factors a moving gas has hardly a greater error
-/// than one at rest, and one at rest has that of |v| + c alone.
+/// where Delta is the velocity difference across the cell, since shocks are faster than sound. The form is that of D.
+/// J. Benson, Comput. Methods Appl. Mech. Eng. 99 (1992) 235; with these factors a moving gas has hardly a greater
+/// error than one at rest, and one at rest has that of |v| + c alone.
 template <int D>
 double signalInCell(const Level& level, const Tensor<D>& gradient, double soundSpeedSquared) {
   const double q = 1.4 * level.minSpacing() * std::abs(gradient.trace());

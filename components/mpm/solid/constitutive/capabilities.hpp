@@ -59,8 +59,8 @@ struct PlaceAndTime {
 
 // Stress and its tangent.
 
-/// J sigma, Pa, and the wave speed, m/s, of several particles at once, with the arithmetic of one: templates for a Real
-/// that is double or Lanes. Offer it where explicit steps spend their time in the stress.
+/// J sigma, Pa, and the wave speed, m/s, of several particles at once, with the same arithmetic as for one: templates
+/// for a Real that is double or Lanes. Offer it where explicit steps spend their time in the stress.
 struct Vectorized {
   struct Name {
     int kirchhoffStress;
@@ -177,8 +177,8 @@ struct OwnViscosity {
 
 // Heat.
 
-/// Constants of the material besides those of the model, filled in after the model has been read. Offer it where the
-/// model needs the density, the specific heat or the melting temperature.
+/// Constants of the material in addition to those of the model, filled in after the model has been read. Offer it where
+/// the model needs the density, the specific heat or the melting temperature.
 struct ConstantsOfMaterial {
   struct Name {
     int material;
@@ -198,7 +198,7 @@ struct ConstantsOfMaterial {
   }
 };
 
-/// Change of the temperature by the work of the step, K; `stress` and `state` are those at its end. Offer it for
+/// Change of the temperature due to the work of the step, K; `stress` and `state` are those at its end. Offer it for
 /// materials that plastic work or compression heats.
 struct TemperatureChange {
   struct Name {
@@ -258,8 +258,7 @@ struct ViscousHeat {
   }
 };
 
-/// Whether a point with F, a stress (Pa) and a temperature (K) is molten: it fails then where the scene has an
-/// <erosion>.
+/// Whether a point with F, a stress (Pa) and a temperature (K) is molten: it then fails if the scene has an <erosion>.
 struct Melting {
   struct Name {
     int isMolten;
@@ -334,7 +333,7 @@ struct Nonlocal {
   }
 };
 
-/// Variables of Uintah's model of the same name, which are always 0 here, for scenes that save them.
+/// Variables of Uintah's model of the same name that are always 0 in this model, for scenes that save them.
 struct AbsentVariables {
   struct Name {
     int absentVariables;

@@ -124,7 +124,7 @@ struct ElasticPlastic {
                              const State&) const {
     return stressWork(d, oldStress, stress);
   }
-  /// Rise of the temperature by plastic work, chi sigma_y de_p / (rho c), and by the change of volume.
+  /// Increase of the temperature due to plastic work, chi sigma_y de_p / (rho c), and to the change of volume.
   double temperatureChange(const Deformation& d, const Matrix3& stress, const State& state) const {
     const double equivalent = std::sqrt(1.5) * deviator(stress).norm(), j = d.deformationGradient.determinant();
     const VolumeState volume = volumeState(d, 0, 0);

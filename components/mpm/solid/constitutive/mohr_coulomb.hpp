@@ -26,7 +26,7 @@ namespace tushar::mpm::solid {
 struct MohrCoulomb : IsotropicModuli {
   struct State {
     double suction;         ///< s, Pa
-    double specificVolume;  ///< volume of the soil, pores included, over that of its grains, 1
+    double specificVolume;  ///< volume of the soil, including pores, divided by that of its grains, 1
     double cohesion;        ///< c, Pa
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::OptionalState>;
@@ -114,8 +114,8 @@ struct MohrCoulomb : IsotropicModuli {
   double saturation(double suction) const {
     return std::pow(1 + std::pow(retentionAlpha * suction, retentionN), -retentionM);
   }
-  /// The suction after a dilatation, Pa: the water that is there fills more of smaller pores, and all of those that
-  /// have closed or open again.
+  /// The suction after a dilatation, Pa: a constant amount of water fills a larger fraction of smaller pores, and all
+  /// of pores that have closed or open again.
   void squeeze(double dilatation, State& state) const {
     constexpr double full = 0.99999;
     const double before = state.specificVolume, now = before * (1 + dilatation);
@@ -170,7 +170,7 @@ struct MohrCoulomb : IsotropicModuli {
         .value("SpecVol", &Self::initialSpecificVolume, 0, "1",
                "with UseWaterRetention: volume of the soil divided by that of its grains, at the start");
   }
-  /// A switch that Uintah reads as a number: on if it is above 0.
+  /// A flag that Uintah reads as a number: true if it is above 0.
   static void declareSwitch(input::Schema<MohrCoulomb>& tags, const std::string& tag, bool MohrCoulomb::*member,
                             const std::string& sentence) {
     const auto read = [=](MohrCoulomb& object, const input::Element& element, input::Diagnostics& diagnostics) {

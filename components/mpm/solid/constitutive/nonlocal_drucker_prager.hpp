@@ -14,9 +14,9 @@
 namespace tushar::mpm::solid {
 
 /// Linear elasticity with the yield surface of Drucker and Prager, J2^(1/2) + alpha I1 = k with I1 = tr sigma, plastic
-/// flow by the same function with alpha_p, and a strength k that changes with plastic strain there and nearby;
-/// Burghardt et al., Comput. Methods Appl. Mech. Engrg. 225 (2012) 55. For a plastic strain rate l' M, |M| = 1,
-/// k = k_o + eta + eta_n, d eta/dt = h_local l', d eta_n/dt = h_nonlocal times the mean of l' within l_nonlocal. The
+/// flow by the same function with alpha_p, and a strength k that changes with the plastic strain at the point and
+/// around it; Burghardt et al., Comput. Methods Appl. Mech. Engrg. 225 (2012) 55. For a plastic strain rate l' M, |M| =
+/// 1, k = k_o + eta + eta_n, d eta/dt = h_local l', d eta_n/dt = h_nonlocal times the mean of l' within l_nonlocal. The
 /// mean is that of the step before, so that a step is explicit in it.
 struct NonlocalDruckerPrager {
   struct State {
@@ -114,7 +114,7 @@ struct NonlocalDruckerPrager {
   double plasticIncrement(double excess, double hardening) const {
     return std::max(excess / (stiffness() + hardening), 0.0);
   }
-  /// The fall of the trial stress towards a fixed surface per plastic strain, Pa.
+  /// The decrease of the trial stress towards a fixed surface per plastic strain, Pa.
   double stiffness() const { return (shearModulus + 9 * bulkModulus * friction * dilation) / flowScale(); }
   /// Length of the gradient of the flow potential, 1.
   double flowScale() const { return std::sqrt(0.5 + 3 * dilation * dilation); }
@@ -142,7 +142,7 @@ struct NonlocalDruckerPrager {
     tags.check(checkConstants);
     return tags;
   }
-  /// If softening is faster than the fall of the trial stress, no stress is on the surface.
+  /// If softening is faster than the decrease of the trial stress, no stress is on the surface.
   static void checkConstants(const NonlocalDruckerPrager& read, const input::Element& element,
                              input::Diagnostics& diagnostics) {
     const double softest = read.localModulus + std::min(read.nonlocalModulus, 0.0), limit = -read.stiffness();

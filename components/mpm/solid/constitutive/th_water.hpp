@@ -77,8 +77,8 @@ struct ThWater {
     double byTemperature;  ///< (dv/dT)_p, m^3/(kg K)
     double heat;           ///< c_p, J/(kg K)
   };
-  /// The formula holds to some 1e8 Pa and, without pressure, some 90 K above T_0. Beyond, it would make c_v and then
-  /// the compressibility vanish: at .89 and .86 of the volume at 300 K. This share of the compressibility without
+  /// The formula is valid up to about 1e8 Pa and, without pressure, about 90 K above T_0. Beyond, it would make c_v and
+  /// then the compressibility vanish: at .89 and .86 of the volume at 300 K. This share of the compressibility without
   /// pressure, and of c_p = c_v + T (dp/dT)_v (dv/dT)_p for c_v, is left.
   static constexpr double least = 0.25;
 

@@ -130,7 +130,7 @@ struct NeoHookPlastic {
   }
 
  private:
-  /// The elastic trial state, and how far it lies outside the yield surface.
+  /// The elastic trial state, and its distance outside the yield surface.
   struct Trial {
     Matrix3 elastic;       ///< b, 1
     Matrix3 stress;        ///< s = G dev b, Pa

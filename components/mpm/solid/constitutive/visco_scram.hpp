@@ -152,7 +152,7 @@ struct ViscoScram {
     }
     return load.greatestSpeed * (1 - resistance * resistance / (intensity * intensity));
   }
-  /// Growth of the radius in a step, m, by the method of Runge and Kutta of fourth order.
+  /// Growth of the radius in a step, m, by the fourth-order Runge-Kutta method.
   double growthOf(const CrackLoad& load, double radius, double timeStep) const {
     const double k1 = crackSpeed(load, radius), k2 = crackSpeed(load, radius + 0.5 * timeStep * k1);
     const double k3 = crackSpeed(load, radius + 0.5 * timeStep * k2), k4 = crackSpeed(load, radius + timeStep * k3);
@@ -253,8 +253,8 @@ struct ViscoScram {
 };
 static_assert(ConstitutiveModel<ViscoScram>);
 
-/// The same of a material that heat expands: the rate of strain that makes stress is D - alpha dT/dt I, as in Uintah
-/// with T at the start of a step and of the one before.
+/// The same for a material with thermal expansion: the strain rate that causes stress is D - alpha dT/dt I, as in
+/// Uintah with T at the start of this step and of the previous one.
 struct ExpandingViscoScram {
   struct State {
     ViscoScram::State scram;

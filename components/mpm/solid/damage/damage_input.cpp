@@ -79,7 +79,7 @@ T Self::*of(T ThresholdDamage::*member) {
   return member;
 }
 
-/// The tags of the criterion, and of how the threshold differs from particle to particle.
+/// The tags of the criterion, and of the distribution of the threshold among particles.
 template <class Self>
 void declareThreshold(Schema<Self>& tags) {
   using Base = ThresholdDamage;
@@ -210,7 +210,7 @@ void connect(Material& material, const Element& parent, const Element& tag, Diag
   brittle->young = 9 * *bulk * *shear / (3 * *bulk + *shear);
 }
 
-/// Refuses stability checks with erosion, by which particles fail in Uintah.
+/// Refuses stability checks with erosion, which make particles fail in Uintah.
 void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");
   const auto check = model ? model->child("stability_check") : std::nullopt;
@@ -221,7 +221,7 @@ void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagno
                                   erosion.where().line));
 }
 
-/// Notes that particles do not fail by porosity, as metals do in Uintah by default.
+/// Notes that particles do not fail because of porosity, as metals do in Uintah by default.
 void noteWhatDoesNotFail(const Material& material, const Element& parent, const Element& erosion,
                          Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");

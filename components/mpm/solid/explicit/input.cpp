@@ -162,7 +162,7 @@ void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& d
     diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to update the velocity: choose one");
 }
 
-/// Tags of Uintah's that only implicit steps read.
+/// Tags of Uintah that only implicit steps read.
 constexpr std::array implicitOnly{"with_gauss_solver",
                                   "dynamic",
                                   "solver",
@@ -266,7 +266,7 @@ std::shared_ptr<const PrescribedDeformation> readMotion(const MpmSection& read, 
   return motion ? std::make_shared<PrescribedDeformation>(*motion) : nullptr;
 }
 
-/// Throws InputError, at the place of <MPM>, if the grid leaves out an axis along which bodies are deformed.
+/// Throws InputError, at the place of <MPM>, if bodies are deformed along an axis that the grid does not use.
 void refuseFlat(const Level& level, const Location& where) {
   if (level.dimension() < 3)
     throw InputError({{where, "MPM/UsePrescribedDeformation",

@@ -67,7 +67,7 @@ void declareSteps(Schema<Section>& schema) {
              input::atLeast(1));
 }
 
-/// Notes that nodes do not keep the temperatures of the first step, from which every step conducts heat anew in Uintah.
+/// Notes that nodes do not keep the temperatures of the first step; in Uintah, every step conducts heat from those.
 void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("interpolateParticleTempToGridEveryStep");
   const auto conducts = element.child("DoImplicitHeatConduction");
@@ -77,7 +77,7 @@ void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagno
                      "first step, as in Uintah");
 }
 
-/// Tags for behaviour that is always on here.
+/// Tags for behaviour that is always enabled in Tushar.
 void addFixedHeat(Schema<Section>& mpm) {
   mpm.custom("interpolateParticleTempToGridEveryStep", noteFrozenTemperature,
              {"interpolateParticleTempToGridEveryStep"},
@@ -177,7 +177,7 @@ void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnosti
               "master of a <contact> of type rigid or specified");
 }
 
-/// Whether a damage model counts damage without weakening the material.
+/// Whether a damage model accumulates damage without weakening the material.
 bool onlyCounts(const Damage& damage) {
   return std::holds_alternative<NoDamage>(damage) || std::holds_alternative<HancockMackenzieDamage>(damage) ||
          std::holds_alternative<JohnsonCookDamage>(damage);
@@ -219,7 +219,8 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <time_integrator> explicit");
 }
 
-/// Notes that heat does not strain metals, as it does in Uintah's implicit steps in addition to the equation of state.
+/// Notes that metals do not expand thermally, as they do in Uintah's implicit steps in addition to the equation of
+/// state.
 void noteThermalStrain(const Element& root, Diagnostics& diagnostics) {
   for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material")) {
     const auto model = material.child("constitutive_model");

@@ -18,7 +18,7 @@ struct Touch {
   double s, hoop;   ///< S_i and, if axisymmetric, S_i / r (1/m)
   Vec<D> gradient;  ///< of S_i, 1/m
 };
-/// The function that is called with each particle and the nodes that it touches, always equally many.
+/// The function that is called with each particle and the nodes that it touches, whose number is always the same.
 template <int D>
 using VisitTouches = std::function<void(int p, std::span<const Touch<D>> touched)>;
 

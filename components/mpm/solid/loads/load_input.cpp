@@ -123,7 +123,7 @@ Schema<SurfaceSection> surfaceSchema(const std::string& name, const std::string&
       .ignored("res", "the number of loaded particles is determined automatically");
 }
 
-/// The number of a load curve must be the position of its load in the scene, because Uintah uses one for the other.
+/// The number of a load curve must be the position of its load in the scene, because Uintah uses them interchangeably.
 void checkNumbers(const Element& loads, Diagnostics& diagnostics) {
   int place = 0;
   for (const Element& load : loads.children()) {

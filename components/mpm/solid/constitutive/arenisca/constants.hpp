@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid::arenisca {
 
-/// The constants of Arenisca in a scene, by the symbols of its publications. Stresses are positive in tension; I1 is
+/// The constants of Arenisca in a scene, with the symbols of its publications. Stresses are positive in tension; I1 is
 /// the trace of the stress, J2 the second invariant of its deviator.
 struct Constants {
   double peakI1 = 0;         ///< I1 at the vertex of the yield surface, Pa
@@ -36,7 +36,7 @@ struct Constants {
 
   /// Whether Poisson's ratio is given; otherwise G = g0.
   bool hasPoissonRatio() const { return g1 != 0 && g2 != 0; }
-  /// Whether the cap is an ellipse that touches the cone, and the moduli are constant: Arenisca without a number.
+  /// Whether the cap is an ellipse tangent to the cone, and the moduli are constant: the model type `Arenisca`.
   bool hasTangentCap() const { return capShape > 0; }
   /// K_m: bulk modulus of the grains, Pa.
   double matrixBulk() const { return b0 + b1; }
@@ -44,7 +44,7 @@ struct Constants {
   double porosity() const { return 1 - std::exp(-p3); }
   /// C_1 = K_f (1 - phi_0) + K_m phi_0, Pa
   double mixedBulk() const { return fluidBulk * (1 - porosity()) + matrixBulk() * porosity(); }
-  /// Whether a fluid fills the pores at a volumetric strain; at larger strains it is under tension and tears.
+  /// Whether a fluid fills the pores at a volumetric strain; at larger strains it is under tension and ruptures.
   bool isSaturated(double strain) const {
     return fluidBulk != 0 && strain <= mixedBulk() * fluidPressure / (fluidBulk * matrixBulk());
   }
@@ -147,7 +147,7 @@ void addSoilTags(input::Schema<M>& schema) {
                input::nonNegative());
 }
 
-/// Tags of the cap that touches the cone: Arenisca without a number alone has it.
+/// Tags of the cap that is tangent to the cone, which only the model type `Arenisca` has.
 template <class M>
 void addTangentCapTags(input::Schema<M>& schema) {
   const Tags<M> tags{schema};
@@ -164,7 +164,7 @@ void addTangentCapTags(input::Schema<M>& schema) {
     schema.ignored(unused, "from an older Uintah, in which the other tags have the same meaning");
 }
 
-/// Lode's angle: Arenisca4 alone has it.
+/// Lode's angle, which only Arenisca4 has.
 template <class M>
 void addLodeTags(input::Schema<M>& schema) {
   schema

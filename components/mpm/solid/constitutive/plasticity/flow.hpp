@@ -158,7 +158,7 @@ class RadialReturn {
   RadialReturn(const Flow& flow, const FlowState& start, double timeStep)
       : flow_(flow), start_(start), time_step_(timeStep) {}
 
-  /// Length by which the return shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y, e_p =
+  /// Amount by which the return shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y, e_p =
   /// (2/3)^(1/2) q/(2 G) more than at the start, Pa, by Newton's iteration between bounds; Simo & Hughes, Computational
   /// Inelasticity (1998), box 3.1.
   double excess(double trialSize) const {

@@ -64,7 +64,7 @@ using OfFlowModels = CapabilityList<Hardening, PlasticRate>;
 
 }  // namespace capability
 
-/// True, or compilation stops with a sentence that says what is missing in Flow.
+/// True; otherwise compilation stops with a message that says what is missing in Flow.
 template <class Flow>
 consteval bool isFlowRule() {
   static_assert(

@@ -11,7 +11,7 @@ namespace tushar::mpm::solid {
 /// Arguments of shear and melting models.
 struct Compression {
   double pressure;             ///< Pa
-  double ratio;                ///< density over that at the start, 1
+  double ratio;                ///< density relative to that at the start, 1
   double temperature;          ///< K
   double density = 0;          ///< kg/m^3
   double meltTemperature = 0;  ///< K; only for the shear modulus
