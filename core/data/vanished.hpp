@@ -4,7 +4,7 @@
 
 namespace tushar::data {
 
-/// The first coordinate of a particle that is no more: the next relocation drops it.
+/// The first coordinate of a particle that no longer exists: the next relocation removes it.
 inline constexpr double vanished = std::numeric_limits<double>::max();
 
 }  // namespace tushar::data

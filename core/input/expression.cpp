@@ -36,7 +36,7 @@ struct Compiled {
   mu::Parser parser;
 };
 
-/// The formulas that this thread has compiled, by number of the program, until the thread ends.
+/// The formulas that this thread has compiled, by index of the program, until the thread ends.
 std::unordered_map<std::uint64_t, Compiled>& compiledHere() {
   thread_local std::unordered_map<std::uint64_t, Compiled> programs;
   return programs;

@@ -196,7 +196,7 @@ bool collectAbove(const Element& from, const Element& until, std::vector<Element
 }
 
 /// The labelled shapes above a shape in the same section of the scene (MaterialProperties, PhysicalBC, …): each section
-/// has its own labels, which hide those of others. Parts of the section that are read first count as above.
+/// has its own labels, which hide those of other sections. Parts of the section that are read first count as above.
 std::vector<Element> labelledAbove(const Element& shape) {
   Element section = shape, part = shape;
   while (section.parent() && section.parent()->parent()) {

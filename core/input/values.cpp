@@ -25,7 +25,7 @@ std::string_view withoutPlus(std::string_view text) {
   return plus ? text.substr(1) : text;
 }
 
-/// The text without a decimal point that is followed only by zeros: `2.0` is a whole number, too.
+/// The text without a decimal point that is followed only by zeros: so that `2.0` is also a whole number.
 std::string_view withoutPoint(std::string_view text) {
   const auto point = text.find('.');
   const bool isWhole =
@@ -58,7 +58,7 @@ Parsed<std::vector<std::string>> parts(const std::string& text, std::string_view
   return Parsed<std::vector<std::string>>::ok(splitAtCommas(inside));
 }
 
-/// A number without brackets is a list of one, as in Uintah.
+/// As in Uintah, a number without brackets is a list of one.
 template <class T>
 Parsed<std::vector<T>> parseList(std::string_view given, std::string_view what) {
   const std::string text = trimmed(given);

@@ -134,7 +134,7 @@ std::string energyTable(const Report& report) {
                             energies.greatest() > 0 ? energies.unaccounted() / energies.greatest() : 0.0);
 }
 
-/// The shares of the threads' time during the time loop and its outputs.
+/// The fractions of the threads' time during the time loop and its outputs.
 std::string useLine(const Report& report) {
   const TimeUse& use = report.use;
   const double all = use.task + use.message + use.output + use.wait;

@@ -24,7 +24,7 @@ double residentMegabytes() {
   return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// The rank that has the cell at the centre of the grid.
+/// The rank that owns the cell at the centre of the grid.
 int rankInTheMiddle(const grid::Grid& grid) {
   for (int number = 0; number < grid.levels(); ++number) {
     grid::Box middle = grid.level(number).cells();

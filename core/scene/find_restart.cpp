@@ -40,7 +40,7 @@ fs::path folderOf(const fs::path& uda) {
   return folder;
 }
 
-/// The steps of checkpoints to try in turn: the chosen one alone, or those from LATEST backwards.
+/// The steps of checkpoints to try in order: only the chosen one, or those from LATEST backwards.
 std::vector<int> candidatesOf(const std::string& uda, const fs::path& archive, std::optional<int> chosen) {
   const output::CheckpointStore store(archive, 1);
   const std::vector<int> steps = store.steps();

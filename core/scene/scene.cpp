@@ -190,8 +190,8 @@ Element whereOfLevels(const Element& grid, const AmrSettings& amr) {
   return levels.size() > 1 ? levels[1] : *amr.tag;
 }
 
-/// Refuses several levels for a component that runs on one. The message does not list components that run on several,
-/// as their modules may not be built yet.
+/// Refuses several levels for a component that supports only one. The message does not list components that run on
+/// several, as their modules may not be built yet.
 void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrSettings& amr,
                       Diagnostics& diagnostics) {
   if (!kind.takesLevels)
@@ -230,9 +230,9 @@ Trial tryOut(const MakeComponent& make) {
   return {};
 }
 
-/// Checks the labels even if other parts of the scene are invalid, as those of a component and its modules do not
-/// depend on the grid. Returns false if it cannot: some components and modules cannot be made on the small grid that it
-/// uses.
+/// Checks the labels even if other parts of the scene are invalid, since the labels of a component and its modules do
+/// not depend on the grid. Returns false if it cannot: some components and modules cannot be made on the small grid
+/// that it uses.
 bool checkLabelsWithoutGrid(const MakeComponent& make, const std::vector<ReadModule>& modules,
                             std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   const auto [level, component] = tryOut(make);

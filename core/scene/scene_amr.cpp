@@ -60,7 +60,7 @@ struct AmrSection {
 bool isLower(Indicator indicator) { return indicator == Indicator::below; }
 bool isValue(Indicator indicator) { return indicator == Indicator::above || indicator == Indicator::below; }
 
-/// The threshold for coarsening: half that for refining; for values, half their magnitude beyond it.
+/// The threshold for coarsening: half that for refining; for values, beyond it by half their magnitude.
 double coarsenOf(const VariableTag& tag, double refine) {
   if (tag.coarsen) return *tag.coarsen;
   return isLower(tag.indicator) ? refine + 0.5 * std::abs(refine) : refine - 0.5 * std::abs(refine);

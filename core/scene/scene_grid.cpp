@@ -23,7 +23,7 @@ struct GridSection {
   std::vector<LevelSection> levels;
 };
 
-/// <BoundaryConditions>, with the sections of a component's own.
+/// <BoundaryConditions>, with the component's own sections.
 Schema<FacesSection> facesTag(const Schema<FaceSection>& face, const std::vector<simulation::SectionForm>& own) {
   Schema<FacesSection> tags("BoundaryConditions",
                             "The conditions at the sides of the grid; a side without conditions is free.");
@@ -57,7 +57,7 @@ struct GridTags {
   Schema<GridSection> grid;
 };
 
-/// <Grid> as it is read, for components with these sections of their own.
+/// <Grid> as it is read, for components with these own sections.
 const Schema<GridSection>& gridSchema(const std::vector<simulation::SectionForm>& own = {}) {
   static std::map<std::vector<std::string>, GridTags> all;
   return all.try_emplace(namesOf(own), conditionSchema(), own).first->second.grid;

@@ -19,7 +19,7 @@ using simulation::SaveRequest;
 
 namespace {
 
-/// Replaces Uintah's names of variables by those used here, with a note; each is saved once.
+/// Replaces Uintah's names of variables by Tushar's, with a note; each variable is saved once.
 void renameLabels(const simulation::OtherNames& names, std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   std::vector<SaveRequest> kept;
   for (SaveRequest& save : saves) {

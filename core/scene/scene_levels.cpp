@@ -328,7 +328,7 @@ class Refiner {
     return sizes;
   }
 
-  /// The sizes nearest to a wanted one, in words: `4, 10 or 20`.
+  /// The sizes closest to a requested one, in words: `4, 10 or 20`.
   static std::string namesOfNearest(std::vector<int> sizes, int wanted) {
     constexpr std::size_t most = 6;
     std::stable_sort(sizes.begin(), sizes.end(),

@@ -26,7 +26,7 @@ struct Known {
   simulation::OtherNames names;
   tasks::Names labels;
   std::set<std::string> foreign;
-  std::vector<std::string> materials;  ///< names of materials, by their numbers in the scene
+  std::vector<std::string> materials;  ///< names of materials, by their indices in the scene
   std::set<std::string> noted;         ///< names of materials that a note is about
 
   Known(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses)
@@ -39,7 +39,7 @@ struct Known {
   }
 };
 
-/// The number of a material by its name or number; -1, with an error, if there is none.
+/// The index of a material, given by name or index; -1, with an error, if there is none.
 int numberOf(const std::string& word, const Known& known, std::string& problem) {
   const auto& all = known.materials;
   if (const auto named = std::find(all.begin(), all.end(), word); named != all.end())
@@ -55,7 +55,7 @@ int numberOf(const std::string& word, const Known& known, std::string& problem) 
   return -1;
 }
 
-/// Whether a word may refer to the only material, whatever its name.
+/// Whether a word may refer to the only material, even if it has another name.
 bool isLoneMaterial(const std::string& word, const Known& known) {
   return known.materials.size() == 1 && !input::parse<int>(word).value;
 }
