@@ -51,7 +51,7 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   return names;
 }
 
-/// The words in the order for CLI11, the last first; the word after --petsc is left unchanged.
+/// The words in the order for CLI11, the last first; the word after --petsc is not changed.
 std::vector<std::string> backwards(const std::vector<std::string>& given) {
   std::vector<std::string> words;
   for (const std::string& word : given)
@@ -150,7 +150,7 @@ std::string sentenceOf(const CLI::App* app, const CLI::Error& error) {
   return withNumber(text.substr(0, line)) + (line == std::string::npos ? "" : text.substr(line));
 }
 
-/// `--check --json SCENE`: the word after --json is the scene where there is no other.
+/// `--check --json SCENE`: the word after --json is the scene if there is no other.
 void settleJson(const CLI::App& app, Arguments& arguments) {
   arguments.asksForJson = app.count("--json") > 0;
   if (arguments.check && arguments.scene.empty()) std::swap(arguments.scene, arguments.run.jsonPath);

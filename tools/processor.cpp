@@ -8,8 +8,8 @@
 
 #define TUSHAR_ANY_PROCESSOR [[gnu::target("arch=x86-64")]]
 #define TUSHAR_TEXT(words) #words
-/// `name`, if the compiler used these instructions, for which it then defines the macro as 1, and the processor lacks
-/// them; otherwise what follows.
+/// `name` if the compiler used these instructions (it then defines the macro as 1) and the processor lacks them;
+/// otherwise the value that follows.
 #define TUSHAR_IF_MISSING(macro, name) TUSHAR_TEXT(macro)[0] == '1' && !__builtin_cpu_supports(name) ? name:
 
 namespace {

@@ -55,7 +55,7 @@ std::optional<Vec3> pointOf(const std::optional<std::string>& text, const Elemen
 
 std::string called(const FaceWord& word) { return word.name == "side" ? "whole side" : "part with " + word.name; }
 
-/// Whether a tag has all the attributes of a word, and no others.
+/// Whether a tag has exactly the attributes that belong to a word.
 bool hasAttributesOf(const FaceWord& word, const Element& tag, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const auto& own = word.attributes;
@@ -87,7 +87,7 @@ bool spansArea(const Vec3& lower, const Vec3& upper, int across, const Element& 
   return true;
 }
 
-/// Whether one length is no larger than another; reports it otherwise.
+/// Whether one length is at most another; reports it otherwise.
 bool areInOrder(double smaller, double larger, const FaceWord& word, const Element& tag, Diagnostics& diagnostics) {
   if (smaller <= larger) return true;
   diagnostics.error(tag, fmt::format("{} is greater than {}: {:g} > {:g} m", word.attributes[1], word.attributes[2],
@@ -147,7 +147,7 @@ bool liesInSide(const GivenPart& part, const grid::Domain& domain, Diagnostics& 
   return diagnostics.size() == before;
 }
 
-/// The kernel axis of an axis, or -1 if it is left out.
+/// The kernel axis of an axis, or -1 if the grid does not use it.
 int kernelAxisOf(const grid::Level& level, int axis) {
   for (int d = 0; d < level.dimension(); ++d)
     if (level.axis(d) == axis) return d;

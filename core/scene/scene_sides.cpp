@@ -25,7 +25,7 @@ grid::BoundaryKind kindOf(const std::string& var) {
 }
 bool isSymmetry(const std::string& var) { return var == nameOf(grid::BoundaryKind::symmetry); }
 
-/// Labels of Uintah's flow components, which appear in scenes of other components, too.
+/// Labels of Uintah's flow components, which also appear in scenes of other components.
 const std::vector<std::string> labelsOfFlow{"Density", "Pressure", "SpecificVol"};
 bool isOfFlow(const std::string& label) {
   return std::find(labelsOfFlow.begin(), labelsOfFlow.end(), label) != labelsOfFlow.end();
@@ -135,7 +135,7 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
 
 namespace {
 
-/// Reads a value, which may be a formula if the component takes formulas.
+/// Reads a value, which may be a formula if the component supports formulas.
 template <class T, class Formula>
 std::string readValue(const std::string& text, bool mayVary, T& value, std::optional<Formula>& formula) {
   const auto plain = input::parse<T>(text);
@@ -172,7 +172,7 @@ void takeValue(const ConditionSection& given, const Element& tag, bool mayVary, 
   condition.formula = std::make_shared<const input::VectorExpression>(*std::move(formula));
 }
 
-/// Why a condition contradicts itself or a plane of symmetry; empty if it does not.
+/// Why a condition contradicts itself or a symmetry plane; empty if it does not.
 std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPlane) {
   const bool symmetry = condition.kind == grid::BoundaryKind::symmetry;
   if (symmetry != (condition.variable == grid::symmetric))
@@ -184,8 +184,8 @@ std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPl
   return {};
 }
 
-/// Whether a value may be given on a plane of symmetry: a vector must lie in the plane, so that its mirror image is the
-/// same.
+/// Whether a value may be given on a symmetry plane: a vector must be parallel to the plane, so that its mirror image
+/// is the same.
 bool fitsPlane(const grid::BoundaryVariable& label, const grid::BoundaryCondition& condition, int axis) {
   return label.isEven && condition.kind == grid::BoundaryKind::dirichlet &&
          (!label.isVector || (!condition.formula && condition.value[axis] == 0));
@@ -218,7 +218,7 @@ void noteSeen(const ConditionSection& given, const Element& tag, const ReadFace&
         tag, fmt::format("{} already has a condition on this face, at {}; keep one", given.label, first->text()));
 }
 
-/// Adds the meaning of a condition in a component's own words.
+/// Adds the conditions that a component's own condition type stands for.
 void readOwnCondition(const ConditionSection& given, const Element& tag, const ReadFace& face,
                       Diagnostics& diagnostics) {
   noteSeen(given, tag, face, diagnostics);

@@ -92,7 +92,7 @@ bool covers(const SaveRequest& one, const SaveRequest& other) {
   return one.label == other.label && (one.material.empty() || one.material == other.material);
 }
 
-/// Removes saves that another save includes.
+/// Removes save requests that another one includes.
 void takeOutRepeated(std::vector<SaveRequest>& saves, const std::vector<Element>& tags, Diagnostics& diagnostics) {
   if (saves.size() != tags.size()) return;
   std::vector<SaveRequest> kept;

@@ -18,7 +18,7 @@ namespace tushar::simulation {
 //     /totals/<name>     mass, momentum and energy at the very start, for the drift of the report
 //     and the state: see core/collect/stored_state.hpp
 
-/// The place of a checkpoint file, and its content apart from the state.
+/// The location of a checkpoint file, and its content except the state.
 struct CheckpointTarget {
   std::filesystem::path path;
   output::ArchivePoint point;  ///< extent of the archive; on rank 0 only

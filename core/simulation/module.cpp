@@ -33,7 +33,7 @@ OwnModules& ownModules() {
   return modules;
 }
 
-/// Why a file cannot be a shared library; nothing if it may be one, or cannot be read, which dlopen then explains.
+/// Why a file cannot be a shared library; empty if it may be one, or if it cannot be read, which dlopen then reports.
 std::string whyNoLibrary(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return "";

@@ -120,8 +120,8 @@ void Simulation::resume() {
   run_.setTimeOfAnalyses();  // what was due up to now, the run before has sampled
 }
 
-/// Initialises the state on finer and finer cells, as far as it requires them: finer cells resolve more of the state in
-/// the scene.
+/// Initialises the state on successively finer cells, as far as it requires them: finer cells resolve more of the
+/// initial state.
 void Simulation::initialize() {
   do {
     initializeOnce();

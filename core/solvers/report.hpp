@@ -23,15 +23,15 @@ inline void addTimes(const Outcome& outcome, data::Maximum& assembly, data::Maxi
   solve.add(outcome.solve);
 }
 
-/// The final residual over the largest during the solve; 0 if there was none.
+/// The ratio of the final residual to the largest during the solve; 0 if there was none.
 inline double remainderOf(const Outcome& outcome) {
   const double greatest =
       outcome.residuals.empty() ? 0 : *std::max_element(outcome.residuals.begin(), outcome.residuals.end());
   return greatest > 0 ? outcome.residuals.back() / greatest : 0;
 }
 
-/// The place of the largest residual, as the end of a sentence; the same on all ranks: `mine` [m] on the rank that has
-/// it.
+/// The position of the largest residual, as the end of a sentence, on all ranks; `mine` [m] is the position on the rank
+/// that has it.
 std::string worstPlace(const mpi::Communicator& ranks, const std::optional<Vec3>& mine, const std::string& what);
 
 }  // namespace tushar::solvers

@@ -8,7 +8,7 @@
 
 namespace tushar::tasks {
 
-/// Stands for a view while a group only declares its accesses.
+/// Placeholder for a view while a group only declares its accesses.
 template <class View>
 struct Blank {
   static View make() { return View{}; }

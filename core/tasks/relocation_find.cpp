@@ -34,7 +34,7 @@ bool isInside(const Vec<D>& x, const Vec<D>& lower, const Vec<D>& upper) {
   return inside;
 }
 
-/// Whether all of `count` positions in a row lie in the cell with these bounds.
+/// Whether all of `count` consecutive positions lie in the cell with these bounds.
 template <int D>
 bool areInside(const Vec<D>* x, int count, const Vec<D>& lower, const Vec<D>& upper) {
   for (; count >= Lanes::count; x += Lanes::count, count -= Lanes::count) {
@@ -59,7 +59,7 @@ void wrap(const grid::Level& level, Vec<D>& x) {
   }
 }
 
-/// Whether a particle may leave the grid to `cell`: yes through a free face.
+/// Whether a particle may leave the grid to `cell`, which is allowed through a free face.
 template <int D>
 bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
   bool may = true;
@@ -130,7 +130,7 @@ void Relocation::findMoves(int material, int position, int id) {
   });
 }
 
-/// Discards the entries of the last moves, whether or not they have been made.
+/// Discards the entries of the last moves, even if they have not been made.
 void Relocation::forgetIncoming(const Patch& patch, PatchMoves& moves) {
   const grid::Box& cells = patch.cells();
   moves.firstIncoming.resize(cells.size(), -1);

@@ -8,7 +8,7 @@ namespace tushar::tasks {
 
 namespace {
 
-/// Calls `visit(slot, place of its bytes)` for each reduction of a graph; returns the total number of bytes.
+/// Calls `visit(slot, position of its bytes)` for each reduction of a graph; returns the total number of bytes.
 template <class Visit>
 std::size_t forEachReduction(data::Warehouse& warehouse, const TaskGraph& graph, Visit&& visit) {
   std::size_t place = sizeof(Outcome);

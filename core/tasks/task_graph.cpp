@@ -26,8 +26,8 @@ std::map<std::string, const data::Label*, std::less<>> labelsOf(const std::vecto
   return labels;
 }
 
-/// Whether a patch may run before others have their ghosts: the task must not change the values from which these are
-/// filled.
+/// Whether a patch may run before the ghosts of others are filled: the task must not change the values from which these
+/// are filled.
 bool mayStartEarly(const CompiledTask& task, const data::VariableTable& table) {
   const auto isFilled = [&](const Access& access) {
     return std::any_of(task.fills.begin(), task.fills.end(), [&](const BoundGhostFill& fill) {
