@@ -119,7 +119,7 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
                 all<ice::PressureViews>(), totals<ice::SolveTotals>());
   tasks.acrossMaterials("mpmice::takeWallPressure", takeWallPressure<D>, materials, with(settings_),
                         withoutMaterial(gas), requiresNew(g::record, 1), withoutMaterial(requiresNew(c::pressureAtEnd)),
-                        withoutMaterial(all<Blowing<D>>(burns())), withoutMaterial(all<WallPressures<D>>()));
+                        withoutMaterial(all<WallPressures<D>>()));
 }
 
 /// The volume that bodies fill at the end of the step, and the volume that they swept.
@@ -165,14 +165,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_),
                  all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
                  computes(total::mergedCells));
-  if (hasHeat())
-    tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), startTime(),
-                          requiresOld(delT), withoutMaterial(all<HeatedGas<D>>(settings_.gases.size())),
-                          all<WarmBodies>(burns() ? requiresNew(p::mass) : requiresOld(p::mass)),
-                          withoutMaterial(offers(c::heat)));
-  else if (settings_.heating.acts())
-    tasks.perPatch("mpmice::addHeat", heatGases<D>, with(settings_), startTime(), requiresOld(delT),
-                   all<HeatedGas<D>>(settings_.gases.size()));
+  scheduleHeat(tasks, materials);
   if (!settings_.gravity.isZero(0) && !settings_.implicit)
     tasks.perPatch("mpmice::addGravity", addGravity<D>, with(settings_.gravity), requiresNew(c::freeVolume),
                    requiresNew(c::density), requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
@@ -180,6 +173,24 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   if (burns())
     tasks.perMaterial("mpmice::removeBurnt", removeBurnt<D>, materials, requiresOld(p::mass), requiresNew(p::mass),
                       modifies(p::x<D>), when(keepsStrain(materials), modifies(p::strainEnergy)));
+}
+
+/// Heat by exchange coefficients, and from outside.
+template <int D>
+void GasAround<D>::scheduleHeat(TaskList& tasks, const Materials& materials) const {
+  const std::size_t gases = settings_.gases.size();
+  const bool areFew = materials.size() + std::max<std::size_t>(1, gases) <= kFewThings;
+  if (hasHeat())
+    tasks.acrossMaterials(
+        "mpmice::exchangeHeat", areFew ? exchangeHeat<D, kFewThings> : exchangeHeat<D, Eigen::Dynamic>, materials,
+        with(settings_), startTime(), requiresOld(delT), withoutMaterial(all<HeatedGas<D>>(gases)),
+        all<WarmBodies>(burns() ? requiresNew(p::mass) : requiresOld(p::mass)), withoutMaterial(offers(c::heat)));
+  else if (settings_.heating.acts() && gases > 0)
+    tasks.perPatch("mpmice::heatGases", heatGases<D>, with(settings_), startTime(), requiresOld(delT),
+                   all<HeatedGas<D>>(gases));
+  else if (settings_.heating.acts())
+    tasks.perPatch("mpmice::heatGas", ice::addHeat<D>, with(settings_.heating), requiresNew(c::density), startTime(),
+                   requiresOld(delT), modifies(c::totalEnergy));
 }
 
 /// Heat through the walls of bodies, according to the state at the start of the step.

@@ -37,6 +37,7 @@ class GasAround : public mpm::solid::Surroundings {
   }
   bool hasHeat() const { return settings_.heat.act(); }
   bool conductsToBodies() const { return settings_.diffusion.conducts() && hasHeat(); }
+  void scheduleHeat(TaskList& tasks, const Materials& materials) const;
   void scheduleConduction(TaskList& tasks, const Materials& materials) const;
   bool isViscous() const { return settings_.diffusion.isViscous(); }
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;

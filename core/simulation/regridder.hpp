@@ -51,7 +51,7 @@ class MarkedBlocks {
 
   const grid::Grid& grid_;
   int interval_, dilation_;
-  std::set<std::array<int, 6>> near_particles_;  ///< corners of boxes of blocks of the finest level
+  std::set<std::array<int, 7>> near_particles_;  ///< levels, and corners of boxes of their blocks
   std::vector<grid::BlockId> wanted_, kept_;     ///< may contain duplicates
 };
 

@@ -77,8 +77,7 @@ void Scheduler::workOn(std::size_t place, const CompiledTask& task, const Work& 
   costs_[place] += seconds(Clock::now() - started);
 }
 
-/// Runs work on patches: first on those whose ghosts are complete, then on the others, when their messages have
-/// arrived.
+/// Runs work on patches: first on those whose ghosts are complete, then on the others, when messages have arrived.
 template <class Work>
 void Scheduler::forEachPatch(CompiledTask& task, const Work& work) {
   const int patches = warehouse_->patches();

@@ -50,6 +50,16 @@ TEST(Levels, GrowToWholeBlocksWhichANoteSays) {
   EXPECT_EQ(found.notes, (Strings{"Grid/Level/Box: is enlarged to whole blocks: from [0.5,0.25,0] to [1.25,0.5,0] m"}));
 }
 
+TEST(Levels, WithBoxesThatOverlapGetANote) {
+  const auto notes = [](const std::string& second) {
+    return read(square + level(box("0,0,0", "1,.5,0", "64,32,1") + second)).notes;
+  };
+  EXPECT_EQ(notes(box("1,0,0", "2,.5,0", "64,32,1")), Strings{});
+  EXPECT_EQ(notes(box(".5,.25,0", "1.5,.75,0", "64,32,1")),
+            (Strings{"Grid/Level/Box: overlaps the Box of the same level at s.ups:1:141; the cells that both contain "
+                     "are refined once"}));
+}
+
 TEST(Levels, LeaveOutAxesThatTheGridDoesNotUse) {
   const std::string walls =
       "<BoundaryConditions><Face side=\"z-\"><BCType label=\"Symmetric\" var=\"symmetry\"/></Face>"

@@ -118,6 +118,7 @@ HeatChanges<Most> changesByHeat(const WarmThings<Most>& things, const HeatCoeffi
       system(a, b) -= flow;
       system(b, a) -= flow;
     }
+  if (heat.isZero(0)) return {Vector::Zero(count), Vector::Zero(count)};
   for (Eigen::Index a = 0; a < count; ++a)
     system(a, a) += things.capacity[a] > 0 ? things.capacity[a] + things.expansion[a] : 1;
   const Eigen::LDLT<typename WarmThings<Most>::Matrix> solver(system);

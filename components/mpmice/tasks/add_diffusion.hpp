@@ -2,6 +2,7 @@
 
 #include "components/euler/boundary.hpp"
 #include "components/euler/tasks/add_diffusion.hpp"
+#include "components/mpmice/free_space.hpp"
 #include "components/mpmice/gas_temperature.hpp"
 #include "components/mpmice/tasks/compute_stable_time_step.hpp"
 #include "components/mpmice/wall_friction.hpp"
@@ -46,12 +47,8 @@ class DiffusionBeside {
   }
 
  private:
-  /// The cell itself or, outside the grid, the cell of which it is an image.
-  Index<D> onGrid(Index<D> cell) const {
-    for (int d = 0; d < D; ++d)
-      if (!level_.isPeriodic(d)) cell[d] = std::clamp(cell[d], level_.cells().lower[d], level_.cells().upper[d] - 1);
-    return cell;
-  }
+  /// The cell itself or, beyond the grid, the nearest on it.
+  Index<D> onGrid(const Index<D>& cell) const { return nearestOnGrid(level_, cell); }
   bool isBeyond(const Index<D>& cell, int axis) const {
     return !level_.isPeriodic(axis) &&
            (cell[axis] < level_.cells().lower[axis] || cell[axis] >= level_.cells().upper[axis]);

@@ -119,11 +119,7 @@ void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&
 template <int D>
 ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
   return [&level, cells](const Index<D>& cell) {
-    const auto hasBody = [&](Index<D> at) {
-      for (int d = 0; d < D; ++d)
-        if (!level.isPeriodic(d)) at[d] = std::clamp(at[d], level.cells().lower[d], level.cells().upper[d] - 1);
-      return cells.hasBody(at);
-    };
+    const auto hasBody = [&](const Index<D>& at) { return cells.hasBody(nearestOnGrid(level, at)); };
     bool is = hasBody(cell);
     for (int d = 0; d < D && !is; ++d) is = hasBody(cell - Index<D>::unit(d)) || hasBody(cell + Index<D>::unit(d));
     return is;
@@ -195,13 +191,12 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
 template <int D>
 void takeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                       const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
-                      CellView<const double> pressure, const Blowing<D>& blowing, const WallPressures<D>& walls) {
+                      CellView<const double> pressure, const WallPressures<D>& walls) {
   fillWallPressure<D>(patch, settings, cells, records, walls,
                       [&](const Index<D>& cell, const CellWalls<D>& ofCell, const Vec<D>& velocity, int d, int side) {
                         const double closing = std::max(0.0, ofCell.closing(velocity, d, side));
                         const double rho = cells.held.density[cell] / cells.free[cell];
-                        return pressure[cell] + 0.5 * (settings.gas.gas.gamma + 1) * rho * closing * closing +
-                               blowing.recoil(cell, d, side);
+                        return pressure[cell] + 0.5 * (settings.gas.gas.gamma + 1) * rho * closing * closing;
                       });
 }
 
