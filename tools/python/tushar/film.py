@@ -26,7 +26,7 @@ FASTEST, SLOWEST = 25.0, 2.0  # pictures per second
 
 
 def common_ranges(archive: Archive, variables: Sequence[str], view: View) -> Tuple[List[str], Dict[str, Range]]:
-    """The labels that are drawn of every output, and for each the range of its values over all."""
+    """The labels that are drawn for every output, and the range of their values over all outputs."""
     if not archive.times:
         raise ArchiveError(f"'{archive.folder}' has no outputs yet")
     with archive[-1] as last:
@@ -49,7 +49,7 @@ def common_ranges(archive: Archive, variables: Sequence[str], view: View) -> Tup
 
 
 def _planes(archive: Archive, label: str, view: View) -> Optional[Tuple[float, float, float]]:
-    """The places of three slices for all pictures: those of the output in the middle. None where there are fewer
+    """The positions of three slices for all pictures: those of the middle output. None where there are fewer
     dimensions."""
     with archive[len(archive) // 2] as snapshot:
         output = Output(snapshot, view)
@@ -63,7 +63,7 @@ def _round(low: float, high: float, view: View) -> Range:
 
 
 def figures(archive: Archive, variables: Sequence[str], title: Optional[str], view: View) -> Iterator[Figure]:
-    """A figure of each output that holds what is drawn, all with the same ranges."""
+    """A figure of each output that contains the drawn variables, all with the same ranges."""
     labels, ranges = common_ranges(archive, variables, view)
     shown = view.with_ranges(ranges).with_planes(_planes(archive, labels[0], view))
     drawn = 0
@@ -80,7 +80,7 @@ def figures(archive: Archive, variables: Sequence[str], title: Optional[str], vi
 
 
 def check_path(path: str) -> str:
-    """The ending of a film's name; ArchiveError for another, and where there is no such folder."""
+    """The extension of a film's name; ArchiveError for other extensions, or if the folder does not exist."""
     ending = pathlib.Path(path).suffix.lower()
     if ending not in (".gif", ".mp4"):
         raise ArchiveError(f"'{path}' is not a film: its name must end in .mp4 or .gif")
@@ -91,8 +91,8 @@ def check_path(path: str) -> str:
 
 def write(archive: Archive, path: str, variables: Sequence[str] = (), title: Optional[str] = None,
           view: Optional[View] = None, progress: Optional[Progress] = None) -> Tuple[str, List[str]]:
-    """Writes a film, .gif or .mp4 (.gif where there is no ffmpeg): its path, and notes. Calls `progress` after each
-    picture."""
+    """Writes a film, .gif or .mp4 (.gif if ffmpeg is not installed); returns its path, and notes. Calls `progress`
+    after each picture."""
     ending = check_path(path)
     notes: List[str] = []
     program = ffmpeg() if ending == ".mp4" else None
@@ -119,7 +119,7 @@ def _pictures(archive: Archive, drawn: Iterator[Figure], notes: List[str],
 
 
 def ffmpeg() -> Optional[str]:
-    """The program, or the one that the package imageio-ffmpeg brings; None without either."""
+    """The program, or the one in the package imageio-ffmpeg; None if neither is installed."""
     found = shutil.which("ffmpeg")
     if found:
         return found
@@ -149,7 +149,7 @@ def _write_mp4(program: str, pictures: Iterator[Any], rate: float, path: str) ->
 
 
 def _write_gif(pictures: Iterator[Any], rate: float, path: str) -> None:
-    """All frames have the colours of the first, where the colour bar is, too."""
+    """All frames have the colours of the first, which includes the colour bar."""
     from PIL import Image
     first = Image.fromarray(next(pictures)).quantize(256, dither=Image.Dither.NONE)
     colours = np.array(first.getpalette()).reshape(-1, 3)
@@ -160,7 +160,7 @@ def _write_gif(pictures: Iterator[Any], rate: float, path: str) -> None:
 
 
 def is_written(folder: str) -> bool:
-    """Whether a run still writes to an archive: it keeps the folder locked while it lives."""
+    """Whether a run is still writing to an archive: it locks the folder as long as it runs."""
     try:
         descriptor = os.open(folder, os.O_RDONLY)
     except OSError:

@@ -49,7 +49,7 @@ def of_globals(quantities: Globals) -> Any:
 
 
 def of_particles(particles: Particles) -> Any:
-    """A row for each particle; those of a material without a variable have no number there."""
+    """A row for each particle; a variable that a material lacks is NaN."""
     pandas = need("pandas", "to_pandas")
     archive = particles.snapshot.archive
     frames, units = [], {}
@@ -84,7 +84,7 @@ def of_snapshot(snapshot: Snapshot, of: Optional[str], material: Optional[str]) 
 
 
 def _of_field(snapshot: Snapshot, centring: str, material: Optional[str]) -> Any:
-    """A row for each cell or node; of a refined grid for each cell as it is, with its level."""
+    """A row for each cell or node; for a refined grid, a row for each actual cell, with its level."""
     columns = places_of(snapshot.grid, centring)
     count = len(next(iter(columns.values())))
     units = {name: "" if name == "level" else "m" for name in columns}
@@ -97,7 +97,7 @@ def _of_field(snapshot: Snapshot, centring: str, material: Optional[str]) -> Any
 
 
 def places_of(grid: Grid, centring: str) -> Dict[str, Values]:
-    """The middles of cells, or the nodes, along the axes in use [m], and the levels of the cells of a refined grid."""
+    """The centres of cells, or the nodes, along the axes in use [m], and the levels of the cells of a refined grid."""
     if grid.is_refined and centring == "cell":
         centres, levels = cells_of(grid)
         return {**{"xyz"[axis]: centres[:, axis] for axis in grid.axes}, "level": levels}
@@ -111,7 +111,7 @@ def rows_of(field: Any) -> Values:
 
 
 def fields_of(snapshot: Snapshot) -> List[Tuple[str, Variable, Optional[str]]]:
-    """Name, variable and material of each field that an output holds; `g.mass.gas` where several materials have it."""
+    """Name, variable and material of each field of an output; `g.mass.gas` if several materials have it."""
     found: List[Tuple[str, Variable, Optional[str]]] = []
     for variable in snapshot.archive.variables.values():
         if variable.centring not in DIMS:
@@ -221,8 +221,8 @@ def _field(snapshot: Snapshot, variable: Variable, owner: Optional[str]) -> Any:
 
 
 def _values(snapshot: Snapshot, variable: Variable, owner: Optional[str], key: Any, like: Any) -> Values:
-    """Values of an output there; NaN where it lacks the field, as the initial output lacks variables that steps
-    compute."""
+    """The selected values of an output; NaN if it lacks the field, as the initial output lacks variables that are
+    computed in steps."""
     with Snapshot(snapshot.archive, snapshot.index, snapshot.path, snapshot.time, snapshot.step) as own:
         held = {name for name, *_ in fields_of(own)}
         if not held & {variable.name, f"{variable.name}.{owner}"}:

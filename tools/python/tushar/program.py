@@ -1,4 +1,4 @@
-"""Where the simulator and its scenes are."""
+"""The locations of the simulator and its scenes."""
 from __future__ import annotations
 
 import os
@@ -55,7 +55,7 @@ def find_sus(sus: Optional[Path] = None) -> str:
 
 
 def command_of(sus: Path, scene: Path, sets: Sequence[str], folder: Path, options: Sequence[str] = ()) -> List[str]:
-    """A run that prints nothing; its files and report.json go into `folder`."""
+    """A run that prints nothing; its files and report.json are written to `folder`."""
     words = [str(sus), str(scene_path(scene)), "--quiet", "--json", str(pathlib.Path(folder, "report.json")),
              "--output", str(folder), *options]
     for override in sets:
@@ -64,8 +64,8 @@ def command_of(sus: Path, scene: Path, sets: Sequence[str], folder: Path, option
 
 
 def run_scene(sus: Path, scene: Path, sets: Sequence[str], folder: Path) -> Dict[str, Any]:
-    """Runs a scene with overrides, its files in `folder`: the report. `failure` is a sentence for one that died, else
-    empty. SceneError for a scene that does not run."""
+    """Runs a scene with overrides, with its files in `folder`; returns the report. `failure` is a sentence for one that
+    died, else empty. SceneError for a scene that does not run."""
     from tushar.runs import read_report
     done = subprocess.run(command_of(sus, scene, sets, folder), capture_output=True, text=True)
     if done.returncode not in (0, 4):
@@ -77,7 +77,7 @@ def run_scene(sus: Path, scene: Path, sets: Sequence[str], folder: Path) -> Dict
 
 
 def ensure_built(sus: str) -> None:
-    """Installs what is missing and builds the release preset, if that is the program and it is not there."""
+    """Installs missing packages and builds the release preset, if this is the program and it does not exist."""
     if sus == SUS and not os.path.exists(sus):
         subprocess.run(["bash", "-euc", '. tools/lib/build.sh; install_missing "${packages[@]}"; build release sus'],
                        cwd=ROOT, check=True)

@@ -82,7 +82,7 @@ def to_yt(snapshot: Snapshot) -> Any:
 
 
 def _of_cells(snapshot: Snapshot) -> Dict[Any, Tuple[Values, str]]:
-    """Component -> values (x, y, z) and unit, as yt has them."""
+    """Component -> values (x, y, z) and unit, as yt expects them."""
     found: Dict[Any, Tuple[Values, str]] = {}
     for name, variable, owner in fields_of(snapshot):
         if variable.centring == "cell":
@@ -94,7 +94,7 @@ def _of_cells(snapshot: Snapshot) -> Dict[Any, Tuple[Values, str]]:
 
 
 def _of_particles(snapshot: Snapshot) -> Dict[Any, Tuple[Values, str]]:
-    """yt's names of positions, and those of the archive; only what all materials have."""
+    """yt's names of positions, and those of the archive; only variables that all materials have."""
     found: Dict[Any, Tuple[Values, str]] = {}
     everything = snapshot.particles()
     if not len(everything):

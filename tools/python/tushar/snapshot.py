@@ -63,7 +63,7 @@ class Snapshot:
 
     @property
     def grid(self) -> Grid:
-        """The grid; of a refined one that of its finest level, with the boxes that there are."""
+        """The grid; for a refined grid, that of its finest level, with the actual boxes."""
         if self._grid is None:
             group = self.file["grid"]
             kept = group.attrs
@@ -82,12 +82,12 @@ class Snapshot:
 
     @property
     def reference(self) -> Dict[str, Values]:
-        """Column -> values of the exact solution; empty where the archive has none."""
+        """Column -> values of the exact solution; empty if the archive has none."""
         return {name: column[()] for name, column in self.file.get("reference", {}).items()}
 
     @property
     def variables(self) -> List[str]:
-        """Names of the variables that this output holds."""
+        """Names of the variables in this output."""
         return [name for name in self.archive.variables if self._holds(name)]
 
     def _holds(self, name: str) -> bool:
@@ -106,7 +106,7 @@ class Snapshot:
         return self._field(variable, material)
 
     def particles(self, material: Optional[str] = None) -> Particles:
-        """The particles of a material, or of all that there are."""
+        """The particles of a material, or of all materials."""
         known = self.materials
         return Particles(self, [check_name("material", material, known)] if material else list(known), material)
 
@@ -136,8 +136,8 @@ class Snapshot:
         return Array(parts, variable.name, variable.unit, variable.description)
 
     def to_pandas(self, of: Optional[str] = None, material: Optional[str] = None) -> Any:
-        """A DataFrame with a row for each particle, cell or node: `of` is "particles", "cells" or "nodes"; without it
-        the first of them that is there. Units are in `frame.attrs["units"]`."""
+        """A DataFrame with a row for each particle, cell or node: `of` is "particles", "cells" or "nodes"; by default
+        the first of these that exists. Units are in `frame.attrs["units"]`."""
         from tushar import frames
         return frames.of_snapshot(self, of, material)
 
@@ -178,7 +178,7 @@ class Particles:
 
     @property
     def ids(self) -> Array:
-        """The names that particles keep for life. ArchiveError where the scene does not save them."""
+        """The permanent ids of particles. ArchiveError where the scene does not save them."""
         if ID not in self.variables:
             raise ArchiveError(NO_IDS)
         return self[ID]
@@ -193,6 +193,6 @@ class Particles:
         return Snapshot._array(parts, variable)
 
     def to_pandas(self) -> Any:
-        """A DataFrame with a row for each particle, by its id where that is saved."""
+        """A DataFrame with a row for each particle, by its id if this is saved."""
         from tushar import frames
         return frames.of_particles(self)

@@ -1,4 +1,4 @@
-"""The part of an output that a picture shows: which values, where, and of which material."""
+"""The part of an output that a picture shows: variable, region and material."""
 from __future__ import annotations
 
 import dataclasses
@@ -19,7 +19,7 @@ Range = Tuple[Optional[float], Optional[float]]
 
 @dataclass(frozen=True)
 class View:
-    """The choices of a picture; None and {} leave them to it."""
+    """The options of a picture; None and {} select the defaults."""
     slices: Dict[int, float] = field(default_factory=dict)  # axis -> place [m]
     range: Optional[Range] = None
     log: bool = False
@@ -41,7 +41,7 @@ class View:
         return dataclasses.replace(self, planes=planes)
 
     def limits(self, label: str) -> Range:
-        """The least and the greatest value to show of a label; None where the values decide."""
+        """The smallest and the largest value to show for a label; None if they follow from the values."""
         return self.range or self.ranges.get(label, (None, None))
 
 
@@ -70,7 +70,8 @@ class Quantity:
         return self.variable.components == 1 or self.component is not None
 
     def scalar(self, values: Values, axis: Optional[int] = None) -> Values:
-        """The component that is meant; of a vector on a line along an axis that along it; else the magnitude."""
+        """The requested component; for a vector on a line along an axis, by default the component along it; otherwise
+        the magnitude."""
         if self.variable.components == 1:
             return values
         if self.component is not None:
@@ -150,7 +151,7 @@ class Output:
 
     def field(self, quantity: Quantity, owner: Optional[str], axis: Optional[int] = None,
               slices: Optional[Dict[int, float]] = None) -> Values:
-        """Values of a field along the axes that are left, that of the highest first: (y, x) of a plane."""
+        """Values of a field along the remaining axes, the last axis first: (y, x) for a plane."""
         name, centring = quantity.variable.name, quantity.variable.centring
         key = self.place(centring, slices)
         values = self.snapshot[name, owner][key]
@@ -170,8 +171,8 @@ class Output:
         return tuple(rows[::-1])
 
     def cells_along(self, axis: int) -> Tuple[Values, Values, Values]:
-        """Of the cells of a refined grid along the one axis that is left: their middles [m], their levels, and which of
-        the finest cells lie there; of a difference all of the finest."""
+        """For the cells of a refined grid along the only remaining axis: their centres [m], their levels, and the
+        indices of finest cells; for a difference, all finest cells."""
         levels = levels_at(self.grid, self.place("cell")).ravel()
         number = np.arange(len(levels))
         width = np.where(bool(self.other), 1, 2 ** (self.grid.levels - 1 - levels))
@@ -180,7 +181,7 @@ class Output:
         return middles[first], levels[first], number[first]
 
     def boxes(self, slices: Optional[Dict[int, float]] = None) -> List[Tuple[Values, Values]]:
-        """The corners [m] of the boxes of a refined grid, of those that slices cut."""
+        """The corners [m] of those boxes of a refined grid that slices cut."""
         cuts = self.view.slices if slices is None else slices
         rows = {cut: self.grid.nearest("cell", cut, place) for cut, place in cuts.items()}
         found = []
@@ -195,8 +196,8 @@ class Output:
         return float(self.grid.lower[axis]), float(self.grid.upper[axis])
 
     def planes(self, quantity: Quantity) -> Tuple[float, float, float]:
-        """The places of three slices that show most [m]: the middle of the grid or, for particles, the rows of cells
-        with the most of them."""
+        """The positions of the three most informative slices [m]: the middle of the grid or, for particles, the rows of
+        cells with most particles."""
         if self.view.planes:
             return self.view.planes
         if quantity.variable.centring != "particle":

@@ -103,7 +103,7 @@ class Linker:
         return "".join(shown) + escape(scene.text[end:])
 
     def _meaning(self, match, stack, sections):
-        """(item or None, pages of what stands in the tag)."""
+        """(item or None, pages of the contents of the tag)."""
         name = match[2]
         depth = len(stack)
         if depth == 0 or (depth == 1 and name == "DataAnalysis"):

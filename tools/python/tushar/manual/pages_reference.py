@@ -28,7 +28,7 @@ def facts(tag):
 
 
 def breakable(path):
-    """A path that may go on in another line after a slash."""
+    """A path that may be broken after a slash."""
     return escape(path).replace("/", "/<wbr>")
 
 
@@ -76,7 +76,7 @@ def item_html(item, here, known):
 
 
 def places(subject, here, reference):
-    """The places of the tag of a page: each path with the component that reads it."""
+    """The positions of the tag of a page: each path with the component that reads it."""
     seen = {}
     for section, path in subject.paths:
         label = section.name + (" (gases)" if section.variant else "")
@@ -107,7 +107,7 @@ def tag_page(subject, reference, known, version):
 
 
 def index_page(reference, version):
-    """All pages as a tree, by component; what stands in several places is opened once."""
+    """All pages as a tree, by component; a page at several positions is expanded once."""
     here = "reference/index.html"
     body = ["<p>A scene is an XML file in Uintah's dialect. Each page below lists the contents of "
             "one tag, with type, unit, limits, default and meaning, all taken from the schemas that read it. The "

@@ -50,7 +50,7 @@ class Site:
         return urls
 
     def _terms(self):
-        """{text in `code`: page}: numbers of messages, and tags whose name stands in one place only."""
+        """{text in `code`: page}: codes of messages, and tags whose name is unique."""
         found = {}
         for page in self.reference.pages:
             for item in page.items:
