@@ -39,7 +39,7 @@ void readTree(const output::Hdf5Input& file, RunState& run) {
   const bool isRefined = file.has("/grid/leaves");
   if (isRefined != (grid.levels() > 1) || (isRefined && (file.integer("/grid", "levels") != grid.levels() ||
                                                          !(file.index("/grid", "blockCells") == grid.blockCells()))))
-    refuse(file, "the checkpoint has different levels or blocks from the scene");
+    refuse(file, "the checkpoint has other levels or blocks than the scene");
   if (!isRefined) return;
   Index3 periodic;
   for (int d = 0; d < grid.dimension(); ++d) periodic[d] = grid.level().isPeriodic(d);
@@ -61,15 +61,16 @@ bool isSameGrid(const output::Hdf5Input& file, const output::GridInfo& grid) {
 
 void checkScene(const output::Hdf5Input& file, const Problem& problem) {
   if (const int found = file.integer("/", "format"); found != format)
-    refuse(file, fmt::format("the checkpoint has format {}, and this sus reads format {}; it was written by version {}",
-                             found, format, file.text("/", "version")));
+    refuse(file, fmt::format(
+                     "the checkpoint has format {}, but this sus supports only format {}; it was written by version {}",
+                     found, format, file.text("/", "version")));
   if (const int found = file.integer("/", "step"); found != problem.restart->step)
     refuse(file, fmt::format("the checkpoint is of step {}; rename its folder to {}", found, output::stepName(found)));
   if (const std::string found = file.text("/", "component"); found != problem.componentName)
     refuse(file,
            fmt::format("the checkpoint is of component '{}', but the scene has '{}'", found, problem.componentName));
   if (!isSameGrid(file, collect::gridInfo(problem.grid->level())))
-    refuse(file, "the checkpoint has a different grid from the scene; patches may change, cells may not");
+    refuse(file, "the checkpoint has a different grid from the scene; a restart may change patches, but not cells");
 }
 
 collect::StateNames stateNames(const RunState& run) { return {run.phases.lasting(), run.phases.materials()}; }

@@ -19,7 +19,7 @@ namespace tushar::simulation {
 //     /removed           particles that were removed; `dropped` has those that left the grid
 //     and the state: see core/collect/stored_state.hpp
 
-/// The place of a checkpoint file, and its content apart from the state.
+/// The location of a checkpoint file, and its content except the state.
 struct CheckpointTarget {
   std::filesystem::path path;
   output::ArchivePoint point;  ///< extent of the archive; on rank 0 only

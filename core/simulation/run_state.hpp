@@ -45,9 +45,10 @@ struct RunState {
 
   Problem problem;
   const mpi::Communicator& ranks;
-  mpi::Communicator files;                ///< the same ranks, for messages about files, separate from those of tasks
-  output::Writers writers;                ///< among these
-  std::optional<std::size_t> mostBehind;  ///< bytes of an output that a writer may keep; by default a suitable amount
+  mpi::Communicator files;  ///< the same ranks, for messages about files, separate from those of tasks
+  output::Writers writers;  ///< among these
+  std::optional<std::size_t>
+      mostBehind;  ///< bytes of an output that a writer may keep in memory; by default a suitable amount
   data::VariableTable table;
   Phases phases;
   data::Warehouse warehouse;
@@ -55,7 +56,7 @@ struct RunState {
   TimeControl time;
   RunClock clock;
   Progress progress;
-  Totals totalsAtStart;  ///< of the run, or of the one that it goes on from
+  Totals totalsAtStart;  ///< of the run, or of the one that it continues
 };
 
 }  // namespace tushar::simulation

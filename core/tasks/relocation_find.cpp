@@ -34,7 +34,7 @@ bool isInside(const Vec<D>& x, const Vec<D>& lower, const Vec<D>& upper) {
   return inside;
 }
 
-/// Whether all of `count` positions in a row lie in the cell with these bounds.
+/// Whether all of `count` consecutive positions lie in the cell with these bounds.
 template <int D>
 bool areInside(const Vec<D>* x, int count, const Vec<D>& lower, const Vec<D>& upper) {
   for (; count >= Lanes::count; x += Lanes::count, count -= Lanes::count) {
@@ -59,7 +59,7 @@ void wrap(const grid::Level& level, Vec<D>& x) {
   }
 }
 
-/// Whether a particle may leave the grid to `cell`: yes through a free face.
+/// Whether a particle may leave the grid to `cell`, which is allowed through a free face.
 template <int D>
 bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
   bool may = true;
@@ -130,7 +130,7 @@ void Relocation::findMoves(int material, int position, int id) {
   });
 }
 
-/// Discards the entries of the last moves, whether or not they have been made.
+/// Discards the entries of the last moves, even if they have not been made.
 void Relocation::forgetIncoming(const Patch& patch, PatchMoves& moves) {
   const grid::Box& cells = patch.cells();
   moves.firstIncoming.resize(cells.size(), -1);
@@ -259,8 +259,8 @@ NumericalError Relocation::refusal(int position, const Escape& escape) const {
   };
   const Vec<D> x = at(Generation::fresh);
   if (const Index<D> cell = level.cellOf<D>(x); level.cells().contains(cell))
-    return {fmt::format("particle {} came within {} of coarser cells, where no particles can be; patch {}", escape.id,
-                        counted(margin_, "cell"), escape.patch),
+    return {fmt::format("particle {} came within {} of coarser cells, where particles are not allowed; patch {}",
+                        escape.id, counted(margin_, "cell"), escape.patch),
             advice_near_coarser_, "p.x", escape.cell};
   int through = 0, side = 0;
   for (int d = 0; d < D; ++d)

@@ -70,7 +70,7 @@ class Levels(SceneTest):
                         ("</Level>", "</Level>" + level), (END, blocks + END))
         done = run(self.scene(still), "Time/maxTime=0.3")
         self.assertNotEqual(done.code, 0)
-        self.assertIn("not among the finest", done.err)
+        self.assertIn("not on the finest level", done.err)
 
 
 class Shares(SceneTest):

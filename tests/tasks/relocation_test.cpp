@@ -283,7 +283,8 @@ std::string movedOnLevels(double cells) {
 
 TEST(Relocation, RefusesParticlesBesideCoarserCellsAndInThem) {
   const std::string refused =
-      "particle 5 came within 1 cell of coarser cells, where no particles can be; patch 1 (task relocate, material "
+      "particle 5 came within 1 cell of coarser cells, where particles are not allowed; patch 1 (task relocate, "
+      "material "
       "gas, step 7, time 0.5 s); try a wider grid";
 
   EXPECT_EQ(movedOnLevels(14), "");

@@ -26,7 +26,7 @@ struct Problem {
 /// Solids of any shape function, by explicit or implicit steps.
 class Solids : public Component {
  public:
-  /// Particles keep at least `leastState` numbers for their model.
+  /// Particles store at least `leastState` numbers for their model.
   explicit Solids(Problem problem, int leastState = 0)
       : problem_(std::move(problem)),
         state_size_(std::max(leastState, largestStateOf(problem_.materials))),

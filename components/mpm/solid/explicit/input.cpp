@@ -65,7 +65,7 @@ void addDissipation(Schema<MpmSection>& mpm) {
 /// Declares limits for single particles and nodes.
 void addLimits(Schema<MpmSection>& mpm) {
   mpm.value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
-            "every particle must be heavier (Uintah removes lighter ones)", input::nonNegative())
+            "smallest allowed mass of a particle (Uintah removes lighter ones)", input::nonNegative())
       .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
              "lighter nodes are accelerated only by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
@@ -84,19 +84,19 @@ void addUpdates(Schema<MpmSection>& mpm) {
   mpm.choice("stress_update", &MpmSection::stressUpdate,
              {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
              StressUpdate::last,
-             "the velocity from which stresses are computed: the grid's at the end of the step (usl), the particles' "
-             "new one, interpolated to the grid (musl), or the grid's at the start (usf)")
+             "the velocity from which stresses are computed: that of the grid at the end of the step (usl), the new "
+             "velocity of the particles, interpolated to the grid (musl), or that of the grid at the start (usf)")
       .ours()
       .value("XPIC2", &MpmSection::xpic, false, "1", "particles are updated by extended PIC of order 2")
       .value(
           "UseGradientEnhancedVelocityProjection", &MpmSection::projectsGradient, false, "1",
-          "particles include their velocity gradient in the velocity that they give to nodes; not with heat conduction")
+          "the velocity that particles contribute to nodes includes their velocity gradient; not with heat conduction")
       .value("pic_fraction", &MpmSection::picFraction, 0, "1",
              "fraction of PIC in the velocity update of particles; the rest is FLIP", input::between(0, 1))
       .ours()
-      .value(
-          "apic", &MpmSection::affine, false, "1",
-          "affine particle-in-cell: particles take the grid's velocity and its first moment, which preserves rotation")
+      .value("apic", &MpmSection::affine, false, "1",
+             "affine particle-in-cell: particles take the velocity of the grid and its first moment, which preserves "
+             "rotation")
       .ours()
       .value("UseMomentumForm", &MpmSection::momentumForm, false, "1",
              "from older versions of Uintah: true means <stress_update> musl");
@@ -105,7 +105,7 @@ void addUpdates(Schema<MpmSection>& mpm) {
 /// Declares the prescribed deformation of bodies, and particles that enter later.
 void addPrescribedMotion(Schema<MpmSection>& mpm) {
   mpm.value("UsePrescribedDeformation", &MpmSection::prescribesDeformation, false, "1",
-            "all bodies move as <PrescribedDeformationFile> prescribes, whatever their stress")
+            "all bodies move as prescribed in <PrescribedDeformationFile>, independently of their stress")
       .value("PrescribedDeformationFile", &MpmSection::deformationFile, "time_defgrad_rotation", "1",
              "a file with 14 numbers per point in time: time (s), the components of the deformation gradient row by "
              "row, and the angle (degrees) and axis of a rotation since the previous point")
@@ -124,19 +124,19 @@ void addSurroundings(Schema<MpmSection>& mpm) {
       .value("DoPressureStabilization", &MpmSection::sharesVolume, false, "1",
              "F-bar: the particles of a cell share one change of volume, so that a nearly incompressible body can bend "
              "and shear")
-      .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
+      .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "whether the loads of <PhysicalBC> act")
       .value("computeColinearNormals", &MpmSection::oneNormal, true, "1",
              "for contacts of type friction, friction_bard and approach: true: bodies that meet at a node share one "
              "normal; false: each slides along its own surface")
       .value("use_CBDI_boundary_condition", &MpmSection::loadsAtCorners, false, "1",
              "pressures act at the corners of the faces of particles, whose area changes with F (Sadeghirad, Brannon & "
-             "Guilkey 2013). As in Uintah, a particle without a face within 26 degrees of the surface bears no "
-             "pressure, and a <torque> acts only where a pressure acts, and counts four times")
+             "Guilkey 2013). As in Uintah, no pressure acts on particles without a face within 26 degrees of the "
+             "surface, and a <torque> acts only where a pressure acts, with four times its value")
       .value("keepPressBCNormalToSurface", &MpmSection::turnsPressures, false, "1",
-             "pressures turn with the particles they act on; otherwise they keep their initial direction")
+             "pressures rotate with the particles that they act on; otherwise they keep their initial direction")
       .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
       .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
-             "friction between materials heats them, if heat is conducted")
+             "if heat is conducted, friction heats the materials")
       .choice("RunMMSProblem", &MpmSection::manufactured,
               {{"none", ""},
                {"AxisAligned", "AxisAligned"},
@@ -173,7 +173,7 @@ void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& d
     diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to update the velocity: choose one");
 }
 
-/// Tags of Uintah's that only implicit steps read.
+/// Tags of Uintah that only implicit steps read.
 constexpr std::array implicitOnly{"with_gauss_solver",
                                   "dynamic",
                                   "solver",

@@ -99,7 +99,7 @@ void SolidMpm<D>::schedulePrescribedMotion(TaskList& tasks, const NodeLabel<Node
                       with(shapes_.ghostNodes), startTime(), requiresOld(p::x<D>, shapes_.reach), modifies(record));
 }
 
-/// Runs only if work is saved or reported, as scheduleStrainWork; `shaped` reads the F that shape functions follow.
+/// Like scheduleStrainWork, runs only if work is saved or reported; `shaped` reads the F that shape functions follow.
 template <int D>
 void SolidMpm<D>::scheduleMeasureWork(TaskList& tasks, Reads shaped) const {
   scheduleNodalWork(tasks);
@@ -122,7 +122,7 @@ void SolidMpm<D>::scheduleUpdateInCells(TaskList& tasks) const {
   scheduleComputeStressTensor(tasks, g::record);
 }
 
-/// Only x and v; `shaped` reads the F that shape functions follow.
+/// Updates only x and v; `shaped` reads the F that shape functions follow.
 template <int D>
 void SolidMpm<D>::scheduleMoveParticles(TaskList& tasks, Reads shaped) const {
   tasks.perMaterial("mpm::interpolateToParticlesAndUpdate", bodies_->moveParticles, problem_.materials,
@@ -155,7 +155,8 @@ void SolidMpm<D>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const {
                       record, particles, computes(p::affineMoment));
 }
 
-/// The velocity that stresses follow, if it is not that of the motion; `moving` reads that of the particles.
+/// The velocity from which stresses follow, if it differs from that of the motion; `moving` reads that of the
+/// particles.
 template <int D>
 void SolidMpm<D>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) const {
   const int reach = shapes_.reach;

@@ -6,10 +6,10 @@
 
 namespace tushar::mpm::solid {
 
-/// The variables with which F, the stress and internal variables reach the end of a step.
+/// The variables with which F, the stress and internal variables are updated in a step.
 template <int D>
 struct StateUpdate {
-  NodeView<const NodeRecord> record;  ///< contains the velocity by which F changes
+  NodeView<const NodeRecord> record;  ///< contains the velocity that changes F
 
   // At the start of the step.
   ParticleView<const Vec<D>> x;

@@ -105,7 +105,7 @@ template <int D>
 }
 
 /// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p, in
-/// parts or with the terms of its series that the scene requests.
+/// substeps, or with the terms of its series that the scene requests.
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt,
                                                   const Gathered<D>& sums, const Erosion& erosion,
@@ -214,8 +214,7 @@ void updateViscosity(const Material& material, const Method& method, double dt, 
   }
 }
 
-/// Strain energy of particles from `first` on, from its density (J/m^3 of the volume at F = I): failed particles have
-/// none.
+/// Strain energy of particles from `first` on, from its density (J/m^3 of the volume at F = I); 0 for failed particles.
 template <int D>
 void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const double* density, int first,
                         int count) {
