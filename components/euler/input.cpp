@@ -78,8 +78,8 @@ const Schema<EulerSection>& schema() {
                  input::positive(), input::atMost(1))
           .section("gas", &EulerSection::gas, gasSchema())
           .list("geom_object", &EulerSection::objects, objectSchema(),
-                "the gas of a region at the start; where regions overlap, the last one applies; regions they must "
-                "cover the grid",
+                "the gas of a region at the start; where regions overlap, the last one applies; the "
+                "regions must cover the grid",
                 1);
   return schema;
 }
