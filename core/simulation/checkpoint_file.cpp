@@ -125,7 +125,9 @@ void readCheckpoint(RunState& run) {
   output::CheckedParts checks(run.problem.restart->state().parent_path(), run.problem.restart->parts, run.ranks);
   collect::readState(file, run.warehouse, stateNames(run), run.phases.state(), checks);
   run.time.resume(file.integer("/", "step"), file.real("/", "time"), file.real("/", "delT"));
-  if (run.ranks.isFirst()) run.scheduler.relocation().setLost(lostIn(file));
+  tasks::LostParticles lost = lostIn(file);
+  if (!run.ranks.isFirst()) lost.left = 0;
+  run.scheduler.relocation().setLost(lost);
   for (const ConservedTotal& total : run.phases.totals())
     run.totalsAtStart.push_back(std::get<std::vector<double>>(file.dataset("/totals/" + total.name())));
 }

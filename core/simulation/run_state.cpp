@@ -50,7 +50,7 @@ Totals RunState::measureTotals(tasks::TaskGraph& graph) {
 
 tasks::LostParticles RunState::lostParticles() {
   const tasks::LostParticles& lost = scheduler.relocation().lost();
-  return {.left = ranks.sum(lost.left), .removed = ranks.sum(lost.removed)};
+  return {.left = ranks.sum(lost.left), .removed = lost.removed};
 }
 
 tasks::MigratedVariables RunState::migratedVariables() const {

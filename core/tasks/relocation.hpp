@@ -17,8 +17,8 @@ namespace tushar::tasks {
 
 /// Numbers of particles that are no longer in a run.
 struct LostParticles {
-  long left = 0;     ///< through free faces of the grid
-  long removed = 0;  ///< where they could not be continued (`data::removed`)
+  long left = 0;     ///< through free faces of the grid, from this rank
+  long removed = 0;  ///< from all ranks, where they could not be continued (`data::removed`)
 
   LostParticles& operator+=(const LostParticles& other) {
     left += other.left;
@@ -54,9 +54,9 @@ class Relocation {
   void start() { losing_ = {}; }
   /// Accepts the moves of the step.
   void commit() { lost_ += std::exchange(losing_, {}); }
-  /// Particles that this rank has lost since the start.
+  /// Particles lost since the start.
   const LostParticles& lost() const { return lost_; }
-  /// Continues the count of another run.
+  /// Continues the count of another run; on all ranks.
   void setLost(const LostParticles& lost) { lost_ = lost; }
   /// Advice for a particle that comes too close to coarser cells.
   void setAdviceNearCoarser(std::string advice) { advice_near_coarser_ = std::move(advice); }
@@ -91,6 +91,7 @@ class Relocation {
     bool hasStopped, hasEscape, goFar;
     int rank;  ///< rank of the escaped particle
     Escape escape;
+    long removed = 0;  ///< particles of all ranks
 
     void merge(const Verdict& other);
   };

@@ -103,6 +103,7 @@ bool Relocation::find(int material, int position, bool hasStopped) {
   warehouse_->ranks().merge(verdict);
   if (verdict.hasStopped) return false;
   if (verdict.hasEscape) refuseEscape(position, verdict);
+  losing_.removed += verdict.removed;
   movesOf(material).goFar = verdict.goFar;
   return true;
 }
@@ -110,6 +111,7 @@ bool Relocation::find(int material, int position, bool hasStopped) {
 void Relocation::Verdict::merge(const Verdict& other) {
   hasStopped = hasStopped || other.hasStopped;
   goFar = goFar || other.goFar;
+  removed += other.removed;
   if (!other.hasEscape || (hasEscape && escape < other.escape)) return;
   hasEscape = true;
   escape = other.escape;
@@ -227,7 +229,8 @@ Relocation::Verdict Relocation::gather(Moves& moves, bool hasStopped) {
   for (const Patch& from : grid.patches()) {
     if (hasStopped) break;
     const PatchMoves& ofPatch = of(moves, from.id());
-    losing_ += ofPatch.losing;
+    losing_.left += ofPatch.losing.left;
+    verdict.removed += ofPatch.losing.removed;
     if (ofPatch.escape) verdict.merge({false, true, false, verdict.rank, *ofPatch.escape});
     for (const Outgoing& one : ofPatch.outgoing)
       if (const int patch = grid.patchOf(one.cell, grid.finest().number()).id(); !grid.isMine(patch))
