@@ -4,8 +4,8 @@
 
 namespace tushar::mpmice {
 
-/// The pressure behind the shock that a wall drives into a gas with its own law, with a velocity jump of `closing`: e -
-/// e_0 = (p + p_0) / 2 (v_0 - v), (p - p_0) (v_0 - v) = closing². If the pressure depends on the density alone, the
+/// The pressure behind the shock of a moving wall in a gas of any law, with a velocity jump of `closing`:
+/// e - e_0 = (p + p_0) / 2 (v_0 - v), (p - p_0) (v_0 - v) = closing². If the pressure depends on the density alone, the
 /// second equation suffices. By bisection in the density, to round-off.
 inline double shockPressure(const euler::Gas& gas, double density, double last, double closing) {
   const double before = gas.pressureOf(density, last), volume = 1 / density;

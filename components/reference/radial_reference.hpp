@@ -17,7 +17,7 @@ struct RadialState {
 class RadialReference : public GasReference {
  public:
   GasState at(const Vec3& x, double t) const final;
-  /// By piecewiseMean, cut at the shock.
+  /// Uses piecewiseMean with one piece on each side of the shock.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
   /// Where the shock is, m.

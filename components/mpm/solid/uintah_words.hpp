@@ -25,7 +25,7 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
 inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it"},
     {"create_new_particles", "particles stay as they are"},
-    {"CanAddMPMMaterial", "all materials are there from the start"},
+    {"CanAddMPMMaterial", "all materials exist from the start"},
     {"DeleteGeometryObjects", "shapes are not kept"},
     {"computeNodalHeatFlux", "nothing depends on it"},
     {"testForNegTemps_mpm", "nothing depends on it"},

@@ -74,7 +74,8 @@ template <int D, class T, class Visit>
   });
 }
 
-/// The values of a variable of the batch's particles, `numbers` in a row for each; `at(place)` points to the first.
+/// The values of a variable of the batch's particles, `numbers` consecutive ones for each; `at(place)` points to the
+/// first.
 template <int numbers, int D, class At>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> loadColumns(const Batch<D>& batch, At&& at) {
   if constexpr (numbers <= Lanes::count)

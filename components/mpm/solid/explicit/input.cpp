@@ -71,8 +71,8 @@ void addLimits(Schema<MpmSection>& mpm) {
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
                 "faster particles are slowed down to 9/10 of it", input::positive())
       .choice("inverted_particles", &MpmSection::removesInverted, {{"remove", true}, {"stop", false}}, true,
-              "what a particle does that a step turns inside out (det F <= 0): it is removed and counted, or the run "
-              "stops")
+              "what happens when a step turns a particle inside out (det F <= 0): it is removed and counted, or the "
+              "run stops")
       .ours()
       .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
              "smallest number of substeps in which a step updates the deformation gradient; -n: uses the exponential "
@@ -110,10 +110,11 @@ void addPrescribedMotion(Schema<MpmSection>& mpm) {
              "a file with 14 numbers per point in time: time (s), the components of the deformation gradient row by "
              "row, and the angle (degrees) and axis of a rotation since the previous point")
       .value("InsertParticles", &MpmSection::insertsParticles, false, "1",
-             "particles enter as <InsertParticlesFile> says: until then they are bodies elsewhere, on the grid as any")
+             "particles move to their place at the times of <InsertParticlesFile>; until then they wait elsewhere "
+             "on the grid, as ordinary bodies")
       .value("InsertParticlesFile", &MpmSection::insertionFile, "", "1",
-             "a file with 8 numbers a line: at that time (s) all particles of that color move by (x, y, z) m, and get "
-             "the velocity (u, v, w) m/s");
+             "a file with 8 numbers per line, t color x y z u v w: at the time t (s), all particles of this color move "
+             "by (x, y, z) m and get the velocity (u, v, w) m/s");
   refuseSwitch(mpm, "exactDeformation", "give <Time> a delt_max that does not exceed the time between points");
 }
 
