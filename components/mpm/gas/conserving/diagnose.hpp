@@ -27,7 +27,7 @@ class LanesSum {
   Sum* sum_;
 };
 
-/// Kinetic (the motion about the mean included), internal and total energy of all particles [J].
+/// Kinetic (including the motion about the mean), internal and total energy of all particles [J].
 template <int D>
 void sumEnergy(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy, Sum& kinetic,

@@ -69,7 +69,7 @@ void addLimits(Schema<MpmSection>& mpm) {
       .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
              "lighter nodes are accelerated only by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
-                "faster particles are slowed down to 9/10 of it", input::positive())
+                "faster particles are slowed down to 9/10 of this speed", input::positive())
       .choice("inverted_particles", &MpmSection::removesInverted, {{"remove", true}, {"stop", false}}, true,
               "what happens when a step turns a particle inside out (det F <= 0): it is removed and counted, or the "
               "run stops")
@@ -293,7 +293,7 @@ std::vector<Insertion> readEntering(const MpmSection& read, const Element& root,
   return readInsertions(read.insertionFile, mpm.child("InsertParticlesFile").value_or(mpm).where(), diagnostics);
 }
 
-/// Throws InputError, at the place of <MPM>, if the grid leaves out an axis along which bodies are deformed.
+/// Throws InputError, at the place of <MPM>, if bodies are deformed along an axis that the grid does not use.
 void refuseFlat(const Level& level, const Location& where) {
   if (level.dimension() < 3)
     throw InputError({{where, "MPM/UsePrescribedDeformation",
