@@ -43,8 +43,8 @@ class BoxMean {
     return sum / (upper_[axis] - lower_[axis]);
   }
 
-  /// Mean over [a, b], whose Gauss mean is `whole`: halves it for as long as that changes the mean
-  /// over the undivided piece, of which [a, b] is the part 2^-depth. Values too large for a number have no better mean.
+  /// Mean over [a, b], for which Gauss's rule gives `whole`. Halves the interval as long as this changes the mean over
+  /// the undivided piece, of which [a, b] is the part 2^-depth. Values too large for a number have no better mean.
   Fields adaptive(int axis, const Vec3& x, double a, double b, const Fields& whole, int depth) const {
     const double middle = 0.5 * (a + b);
     const Fields left = gauss(axis, x, a, middle);

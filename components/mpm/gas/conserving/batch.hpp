@@ -11,8 +11,9 @@ namespace tushar::mpm::gas::conserving {
 template <int D>
 using LanesModes = LanesMatrix<D, (1 << D) - 1>;
 
-/// Particles side by side, at most one of each cell: lane k belongs to the k-th cell of a row from `start` on, so what
-/// the particles read from the grid and add to it also stands side by side. Lanes not in use repeat another particle.
+/// Particles in lanes, at most one from each cell: lane k belongs to the k-th cell of a row that begins at `start`, so
+/// the values that the particles read from the grid or add to it are also consecutive. Lanes not in use repeat another
+/// particle.
 template <int D>
 struct Batch {
   Index<D> start;                    ///< cell of the first lane

@@ -15,7 +15,7 @@ struct Insertion {
   Vec3 shift = Vec3::Zero();     ///< m
   Vec3 velocity = Vec3::Zero();  ///< m/s
 
-  /// Whether it happens in a step of `dt` s from `start` on.
+  /// Whether it happens in the step of `dt` s that begins at `start`.
   bool isIn(double start, double dt) const { return start <= time && time < start + dt; }
 };
 
