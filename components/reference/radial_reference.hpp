@@ -13,7 +13,7 @@ struct RadialState {
 };
 
 /// A gas whose state depends on the distance from a centre alone, with one shock: between planes, around a line or
-/// around a point, in as many axes as are round.
+/// around a point.
 class RadialReference : public GasReference {
  public:
   GasState at(const Vec3& x, double t) const final;
