@@ -55,7 +55,7 @@ class BoxMean {
     return 0.5 * (adaptive(axis, x, a, middle, left, depth + 1) + adaptive(axis, x, middle, b, right, depth + 1));
   }
 
-  /// The scale of an error: each field itself, and for velocities the speed of sound, too.
+  /// The scale of an error: the field itself and, for velocities, also the speed of sound.
   static Fields sizes(const Fields& left, const Fields& right) {
     Fields size = left.abs() + right.abs();
     size.segment<3>(1) = size.segment<3>(1).maxCoeff() + std::sqrt(size[5]);

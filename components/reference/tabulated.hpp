@@ -37,7 +37,7 @@ class Tabulated : public GasReference {
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
  private:
-  /// Cells along an axis and what part of a sum they make.
+  /// Cells along an axis, and their shares of a sum.
   struct Share {
     int cell;
     double part;

@@ -21,7 +21,7 @@ struct Batch {
   std::array<LaneIntegers, D> cell;  ///< of the particles
   Lanes::Mask used;
   bool isFull;        ///< whether all lanes are in use
-  bool isContiguous;  ///< whether the particles stand side by side in memory
+  bool isContiguous;  ///< whether the particles are consecutive in memory
 
   /// Takes the particles at `places`; lanes where `takes` is 0 have none.
   Batch(const Index<D>& first, const LaneIntegers& places, const LaneIntegers& takes)

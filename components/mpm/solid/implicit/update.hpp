@@ -160,7 +160,7 @@ void startInMotion(const Patch& patch, const Material&, const ImplicitSetup<D>& 
   });
 }
 
-/// With inertia: limits the next step so that no particle moves more than .8 of a cell along any axis at its present
+/// With inertia: limits the next step so that no particle moves by more than .8 of a cell along any axis at its present
 /// velocity.
 template <int D>
 void limitBySpeed(const Patch& patch, const Material&, ParticleView<const Vec<D>> velocity, Minimum& dt) {
