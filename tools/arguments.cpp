@@ -127,7 +127,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("--check,--validate", arguments.check,
                "check the scene and compute its initial state, without running or writing anything");
   app.add_option("--dry-run", arguments.dryRun,
-                 "compile the tasks of one of this many ranks and print their cost, without running anything")
+                 "compile the tasks of one rank out of N and print their cost, without running anything")
       ->check(CLI::Range(1, 10'000'000));
   app.add_flag("--schedule", arguments.schedule,
                "print the tasks in order, what they read and write, and which are left out");

@@ -76,9 +76,9 @@ input::Schema<Settings> samplingSchema(const std::string& name, const std::strin
   return schema.requiredSection("Variables", variables, list, "the variables to sample");
 }
 
-/// When samples are due: after the first step in the time from `start` to `stop`, and then after each that passes a
-/// multiple of 1/frequency from `start` on. The initial state is none. What is due depends on the state and on that
-/// before alone, so that a run that goes on from a checkpoint samples the same ones.
+/// When samples are due: after the first step between `start` and `stop`, and then after each step that passes a time
+/// start + k / frequency. The initial state is none. What is due depends on the state and on that before alone, so that
+/// a run that goes on from a checkpoint samples the same ones.
 class SampleTimes {
  public:
   SampleTimes(double frequency, double start, double stop) : frequency_(frequency), start_(start), stop_(stop) {}

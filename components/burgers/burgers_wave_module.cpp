@@ -90,8 +90,8 @@ std::unique_ptr<simulation::Analysis> makeModule(const Component& component, con
 }  // namespace
 
 simulation::AnalysisKind waveKind() {
-  return simulation::plainModule("burgersWave", "errors against the exact solution of Burgers' equation",
-                                 "Errors of the component burgers against the exact solution that follows from "
+  return simulation::plainModule("burgersWave", "compares a run with the exact solution of Burgers' equation",
+                                 "Errors of the component burgers relative to the exact solution that follows from "
                                  "<Burgers>, in one dimension.",
                                  makeModule);
 }

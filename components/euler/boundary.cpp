@@ -183,7 +183,7 @@ Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, i
   return cell;
 }
 
-/// Weakens the incoming wave of a state, at constant entropy, as a side that lets waves out does over `cells` cells.
+/// Weakens the incoming wave of a state at constant entropy, to let waves out; the wave decays over `cells` cells.
 template <int D, std::size_t N>
 void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
   const Relaxation& side = rule.relaxes;

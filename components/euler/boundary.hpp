@@ -23,8 +23,8 @@ struct Relaxation {
   int axis = 0, outwards = 0;
 
   bool acts() const { return farPressure > 0; }
-  /// The loss of the incoming characteristic of a state across the side, Pa, at an outward velocity u_n [m/s], over
-  /// `crossings` times the time in which sound crosses a cell.
+  /// The loss [Pa] of the incoming characteristic at a side, with the outward velocity u_n [m/s], during `crossings`
+  /// times the time in which sound crosses a cell.
   double loss(double pressure, double speed, double sound, double crossings = 1) const {
     const double mach = std::clamp(speed / sound, -1.0, 1.0);
     const double share = sigma * thickness * std::max(1 + mach, crossings * (1 - mach * mach));
@@ -99,8 +99,8 @@ GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time = 0
 template <int D>
 GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, int side, const Index<D>& cell);
 
-/// Fills the cells of a box that are outside the grid; the cells on the grid must be known, as must the cells inside
-/// that are used across a side.
+/// Fills the cells of a box that are outside the grid; the cells on the grid must be known, and so must the inner cells
+/// that the conditions at a side use.
 template <int D, int K>
 void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& rows, const Box& box);
 template <int D, int K>

@@ -56,8 +56,8 @@ void forEachBlock(const Box& box, Visit&& visit) {
   forEachBlock<D>(box, kBlock<D>, std::forward<Visit>(visit));
 }
 
-/// The extents across z of the columns that tile a box with `reach` cells of ghosts around each: along x as wide as a
-/// block, and along y as wide as kColumnCells allows.
+/// The extents along x and y of the columns along z that tile a box, each with `reach` ghost cells around it: as wide
+/// as a block along x, and as wide as kColumnCells allows along y.
 inline Index3 columnOf(const Box& box, int reach) {
   const int width = std::min(kBlock<3>[0], box.extent(0));
   return {{width, std::clamp(kColumnCells / (width + 2 * reach) - 2 * reach, 1, box.extent(1)), box.extent(2)}};

@@ -40,7 +40,7 @@ struct ImplicitPressure {
   solvers::LinearSettings solver;
 };
 
-/// A gas as described by the sections of a scene for Uintah's ICE.
+/// A gas as the sections of a scene for Uintah's ICE describe it.
 struct GasScene {
   Location where;                         ///< place of <CFD> in the scene
   euler::Settings gas;                    ///< the method, the gas and its state at the start

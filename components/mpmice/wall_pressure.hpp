@@ -4,8 +4,8 @@
 
 namespace tushar::mpmice {
 
-/// The pressure behind the shock that a wall drives into a gas with its own law, with a velocity jump of `closing`: e -
-/// e_0 = (p + p_0) / 2 (v_0 - v), (p - p_0) (v_0 - v) = closing². If the pressure depends on the density alone, the
+/// The pressure behind the shock of a moving wall in a gas of any law, with a velocity jump of `closing`:
+/// e - e_0 = (p + p_0) / 2 (v_0 - v), (p - p_0) (v_0 - v) = closing². If the pressure depends on the density alone, the
 /// second equation suffices. By bisection in the density, to round-off.
 inline double shockPressure(const euler::Gas& gas, double density, double last, double closing) {
   const double before = gas.pressureOf(density, last), volume = 1 / density;
@@ -53,7 +53,7 @@ inline double fanPressure(const euler::Gas& gas, double density, double last, do
   return gas.pressureOf(rho, of);
 }
 
-/// Pressure [Pa] of a gas on a wall that it approaches at the speed `closing` [m/s]: behind a shock if the wall
+/// Pressure [Pa] of a gas on a wall that approaches it at the speed `closing` [m/s]: behind a shock if the wall
 /// approaches, behind a fan if it recedes, and p + p_inf = 0 if there is no gas left. The gas is given by its density
 /// and the last number of its primitive state. Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid
 /// Dynamics, 3rd ed., section 4.3, with the wall's speed given.

@@ -12,7 +12,7 @@ using simulation::MeasuredError;
 
 namespace {
 
-/// Measures a component's gas against an exact solution, whatever that is.
+/// Compares a component's gas with any exact solution.
 class GasError : public simulation::Analysis {
  public:
   GasError(std::string module, ReferencePointer exact, const GasSolution& solution)

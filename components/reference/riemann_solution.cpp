@@ -28,7 +28,7 @@ struct Side {
         stiffness(gas.stiffness) {}
 
   double soundSpeed() const { return density > 0 ? std::sqrt(gamma * pressure / density) : 0; }
-  /// Speed at which the gas expands into what has no pressure, Toro (4.77).
+  /// Speed at which the gas expands where there is no pressure, Toro (4.77).
   double front() const {
     return stiffness > 0 ? velocity - velocityChange(0) : velocity + 2 * soundSpeed() / (gamma - 1);
   }

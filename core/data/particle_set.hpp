@@ -107,7 +107,7 @@ class ParticleSet {
 
   /// Marks the particles of all cells of the patch as complete, `count` in total.
   void setOwned(int count);
-  /// Marks the particles of the cells of the patch in the row from `first` on as complete.
+  /// Marks the particles of the cells of the patch in the row starting with `first` as complete.
   void closeRow(const Index3& first);
   /// Like setOwned, after closeRow has been called for every row that has particles.
   void setOwnedOfClosedRows(int count) { owned_ = count; }

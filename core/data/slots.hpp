@@ -21,7 +21,7 @@ struct Slots {
   std::vector<grid::Box> stored;   ///< for nodes and cells: the box in each slot, including ghosts
   std::size_t end = 0;             ///< end of the last slot
 
-  /// Whether particles can move here from the slots `other` within the same memory: each slot is one of `other`, not
+  /// Whether particles can move here from the slots `other` within the same memory: each slot is one of `other` and not
   /// larger, or is behind all of them. So no patch overwrites values that another has still to move.
   bool extends(const Slots& other) const;
 };

@@ -14,7 +14,7 @@
 
 namespace tushar::grid {
 
-/// The grid of a run, with its levels and patches, from the view of one rank.
+/// The grid of a run, with its levels and patches, as one rank sees it.
 ///
 /// Patches are numbered along Morton's curve; a rank has consecutive ones. Where there is one level, only these are
 /// kept: any other is made when it is needed, so that a grid of a million patches takes no more memory on a rank than

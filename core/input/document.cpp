@@ -65,7 +65,7 @@ bool isThere(const std::filesystem::path& path) {
   return std::filesystem::exists(path, unreadable) || isPair(path);
 }
 
-/// Finds a file that a tag of the scene `scene` names: next to the scene, in a folder above it, in the folder where the
+/// Finds the file whose name a tag of `scene` gives: next to the scene, in a folder above it, in the folder where the
 /// run is started or, finally, next to the scene without the folders in the tag.
 FoundFile findFile(const std::string& path, const std::string& scene) {
   const std::filesystem::path beside = std::filesystem::absolute(scene).parent_path();

@@ -223,7 +223,7 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// Extends the message about a word that is not in the last choice by a note on where it is available.
+  /// Adds a note to the message about a word that is not in the last choice: where the word is available.
   Schema& elsewhere(std::string_view word, std::string_view sentence) {
     explainWordOfLast(word, sentence);
     return *this;

@@ -10,8 +10,8 @@
 
 namespace tushar::numerics {
 
-/// The mean of two coefficients at the face between their cells that gives the correct flux if they jump (Patankar,
-/// Numerical Heat Transfer and Fluid Flow, 4.2).
+/// The mean of the coefficients of two cells with which the flux through the face between them is correct even if the
+/// coefficient jumps (Patankar, Numerical Heat Transfer and Fluid Flow, 4.2).
 inline double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }
 
 /// A linear function of the values in a cell and its neighbours: sum_n weight_n phi_n + constant.

@@ -32,9 +32,9 @@ class LeafCells {
   const grid::Grid* grid_;
 };
 
-/// Values of a field next to a face with finer cells behind it, from a polynomial through the cells of the level, which
-/// is of second degree along each axis of the face and includes their mixed term. Cells that are not there are not
-/// used: beside finer ones, and at sides of the grid, it uses those on the other side.
+/// Values of a field next to a face behind which there are finer cells. They follow from a polynomial through the cells
+/// of the level, of second degree along each axis of the face and with their mixed term. Cells that are not there are
+/// not used: beside finer ones, and at sides of the grid, it uses those on the other side.
 template <int D>
 class FaceInterpolation {
  public:

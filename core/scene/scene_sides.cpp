@@ -18,7 +18,7 @@ namespace {
 
 const std::vector<std::string> conditionKinds(grid::boundaryKindNames.begin(), grid::boundaryKindNames.end());
 
-/// The kind that `var`, one of `conditionKinds`, names.
+/// The kind with the name `var`, which is one of `conditionKinds`.
 grid::BoundaryKind kindOf(const std::string& var) {
   return static_cast<grid::BoundaryKind>(std::find(conditionKinds.begin(), conditionKinds.end(), var) -
                                          conditionKinds.begin());

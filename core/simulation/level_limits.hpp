@@ -20,10 +20,10 @@ namespace tushar::simulation {
 std::vector<InputProblem> problemsOnLevels(const std::vector<tasks::Task>& tasks, const grid::Grid& grid,
                                            const Location& where);
 
-/// The problem of the tasks of a step in which finer levels take smaller steps: the first task that prevents this, with
-/// its label, and the number of further ones. Tasks that allow it compute cells, from the old state and, in the same
-/// cell, from what earlier tasks computed. Others see new values that another level does not have yet, or add up over
-/// the grid what is there at different times. `where` is the tag that has levels take smaller steps.
+/// The first task of a step that prevents smaller steps on finer levels, with its label, and the number of further such
+/// tasks. Tasks that allow it compute cells, from the old state and, in the same cell, from what earlier tasks
+/// computed. Others see new values that another level does not have yet, or add up over the grid what is there at
+/// different times. `where` is the tag that has levels take smaller steps.
 std::optional<InputProblem> problemOfSmallerSteps(const std::vector<tasks::Task>& tasks, const Location& where);
 
 }  // namespace tushar::simulation

@@ -43,7 +43,7 @@ struct CellRun {
   std::pair<int, int> blocks;  ///< [lower, upper)
 };
 
-/// Raises marks of blocks, from `origin` on, to those of a row of cells; returns whether there are any.
+/// Raises marks of blocks, starting at `origin`, to those of a row of cells; returns whether there are any.
 bool raiseMarksOfBlocks(const int* cells, const std::vector<CellRun>& runs, int origin, std::vector<int>& blocks) {
   std::fill(blocks.begin(), blocks.end(), 0);
   int any = 0;

@@ -6,8 +6,8 @@
 
 namespace tushar::tasks {
 
-/// The list with a task after the last one that keeps the fluxes of a variable, for each such variable: in a coarse
-/// cell next to finer ones, the flux through the face between them is replaced by the mean of the finer fluxes,
+/// Adds a task to the list for each variable whose fluxes are kept, after the last task that keeps them. In a coarse
+/// cell next to finer ones, it replaces the flux through the face between them by the mean of the finer fluxes,
 ///
 ///     U += ± dt / h (F - mean of the finer F),  + at upper faces,
 ///

@@ -11,8 +11,8 @@ struct CellValues {
   grid::Box stored;
 };
 
-/// The values of coarse cells from those of the finer cells in them: the mean, in pairs along x, then y, then z; for
-/// integers, the value of the first. `coarse` has at least the cells `box`.
+/// Computes the values of coarse cells from those of the finer cells in them: the mean, in pairs along x, then y, then
+/// z; for integers, the value of the first. `coarse` has at least the cells `box`.
 void restrictTo(const data::Label& label, int dimension, const grid::Box& box, const CellValues& fine,
                 const CellValues& coarse);
 

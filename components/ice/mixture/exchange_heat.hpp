@@ -51,8 +51,8 @@ struct WarmThings {
   }
 };
 
-/// The increase d of the common pressure with which gases fill the same volume as before: the root of sum (a_k + b_k d)
-/// / (P_k + d) above the least -P_k. That is unique, as each term of the sum of volumes falls with the pressure.
+/// The increase d of the common pressure after which gases fill the same volume as before: the root of sum (a_k + b_k
+/// d) / (P_k + d) above the least -P_k. That is unique, as each term of the sum of volumes falls with the pressure.
 /// Newton's method within bounds.
 template <class Vector>
 double pressureRise(const Vector& a, const Vector& b, const Vector& stiffPressure) {

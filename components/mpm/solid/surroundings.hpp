@@ -16,8 +16,8 @@ class Surroundings {
   /// Adds tasks after g.record has velocities and masses, and before forces accelerate nodes; they compute
   /// g.surroundingForce.
   virtual void scheduleForces(TaskList& tasks, const std::vector<Material>& materials) const = 0;
-  /// Adds tasks for the time when p.x is known at the start and at the end of the step, and g.record has the velocities
-  /// of both, before particles are relocated.
+  /// Adds the tasks that run before particles are relocated, when p.x is known at the start and at the end of the step,
+  /// and g.record contains the velocities at both times.
   virtual void scheduleMotion(TaskList& tasks, const std::vector<Material>& materials) const = 0;
 };
 

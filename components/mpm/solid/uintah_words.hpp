@@ -9,7 +9,7 @@ namespace tushar::mpm::solid {
 
 /// Flags of Uintah that are not available, with the alternatives.
 inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
-    {"refine_particles", "give the body more particles, by <res>"},
+    {"refine_particles", "use a larger <res> to give the body more particles"},
     {"use_cohesive_zones", "give the bodies a <contact>"},
     {"do_scalar_diffusion", "heat conduction obeys the same equation"},
     {"coupled_flow_analysis", "there is one phase"},
@@ -25,10 +25,10 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
 inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it"},
     {"create_new_particles", "particles stay as they are"},
-    {"CanAddMPMMaterial", "all materials are there from the start"},
-    {"DeleteGeometryObjects", "shapes are not kept"},
-    {"computeNodalHeatFlux", "nothing depends on it"},
-    {"testForNegTemps_mpm", "nothing depends on it"},
+    {"CanAddMPMMaterial", "all materials exist from the start"},
+    {"DeleteGeometryObjects", "shapes are not stored"},
+    {"computeNodalHeatFlux", "it has no effect"},
+    {"testForNegTemps_mpm", "it has no effect"},
     {"water_damping_coef", "belongs to coupled_flow_analysis"},
     {"solid_damping_coef", "belongs to coupled_flow_analysis"},
     {"PorePressureFilter", "belongs to coupled_flow_analysis"},

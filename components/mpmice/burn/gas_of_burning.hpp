@@ -76,8 +76,8 @@ struct Burnt {
   }
 };
 
-/// The volumes of several gases in a cell after burned mass has been added to one of them: the new gas has the volume
-/// that belongs to the pressure of the cell and, if the cell keeps its gas, all volumes are scaled to fill it.
+/// The volumes of several gases in a cell after burned mass has been added to one of them: the new gas takes the volume
+/// that it has at the pressure of the cell; if the cell keeps its gas, all volumes are scaled to fill the cell.
 template <int D>
 void makeRoomFor(const Level& level, const Settings& settings, const BurntGas<D>& gas, const Index<D>& cell,
                  double internal) {

@@ -81,8 +81,8 @@ void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<
   });
 }
 
-/// Stores the mass, per cell volume, that flows up through the lower faces of the cells of a block across an axis,
-/// relative to the bodies at the face.
+/// Stores the mass that flows upwards, relative to the bodies, through the lower faces of a block's cells across an
+/// axis, divided by the cell volume.
 template <int D, int K>
 void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, int axis, double ratio,
                   const euler::Rows<D, K>& flux, const CellView<Vec<D>>& flow) {

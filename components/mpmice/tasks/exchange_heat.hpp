@@ -52,7 +52,7 @@ class HeatExchange {
                const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies)
       : patch_(patch), materials_(materials), settings_(settings), gas_(gas), bodies_(bodies) {}
 
-  /// Exchanges heat in a cell, and adds that from outside. Returns what the gas gives to bodies, J/m³ of the cell.
+  /// Exchanges heat in a cell and adds heat from outside. Returns what the gas gives to bodies, J/m³ of the cell.
   double apply(const Index<D>& cell, double time, double dt) const {
     const std::size_t bodies = bodies_.size(), gases = std::max<std::size_t>(1, settings_.gases.size());
     const auto first = static_cast<Eigen::Index>(bodies);

@@ -22,8 +22,8 @@ void searchAround(const Level& level, const Index<D>& cell, Visit&& visit, IsFou
   }
 }
 
-/// The gas of a cell with some free volume: that at its centre or, since scenes cut out the shapes of bodies, that at
-/// the nearest cell centre where there is gas. Throws InputError if there is none.
+/// The gas of a cell with some free volume: the gas at its centre or, since scenes cut out the shapes of bodies, the
+/// gas at the nearest cell centre that has any. Throws InputError if there is none.
 template <int D>
 euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const Index<D>& cell) {
   const auto at = [&](const Index<D>& of) {

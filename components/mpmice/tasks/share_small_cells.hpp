@@ -38,8 +38,8 @@ class SmallCells {
   SmallCells(const Level& level, bool thinWalls, const Unshared<D>& state)
       : level_(level), thin_walls_(thinWalls), state_(state) {}
 
-  /// The neighbour that receives the gas of a small cell, or the cell itself: a neighbour with enough free volume,
-  /// otherwise one that has more free volume and does not give away its own gas. Ties go to the lower one.
+  /// The neighbour that receives the gas of a small cell: one with enough free volume, otherwise one that has more free
+  /// volume and does not give away its own gas. If there is none, the cell itself. Ties go to the lower one.
   Index<D> targetOf(const Index<D>& cell) const {
     const Index<D> chosen = choiceOf(cell);
     return isTarget(chosen) ? chosen : cell;

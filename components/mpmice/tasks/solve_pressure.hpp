@@ -25,8 +25,8 @@ struct NewGasAlone {
   }
 };
 
-/// Normal velocities of the walls at the lower and upper faces of cells, m/s, and the acceleration of a wall per
-/// pressure of the gas of the cell, m/(s² Pa).
+/// Normal velocities of the walls at the lower and upper faces of cells, m/s, and the acceleration of a wall per unit
+/// pressure of the gas in the cell, m/(s² Pa).
 template <int D>
 struct WallSpeeds {
   CellView<const Vec<D>> below, above, yieldBelow, yieldAbove;

@@ -31,8 +31,8 @@ class Surface : public GeometryPiece {
   double disagreement() const;
 
  private:
-  /// Triangles by the lines along an axis that may cross them. Their coordinates are turned so that this axis is the
-  /// first.
+  /// Triangles, sorted by the lines along an axis that may cross them. Their coordinates are turned so that this axis
+  /// is the first.
   struct Lines {
     Triangles triangles;
     std::vector<std::vector<int>> crossing;  ///< triangles in each bin

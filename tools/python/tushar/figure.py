@@ -239,7 +239,7 @@ def _beyond(drawn: Any) -> str:
 
 
 def _plane(panel: Any, output: Output, quantity: Quantity, axes: List[int], cut: Any) -> Any:
-    """A slice with other than the usual axes: z horizontal for x."""
+    """A slice with swapped axes: z is horizontal instead of x."""
     if quantity.variable.centring == "particle":
         long = [high - low for low, high in map(output.extent, range(3))]
         return cloud(panel, output, quantity, axes, 72 * SIDE * long[axes[0]] / max(long), cut)

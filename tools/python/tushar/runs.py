@@ -114,7 +114,7 @@ def error_of(code: int, errors: str, done: Run) -> SusError:
     """The error for an exit code, with the messages of sus."""
     said = errors.strip() or str(done.report.get("failure", ""))
     if code < 0:
-        said = said or f"sus was ended by signal {-code}"
+        said = said or f"sus was killed by signal {-code}"
     said = said.replace("sus: ", "", 1) or f"sus failed with exit code {code}"
     return BY_EXIT_CODE.get(code, SusError)(said, code, done)
 

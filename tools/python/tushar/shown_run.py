@@ -23,8 +23,9 @@ def is_scene(path: str) -> bool:
 
 
 def film_interval(scene: str, sets: Sequence[str]) -> Optional[float]:
-    """The time between outputs [s] that gives enough of them for a film; None if the scene has enough, counts steps, or
-    is overridden in this by `sets` (PATH=VALUE), or if its times cannot be read."""
+    """The time between outputs [s] that gives enough of them for a film; None if the scene has enough outputs or
+    counts steps, if `sets` (PATH=VALUE) overrides the time, or if the times of the scene cannot be
+    read."""
     overrides = dict(item.partition("=")[::2] for item in sets)
     try:
         root: Any = ElementTree.parse(scene).getroot()

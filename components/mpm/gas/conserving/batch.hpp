@@ -11,8 +11,9 @@ namespace tushar::mpm::gas::conserving {
 template <int D>
 using LanesModes = LanesMatrix<D, (1 << D) - 1>;
 
-/// Particles side by side, at most one of each cell: lane k belongs to the k-th cell of a row from `start` on, so what
-/// the particles read from the grid and add to it also stands side by side. Lanes not in use repeat another particle.
+/// Particles in lanes, at most one from each cell: lane k belongs to the k-th cell of a row that begins at `start`, so
+/// the values that the particles read from the grid or add to it are also consecutive. Lanes not in use repeat another
+/// particle.
 template <int D>
 struct Batch {
   Index<D> start;                    ///< cell of the first lane
@@ -20,7 +21,7 @@ struct Batch {
   std::array<LaneIntegers, D> cell;  ///< of the particles
   Lanes::Mask used;
   bool isFull;        ///< whether all lanes are in use
-  bool isContiguous;  ///< whether the particles stand side by side in memory
+  bool isContiguous;  ///< whether the particles are consecutive in memory
 
   /// Takes the particles at `places`; lanes where `takes` is 0 have none.
   Batch(const Index<D>& first, const LaneIntegers& places, const LaneIntegers& takes)
@@ -74,7 +75,8 @@ template <int D, class T, class Visit>
   });
 }
 
-/// The values of a variable of the batch's particles, `numbers` in a row for each; `at(place)` points to the first.
+/// The values of a variable of the batch's particles, `numbers` consecutive ones for each; `at(place)` points to the
+/// first.
 template <int numbers, int D, class At>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> loadColumns(const Batch<D>& batch, At&& at) {
   if constexpr (numbers <= Lanes::count)

@@ -17,7 +17,7 @@ Lanes sensor(Lanes difference, Lanes soundSpeed) {
   return select(soundSpeed > 0, clamp(10 * (difference / soundSpeed - 0.05), 0.0, 1.0), 1);
 }
 
-/// The velocity differences over cells: along each axis, and Delta, their sum. Beyond the rim of the grid a cell counts
+/// The velocity differences over cells, along each axis, and their sum Delta. Beyond the rim of the grid a cell counts
 /// as its own neighbour.
 template <int D>
 class Differences : public GridFields<D, D + 1> {

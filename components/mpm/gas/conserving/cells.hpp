@@ -34,7 +34,7 @@ struct CellState {
 /// the derivative times the least cell width h; Delta is the sum of these differences over the axes [m/s].
 struct Compression {
   Lanes difference = 0;  ///< Delta of the cell
-  Lanes smooth = 0;      ///< J_0: Delta less van Leer's harmonic means with the differences of neighbours
+  Lanes smooth = 0;      ///< J_0: Delta minus van Leer's harmonic means with the differences of neighbours
   Lanes nearby = 0;      ///< largest -Delta of the neighbours
 };
 

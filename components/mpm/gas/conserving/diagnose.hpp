@@ -27,7 +27,7 @@ class LanesSum {
   Sum* sum_;
 };
 
-/// Kinetic (the motion about the mean included), internal and total energy of all particles [J].
+/// Kinetic (including the motion about the mean), internal and total energy of all particles [J].
 template <int D>
 void sumEnergy(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy, Sum& kinetic,
@@ -105,8 +105,8 @@ void computeCellDensity(const Patch& patch, const Gas&, CellView<const double> m
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { density[cell] = mass[cell] / patch.level().cellVolume(); });
 }
 
-/// Errors of M_c / V_c, of momentum divided by mass, and of pressure and internal energy for M_c / V_c and IE_c / M_c,
-/// relative to exact cell means.
+/// Errors relative to exact cell means, of M_c / V_c, of momentum divided by mass, and of the pressure and internal
+/// energy that follow from M_c / V_c and IE_c / M_c.
 template <int D>
 void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                       const reference::Clock* clock, CellView<const double> mass, CellView<const Vec<D>> velocity,

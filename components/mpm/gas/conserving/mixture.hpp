@@ -102,8 +102,8 @@ void mixAtNodes(const Patch&, const std::vector<Gas>& gases, const NodeViews<dou
   });
 }
 
-/// Throws InputError if the gases leave a part of a cell empty at the start, or overlap, as the pressure of a mixture
-/// acts on the whole grid.
+/// Throws InputError if the gases leave a part of a cell empty at the start, or overlap, since the pressure of a
+/// mixture acts on the whole grid.
 template <int D>
 void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellViews<double>& fill) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {

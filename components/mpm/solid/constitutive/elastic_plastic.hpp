@@ -331,7 +331,7 @@ struct ElasticPlastic {
     const VolumeState state = volumeState(d, old, energy);
     return std::visit([&](const auto& model) { return model.meanStress(state); }, equationOfState);
   }
-  /// Derivatives of the mean stress by the dilatation of the step and by ln J, Pa.
+  /// Derivatives of the mean stress with respect to the dilatation of the step and to ln J, Pa.
   std::pair<double, double> meanStressSlopes(const Deformation& d, double old, double energy) const {
     const auto at = [&](double dilated, double swollen) {
       VolumeState state = volumeState(d, old, energy);

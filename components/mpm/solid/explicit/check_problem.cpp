@@ -28,8 +28,9 @@ void checkCorners(const Problem& problem, const Element& root, Diagnostics& diag
 void checkContactsOfMethod(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Contact& contact : problem.contacts) {
     if (problem.start.axisymmetric && contact.volumeConstraint > 0 && !contact.usesPlanes())
-      diagnostics.error(root.child("MPM")->child("axisymmetric").value(),
-                        "volume_constraint of <contact> compares volumes, which are per radian here: remove it");
+      diagnostics.error(
+          root.child("MPM")->child("axisymmetric").value(),
+          "volume_constraint of <contact> compares volumes, which are per radian in this scene: remove it");
     if (problem.method.stressUpdate == StressUpdate::first && contact.usesPlanes())
       diagnostics.error(
           root.child("MPM")->child("stress_update").value(),
@@ -41,7 +42,7 @@ void checkContactsOfMethod(const Problem& problem, const Element& root, Diagnost
 void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const Loads& loads = problem.start.loads;
   if (problem.start.solution && (loads.hasForces() || loads.hasHeat()))
-    diagnostics.error(root.child("PhysicalBC").value(), "<RunMMSProblem> applies loads of its own: remove these");
+    diagnostics.error(root.child("PhysicalBC").value(), "<RunMMSProblem> applies its own loads: remove these");
   for (const SurfaceLoad& load : loads.surfaces)
     if (load.material >= static_cast<int>(problem.materials.size()))
       diagnostics.error(root.child("PhysicalBC").value(),

@@ -69,11 +69,11 @@ void addLimits(Schema<MpmSection>& mpm) {
       .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
              "lighter nodes are accelerated only by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
-                "faster particles are slowed down to 9/10 of it", input::positive())
+                "faster particles are slowed down to 9/10 of this speed", input::positive())
       .choice(
           "lost_particles", &MpmSection::removesLost, {{"remove", true}, {"stop", false}}, true,
-          "particles that a step turns inside out (det F <= 0) or throws through a symmetry plane: they are removed "
-          "and counted, or the run stops")
+          "what happens when a step turns a particle inside out (det F <= 0) or throws it through a symmetry plane: it "
+          "is removed and counted, or the run stops")
       .ours()
       .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
              "smallest number of substeps in which a step updates the deformation gradient; -n: uses the exponential "
@@ -111,10 +111,11 @@ void addPrescribedMotion(Schema<MpmSection>& mpm) {
              "a file with 14 numbers per point in time: time (s), the components of the deformation gradient row by "
              "row, and the angle (degrees) and axis of a rotation since the previous point")
       .value("InsertParticles", &MpmSection::insertsParticles, false, "1",
-             "particles enter as <InsertParticlesFile> says: until then they are bodies elsewhere, on the grid as any")
+             "particles move to their place at the times of <InsertParticlesFile>; until then they wait elsewhere "
+             "on the grid, as ordinary bodies")
       .value("InsertParticlesFile", &MpmSection::insertionFile, "", "1",
-             "a file with 8 numbers a line: at that time (s) all particles of that color move by (x, y, z) m, and get "
-             "the velocity (u, v, w) m/s");
+             "a file with 8 numbers per line, t color x y z u v w: at the time t (s), all particles of this color move "
+             "by (x, y, z) m and get the velocity (u, v, w) m/s");
   refuseSwitch(mpm, "exactDeformation", "give <Time> a delt_max that does not exceed the time between points");
 }
 
@@ -293,7 +294,7 @@ std::vector<Insertion> readEntering(const MpmSection& read, const Element& root,
   return readInsertions(read.insertionFile, mpm.child("InsertParticlesFile").value_or(mpm).where(), diagnostics);
 }
 
-/// Throws InputError, at the place of <MPM>, if the grid leaves out an axis along which bodies are deformed.
+/// Throws InputError, at the place of <MPM>, if bodies are deformed along an axis that the grid does not use.
 void refuseFlat(const Level& level, const Location& where) {
   if (level.dimension() < 3)
     throw InputError({{where, "MPM/UsePrescribedDeformation",

@@ -121,7 +121,7 @@ const Schema<Section>& sectionSchema() {
     refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have artificial viscosity");
     refuseSwitch(mpm, "UsePrescribedDeformation", "only explicit steps can follow a prescribed deformation");
     refuseSwitch(mpm, "InsertParticles", "give every body its position at the start");
-    refuseSwitch(mpm, "keepPressBCNormalToSurface", "a pressure keeps the direction of its surface at the start");
+    refuseSwitch(mpm, "keepPressBCNormalToSurface", "a pressure keeps the initial direction of its surface");
     refuseSwitch(mpm, "temperature_solve", "nodes take the mean temperature of their particles");
     for (const char* tag :
          {"artificial_viscosity_coeff1", "artificial_viscosity_coeff2", "artificial_viscosity_heating",

@@ -43,8 +43,8 @@ class ImplicitSystem : public solvers::NonlinearProblem {
 
   bool residual(std::span<const double> u, std::span<double> r) override;
   void tangent(solvers::Matrix& matrix) override;
-  /// Whether the residual of every node is at most 1e-14 of the forces that it sums, where the stress of each particle
-  /// is taken as that at a strain of 1.
+  /// Whether the residual of every node is at most 1e-14 of the forces that it sums, where each particle contributes
+  /// its stress at a strain of 1.
   bool isNegligible(std::span<const double> u, std::span<const double> r) const override;
 
   /// The acceleration of each node when a run starts: (f + m g - sum_p V_p sigma_p grad S) / m, 0 if prescribed,

@@ -41,7 +41,7 @@ void ImplicitSystem<D>::addStiffnessOf(const PointGroup& group, int k, const Mat
   std::array<int, D> axis;
   for (int d = 0; d < D; ++d) axis[d] = sceneAxis<D>(map_.level(), d);
   const NodeTouch<D>* touch = touchesOf(at);
-  /// The sum of B's column of component i of a node, times numbers of each row of B.
+  /// The scalar product of a column of B, that of component i of a node, and one number per row.
   const auto times = [&](const NodeTouch<D>& node, int i, const auto& rows) {
     auto sum = rows(3 * axis[i] + axis[0]) * node.gradient[0];
     for (int j = 1; j < D; ++j) sum += rows(3 * axis[i] + axis[j]) * node.gradient[j];
@@ -100,8 +100,7 @@ void ImplicitSystem<D>::addStiffness(std::span<const int> numbers, Local& stiffn
   matrix.add(numbers, numbers, {stiffness.data(), static_cast<std::size_t>(stiffness.size())});
 }
 
-/// Points that follow each other and touch the same nodes, as those of a cell do with linear functions, are added
-/// together.
+/// Adds consecutive points together if they touch the same nodes, as those of a cell do with linear functions.
 template <int D>
 void ImplicitSystem<D>::addRunStiffness(const PointRun& run, solvers::Matrix& matrix) {
   const PointGroup& group = *run.group;

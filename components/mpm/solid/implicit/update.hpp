@@ -150,7 +150,7 @@ void startAtRest(const Patch&, const Material&, ParticleView<const double> mass,
   for (int p = 0; p < mass.owned(); ++p) acceleration[p] = Vec<D>::Zero();
 }
 
-/// Newmark: a_p = sum_i S_i a_i when a run starts.
+/// For Newmark's method: a_p = sum_i S_i a_i when a run starts.
 template <int D>
 void startInMotion(const Patch& patch, const Material&, const ImplicitSetup<D>& setup, NodeView<const Vec<D>> nodal,
                    ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> size, ParticleView<Vec<D>> acceleration) {
@@ -160,7 +160,7 @@ void startInMotion(const Patch& patch, const Material&, const ImplicitSetup<D>& 
   });
 }
 
-/// With inertia: limits the next step so that no particle moves more than .8 of a cell along any axis at its present
+/// With inertia: limits the next step so that no particle moves by more than .8 of a cell along any axis at its present
 /// velocity.
 template <int D>
 void limitBySpeed(const Patch& patch, const Material&, ParticleView<const Vec<D>> velocity, Minimum& dt) {

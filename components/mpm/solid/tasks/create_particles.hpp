@@ -125,8 +125,8 @@ inline int cellsMovedAtStart(const Level& level, const Start& start) {
   return static_cast<int>(std::ceil(farthest / level.minSpacing()));
 }
 
-/// The initial position of some particle of a body in these cells of the finest level, and the part of a cell that it
-/// fills; none if there is no such particle.
+/// The initial position of any one particle of a body in these cells of the finest level, and the part of a cell that
+/// it fills; none if there is no such particle.
 template <int D>
 std::optional<std::pair<Vec<D>, Seed>> particleIn(const Level& finest, const Body& body, const Box& cells) {
   std::optional<std::pair<Vec<D>, Seed>> found;
@@ -238,8 +238,8 @@ void startDeformation(const Patch& patch, const Material& material, const Start&
       deformation[p] = Matrix3::Identity() * std::cbrt(material.model->initialVolumeRatio());
 }
 
-/// The stress of a particle at the start, Pa: that which follows from its F and temperature (K) if it starts under
-/// pressure, otherwise that of the model.
+/// The initial stress of a particle, Pa: if it starts under pressure, the stress that follows from its F and
+/// temperature (K), otherwise that of the model.
 inline Matrix3 startStress(const Material& material, const Matrix3& f, double temperature, double* state) {
   if (material.model->initialVolumeRatio() == 1) return material.model->initialStress();
   const Matrix3 zero = Matrix3::Zero();

@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The particles that enter in the step: those with the color of an insertion move by its shift, and get its velocity
+/// Moves the particles that enter in the step, those with the color of an insertion, and sets their velocity
 /// (Uintah's insertParticles). F and the stress stay as they are.
 template <int D>
 void insertParticles(const Patch& patch, const Material&, const std::vector<Insertion>& insertions, double time,

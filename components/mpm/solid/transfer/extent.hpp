@@ -57,7 +57,8 @@ struct Sizes {
 template <class Shape>
 inline constexpr bool sharesNodes = Shape::ghostNodes == 0;
 
-/// Prefetches the values of `count` particles from `first` on, for reading or, if they are not const, for writing.
+/// Prefetches the values of `count` particles starting with `first`, for reading or, if they are not const, for
+/// writing.
 template <class T>
 [[gnu::always_inline]] inline void prefetch(T* values, int first, int count) {
   constexpr std::size_t line = 64;
@@ -106,7 +107,7 @@ class Extents {
                                    extent.size[j] * level_.spacing(j) * level_.inverseSpacing(i);
     return extent;
   }
-  /// The sizes at the start of up to Lanes::count particles from `first` on, in cells, one in each lane.
+  /// The sizes at the start of up to Lanes::count particles starting with `first`, in cells, one in each lane.
   std::array<Lanes, D> sizes(int first, int count) const {
     if (Shape::hasSize && each_) return vectorsOf<D>(each_ + first, count);
     std::array<Lanes, D> same;
@@ -137,8 +138,8 @@ class Extents {
   const Matrix3* deformation_;
 };
 
-/// Calls `visit(k, stencil)` for each of `count` particles of a cell from `first` on, with the k-th stencil for loops
-/// over rows of nodes. Those of tensor products are computed for several particles at once.
+/// Calls `visit(k, stencil)` for each of `count` particles of a cell starting with `first`, with the k-th stencil for
+/// loops over rows of nodes. Those of tensor products are computed for several particles at once.
 template <class Shape, class Visit, int D = Shape::dimension>
 [[gnu::always_inline]] inline void forEachStencilOf(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>* x,
                                                     const Extents<Shape>& extents, int first, int count,

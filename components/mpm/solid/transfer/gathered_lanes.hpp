@@ -61,8 +61,8 @@ template <int D>
   return sums;
 }
 
-/// The values that up to Lanes::count particles of a cell, from `first` on, interpolate from the nodes; missing lanes
-/// repeat one.
+/// The values that up to Lanes::count particles of a cell, starting with `first`, interpolate from the nodes; missing
+/// lanes repeat one.
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline GatheredLanes<D> gatherLanes(const CellFrame<D>& frame, const Index<D>& cell,
                                                            const Vec<D>* x, const Extents<Shape>& extents, int first,

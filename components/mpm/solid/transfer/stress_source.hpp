@@ -13,7 +13,7 @@ struct StressSource {
   const Matrix3* deformation = nullptr;  ///< F, 1; not null if `stress` is
 };
 
-/// V sigma (N m) of `count` particles from `first` on; `startVolume(p)` is V0, m^3, for stresses of F.
+/// V sigma (N m) of `count` particles starting with `first`; `startVolume(p)` is V0, m^3, for stresses of F.
 template <class StartVolume>
 void stressMoments(const Material& material, const StressSource& from, int first, int count, StartVolume&& startVolume,
                    Matrix3* moments) {

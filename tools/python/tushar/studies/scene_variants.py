@@ -40,8 +40,8 @@ def save(root, *labels):
 
 
 def paper(root, particles=4):
-    """The paper's method, with C = 2, 1 and a number of particles per cell along each axis; a scene that already has it
-    is not changed."""
+    """Selects the paper's method with C = 2, 1 and a number of particles per cell along each axis, unless the scene
+    already uses it."""
     section = root.find("MPM")
     if section.find("gas_dynamics") is not None:
         return

@@ -93,8 +93,8 @@ class Gallery:
         path.replace(self.file)
 
     def largest_factor(self, case, method, say):
-        """The largest factor on the time step, to 5 %, with which the run survives and its error is below twice that at
-        factor 1; at most 16. None if there is none."""
+        """The largest factor of the time step, at most 16 and to 5 %, with which the run ends and its error is less
+        than twice that with factor 1. None if there is none."""
         first = self.run(case, method)
         if first.get("failure"):
             return None

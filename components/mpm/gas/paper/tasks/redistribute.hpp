@@ -63,14 +63,14 @@ struct CellShape {
 template <int D>
 void split(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, int minParticles);
 
-/// Merges the two closest pieces until there are N_max: positions and velocities are averaged with their masses,
-/// volumes added; the kinetic energy m1 m2 |v1 - v2|² / (2 (m1 + m2)) that this loses becomes heat.
+/// Merges the two closest pieces until there are N_max: positions and velocities are averaged with their masses as
+/// weights, volumes are added; the kinetic energy m1 m2 |v1 - v2|² / (2 (m1 + m2)) that this loses becomes heat.
 template <int D>
 void merge(std::vector<Piece<D>>& pieces, int maxParticles);
 
-/// Puts n^D pieces of equal volume at the midpoints of the cell with the cell's slopes of density, velocity (about
-/// the centre of mass, scaled so that kinetic energy does not grow) and pressure. Lost kinetic energy becomes heat.
-/// Mass, momentum and total energy are conserved.
+/// Puts n^D pieces of equal volume at the midpoints of the cell. Density, velocity and pressure have the slopes of the
+/// cell; those of the velocity are about the centre of mass, and scaled so that the kinetic energy does not grow. Lost
+/// kinetic energy becomes heat. Mass, momentum and total energy are conserved.
 template <int D>
 void reseed(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& gas, int alongAxis);
 

@@ -78,7 +78,7 @@ void check(const M& c, const input::Element& element, input::Diagnostics& diagno
   if ((c.t1 > 0) != (c.t2 > 0))
     diagnostics.error(element, "T1_rate_dependence and T2_rate_dependence: must both be 0 or both be positive");
   if (c.lodeType != 0 && c.lodeType != 1 && c.lodeType != 3)
-    diagnostics.error(element, "J3_type: allowed are 0, 1 (Gudehus) and 3 (Mohr-Coulomb)");
+    diagnostics.error(element, "J3_type: must be 0, 1 (Gudehus) or 3 (Mohr-Coulomb)");
 }
 
 /// Declares tags of a model for members of its Constants.

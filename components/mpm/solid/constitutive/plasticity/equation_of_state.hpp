@@ -30,7 +30,7 @@ struct HypoelasticVolume {
     return schema;
   }
   double meanStress(const VolumeState& s) const { return s.oldMeanStress + s.bulkModulus * s.dilatation; }
-  /// Temperature change by the volume change of the step, K.
+  /// Temperature change due to the volume change of the step, K.
   double heating(const VolumeState&) const { return 0; }
 };
 

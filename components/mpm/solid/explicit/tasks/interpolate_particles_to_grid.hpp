@@ -123,7 +123,7 @@ class Scatter {
     }
     return true;
   }
-  /// V (sigma - q I) of up to stressGroup particles from `first` on, N m; 0 without stress.
+  /// V (sigma - q I) of up to stressGroup particles starting with `first`, N m; 0 without stress.
   void forceMoments(int first, int count, Matrix3* moments) const {
     if (!has_stress_) {
       std::fill_n(moments, count, Matrix3(Matrix3::Zero()));

@@ -12,7 +12,8 @@
 
 namespace tushar::mpm::solid {
 
-/// The error for the first particle of a cell without a wave speed: its velocity is not a number, or it is inverted.
+/// The error for the first particle of a cell whose wave speed is undefined: its velocity is not a number, or it is
+/// inverted.
 template <int D>
 NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
                                 const data::ParticleRange& range) {
@@ -65,7 +66,7 @@ struct BetweenPlanes {
 
 /// Removes the particles of a cell that the step turns inside out, det F <= 0, or throws through a symmetry plane, as
 /// finite elements with negative Jacobians are deleted in explicit codes. Returns the waves of the others; `none` has
-/// none. Throws NumericalError if particles cannot be removed, or a wave of the others has no speed.
+/// none. Throws NumericalError if particles cannot be removed, or if the wave speed of another is undefined.
 template <int D>
 CrossingRate<D> withoutLost(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
                             const data::ParticleRange& range, const CrossingRate<D>& none,

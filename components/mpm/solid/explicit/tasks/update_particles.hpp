@@ -123,7 +123,7 @@ template <class Shape, int D = Shape::dimension>
   finishDeformation(erosion, u, p, velocityGradient);
 }
 
-/// The same in three dimensions for `count` particles from `first` on, in the lanes; `velocityGradient` is of the
+/// The same in three dimensions for `count` particles starting with `first`, in the lanes; `velocityGradient` is of the
 /// first.
 [[gnu::always_inline]] inline void deformParticles(const Method& method, double dt, const GatheredLanes<3>& sums,
                                                    const Erosion& erosion, const StateUpdate<3>& u, int first,
@@ -152,7 +152,7 @@ struct StressResults {
   std::array<double, stressGroup> energyDensity;  ///< J/m^3 of the volume at the start
 };
 
-/// The positions, masses and the time of particles from `first` on, for a model that reads them.
+/// The positions, masses and the time of particles starting with `first`, for a model that reads them.
 template <int D>
 void placePoints(const Level& level, const StateUpdate<D>& u, double time, int first,
                  std::array<Vec3, stressGroup>& positions, StressPoints& points) {
@@ -162,7 +162,7 @@ void placePoints(const Level& level, const StateUpdate<D>& u, double time, int f
   points.time = time;
 }
 
-/// Particles from `first` on, in the form for a constitutive model. `velocityGradient` is that of the first.
+/// Particles starting with `first`, in the form for a constitutive model. `velocityGradient` is that of the first.
 template <int D>
 StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* velocityGradient, int first, int count,
                           double* waveSpeed, StressResults& results) {
@@ -195,8 +195,8 @@ void heatByViscosity(const Material& material, double growth, const StateUpdate<
   material.model->addViscousHeat(valuesOf(u.state) + p * u.stateSize, heat);
 }
 
-/// Updates the artificial viscosity of particles from `first` on, and its heat; the arrays of velocity gradients and
-/// bulk wave speeds (m/s) start with the first particle.
+/// Updates the artificial viscosity of particles starting with `first`, and its heat; the arrays of velocity gradients
+/// and bulk wave speeds (m/s) start with the first particle.
 template <int D>
 void updateViscosity(const Material& material, const Method& method, double dt, const StateUpdate<D>& u,
                      const Matrix3* velocityGradient, const double* bulkSpeed, int first, int count) {
@@ -214,7 +214,8 @@ void updateViscosity(const Material& material, const Method& method, double dt, 
   }
 }
 
-/// Strain energy of particles from `first` on, from its density (J/m^3 of the volume at F = I); 0 for failed particles.
+/// Strain energy of particles starting with `first`, from its density (J/m^3 of the volume at F = I); 0 for failed
+/// particles.
 template <int D>
 void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const double* density, int first,
                         int count) {
@@ -249,7 +250,7 @@ void updateStress(const Level& level, const Material& material, const Method& me
 template <class Shape>
 inline constexpr bool updatesTogether = Shape::dimension == 3;
 
-/// Moves `count` particles of a cell, from `first` on, to the end of the step, without updating their stress.
+/// Moves `count` particles of a cell, starting with `first`, to the end of the step, without updating their stress.
 template <class Shape, class Move, int D = Shape::dimension>
 [[gnu::always_inline]] inline void moveAndDeform(const Level& level, const Index<D>& cell,
                                                  const Extents<Shape>& extents, const Material& material,
