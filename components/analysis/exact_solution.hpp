@@ -5,7 +5,7 @@
 namespace tushar::analysis {
 
 /// `exactSolution`: errors of a scalar cell or node variable without a material, of the state or of the diagnostics,
-/// against a formula in x, y, z and t.
+/// relative to a formula in x, y, z and t.
 simulation::AnalysisKind exactSolutionKind();
 
 }  // namespace tushar::analysis

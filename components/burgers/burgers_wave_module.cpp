@@ -12,7 +12,7 @@ namespace {
 
 inline constexpr ReductionLabel<Norm> waveError{"CellError.u", "m/s", "error of the mean u of cells"};
 
-/// The exact solution for the task, set before it runs.
+/// The exact solution for the task, which is set before the task runs.
 struct Exact {
   BurgersWave wave;
   double time = 0;

@@ -86,7 +86,7 @@ class CurvedGas {
   double pressure(double rho, double energy) const {
     return cold_.pressure(rho) + (isBarotropic() ? 0.0 : gamma_ * (energy - cold_.energy(rho)));
   }
-  /// The second number of a state for an internal energy per volume.
+  /// The last number of a state for an internal energy per volume.
   double last(double rho, double energy) const {
     return isBarotropic() ? energy - cold_.energy(rho) : pressure(rho, energy);
   }
@@ -104,7 +104,7 @@ class CurvedGas {
   static double greatestEnergy(double) { return std::numeric_limits<double>::infinity(); }
 
   double temperature(double rho, double energy) const { return (energy - cold_.energy(rho)) / (rho * specificHeat_); }
-  /// The second number of a state for a temperature [K].
+  /// The last number of a state for a temperature [K].
   double lastAt(double rho, double temperature) const {
     const double heat = rho * specificHeat_ * temperature;
     return isBarotropic() ? heat : cold_.pressure(rho) + gamma_ * heat;
@@ -122,11 +122,11 @@ class CurvedGas {
     }
     return most;
   }
-  /// Entropy per mass over c_v, except for a constant: ln T - Gamma ln rho.
+  /// Entropy per mass divided by c_v, up to a constant: ln T - Gamma ln rho.
   double entropy(double rho, double energy) const {
     return std::log(temperature(rho, energy)) - gamma_ * std::log(rho);
   }
-  /// Approximately p / (rho u²) behind a strong shock, where u is the speed that it gives to gas at rest.
+  /// Approximately p / (rho u²) behind a strong shock, which accelerates gas at rest to the speed u.
   double shockSlope() const {
     return 0.5 * (cold_.kind == ColdCurve::Kind::murnaghan ? cold_.exponent + 1 : gamma_ + 2);
   }

@@ -9,14 +9,14 @@
 
 namespace tushar::ice {
 
-/// The conditions on which a surface burns.
+/// The conditions under which a surface burns.
 struct AtSurface {
   double pressure = 0;         ///< of the gas at the surface, Pa
   double bodyTemperature = 0;  ///< of the body below its surface, K
   double bodyDensity = 0;      ///< kg/m³
 };
 
-/// A rate by the pressure alone, as Uintah's Simple_Burn has it.
+/// A rate that depends only on the pressure, as in Uintah's Simple_Burn.
 struct SimpleBurn {
   double coefficient = 0;        ///< kg/(m² s) at the reference pressure
   double referencePressure = 0;  ///< Pa
@@ -28,8 +28,8 @@ struct SimpleBurn {
   }
 };
 
-/// The steady deflagration of a solid with a reaction in it and one in the gas close to it: its surface temperature
-/// T_s and its rate m satisfy
+/// The steady deflagration of a solid, with a reaction in the solid and one in the gas close to it: its surface
+/// temperature T_s and its rate m satisfy
 ///
 ///   m² = A R k_c rho T_s² exp(-E / (R T_s)) / (E c (T_s - T_0 - Q_c / (2 c)))
 ///   T_s = T_0 + Q_c / c + Q_g / c / (1 + x m c / k_g),   x = 2 k_g / (c (sqrt(m² + 4 k_g B (W p)² / (c R²)) - m)).
@@ -78,13 +78,13 @@ struct SteadyBurn {
   }
 };
 
-/// `<Model type="Test">` of a body: a part of all that is left of it becomes gas per time, wherever it is.
+/// `<Model type="Test">` of a body: a fraction of the remaining body per time is converted into gas, everywhere.
 struct Decay {
   double perTime = 0;    ///< 1/s
   double startTime = 0;  ///< s
 };
 
-/// A body that turns into a gas.
+/// A body that is converted into a gas.
 struct BurnModel {
   Location where;                  ///< in the scene
   std::string from, to;            ///< the materials
@@ -93,9 +93,9 @@ struct BurnModel {
   double heat = 0;                 ///< of the reaction, J/kg
   std::variant<SimpleBurn, SteadyBurn, Decay> law;
 
-  /// Whether surfaces burn, rather than the whole.
+  /// Whether surfaces burn, rather than the whole body.
   bool burnsAtSurface() const { return !std::holds_alternative<Decay>(law); }
-  /// Rate of a surface that is alight, kg/(m² s).
+  /// Rate of a burning surface, kg/(m² s).
   double rate(const AtSurface& at) const {
     return std::visit(
         [&](const auto& model) {

@@ -15,7 +15,7 @@ namespace tushar::ice {
 struct IceSettings {
   euler::Diffusion diffusion;
   Vec3 gravity = Vec3::Zero();  ///< m/s²
-  double soundSpeedKnob = 0;    ///< fraction of the speed of sound that limits implicit steps; 0: none
+  double soundSpeedKnob = 0;    ///< fraction of the speed of sound that limits implicit steps; 0: no limit
   solvers::LinearSettings solver = {};
 };
 
@@ -23,12 +23,12 @@ struct IceSettings {
 template <int D>
 using IsFlat = std::function<bool(const Index<D>&)>;
 
-/// The gas before a step, also beyond sides of the grid, and the values prescribed at faces in these sides. A face is
+/// The gas before a step, including cells outside the grid, and the values prescribed at faces in its sides. A face is
 /// named by an axis and the cell above it.
 template <int D>
 class GasBefore {
  public:
-  /// Room for boxes of up to `cells` cells; the rules at the sides outlive this.
+  /// Space for boxes of up to `cells` cells; the rules at the sides must outlive this object.
   GasBefore(const Level& level, const euler::Gas& gas, const Vec3& gravity, const euler::GhostRules<D>& rules,
             std::size_t cells, IsFlat<D> isFlat = {})
       : level_(level),
@@ -50,7 +50,8 @@ class GasBefore {
   const Vec<D>& gravity() const { return gravity_; }
   /// rho, v and p.
   const euler::Rows<D>& old() const { return old_; }
-  /// Fills `rows`, also beyond sides, with the old state but another pressure in the cells of the grid.
+  /// Fills `rows`, including cells outside the grid, with the old state, but with another pressure in the cells of the
+  /// grid.
   void fillWithPressure(const CellView<const double>& pressure, euler::Rows<D>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double) { return pressure[cell]; });
   }
@@ -85,7 +86,7 @@ class GasBefore {
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     return rule && rule->factor[euler::kPressure<D>] != 0;
   }
-  /// Whether a face lies in a side that lets gas out: without a pressure, and without a velocity across it.
+  /// Whether a face lies in a side through which gas leaves: without a pressure, and without a velocity across it.
   bool isOpen(const Index<D>& face, int axis) const { return isFree(face, axis) && !givenVelocity(face, axis); }
   /// rho_f, kg/m³.
   double density(const Index<D>& face, int axis) const { return mean(old_, face, axis, euler::kDensity); }
@@ -153,7 +154,7 @@ class GasBefore {
 template <int D>
 class FaceFlow : public GasBefore<D> {
  public:
-  /// Room for boxes no larger than `largest`.
+  /// Space for boxes no larger than `largest`.
   FaceFlow(const Level& level, const euler::Settings& method, const IceSettings& settings,
            const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {})
       : GasBefore<D>(level, method.gas, settings.gravity, rules, largest.grown(2, D).size(), std::move(isFlat)),

@@ -21,7 +21,8 @@ namespace {
 
 constexpr const char* solverTag = "Solver";
 
-/// The number of the material for which a condition holds; -1 for all, or if the id is invalid, which the grid reports.
+/// The index of the material to which a condition applies; -1 for all materials, or if the id is invalid, which the
+/// grid reports.
 int materialOf(const Element& condition) {
   return input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
 }
@@ -36,7 +37,7 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   if (var == nameOf(BoundaryKind::neumann)) {
     if ((number && *number != 0) || (vector && *vector != Vec3::Zero()))
       diagnostics.error(
-          *text, fmt::format("found '{}', expected 0: a Neumann condition continues {} unchanged beyond the grid",
+          *text, fmt::format("found '{}', expected 0: a Neumann condition continues {} unchanged outside the grid",
                              text->text(), label));
     return;
   }
@@ -50,18 +51,18 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   limit(euler::boundary::temperature, "K");
 }
 
-/// Checks the conditions of the gas, which is material `gas` of the scene, and of further gases after it.
+/// Checks the conditions of the gas, which is material `gas` of the scene, and of the gases that follow it.
 void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const int material = materialOf(condition);
     if (material >= gas + gases)
       diagnostics.error(condition.whereOf("id"), condition.path(),
-                        gases == 1 ? fmt::format("there is no material {}: the gas is number {}", material, gas)
-                                   : fmt::format("there is no material {}: the gases are numbers {} to {}", material,
+                        gases == 1 ? fmt::format("there is no material {}: the gas has index {}", material, gas)
+                                   : fmt::format("there is no material {}: the gases have indices {} to {}", material,
                                                  gas, gas + gases - 1));
     if (material >= 0 && material < gas && condition.attribute("label") == euler::boundary::density.name)
       diagnostics.note(condition,
-                       fmt::format("does nothing: material {} is a body; the gas is number {}", material, gas));
+                       fmt::format("does nothing: material {} is a body; the gas has index {}", material, gas));
     const bool isShared = condition.attribute("label") == euler::boundary::pressure.name;
     if (material < 0 || material >= gas || isShared) checkCondition(condition, diagnostics);
   }
@@ -79,7 +80,7 @@ void checkBeside(const Element& condition, bool slips, bool relaxes, Diagnostics
     diagnostics.error(condition, "with var LODI for the Pressure, only a Temperature may be given as well");
 }
 
-/// Reports conditions of faces that contradict one another, or that need another one.
+/// Reports conditions of faces that contradict one another, or that require another condition.
 void checkWords(const Element& root, Diagnostics& diagnostics) {
   const auto group = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   for (const Element& face : group ? group->children("Face") : std::vector<Element>()) {
@@ -99,7 +100,8 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
   }
 }
 
-/// Notes a given pressure that differs from the one that follows; as in Uintah, it is ignored.
+/// Notes a given pressure that differs from the one that follows from density and temperature; as in Uintah, it is
+/// ignored.
 void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
   if (!body.pressure) return;
   if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;
@@ -107,8 +109,9 @@ void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element
   const double density = body.density(Vec3::Zero());
   const double pressure = gas.pressureOf(density, gas.lastAt(density, body.temperature(Vec3::Zero())));
   if (std::abs(given - pressure) > 1e-3 * pressure)
-    diagnostics.note(*element.child("pressure"),
-                     fmt::format("does nothing: density and temperature give {:g} Pa", pressure));
+    diagnostics.note(
+        *element.child("pressure"),
+        fmt::format("does nothing: the pressure follows from density and temperature, and is {:g} Pa", pressure));
 }
 
 /// The Dirichlet condition of a face for the gas, if it has one; the pressure is shared with material 0.
@@ -138,13 +141,16 @@ void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagn
     if (!density || !pressure || !temperature) continue;
     const auto rho = valueOf(*density), p = valueOf(*pressure), t = valueOf(*temperature);
     if (!rho || !p || !t) {
-      diagnostics.error(*temperature, "Density and Pressure already give a temperature; keep two of the three");
+      diagnostics.error(*temperature,
+                        "the temperature already follows from Density and Pressure; keep two of the three");
       continue;
     }
     const double fitting = *p / (gas.gasConstant() * *rho);
     if (std::abs(*t - fitting) <= 1e-3 * fitting) continue;
     if (std::abs(*t - fitting) <= 1e-2 * fitting)  // rounded, or changed a little in one of them
-      diagnostics.note(*temperature, fmt::format("does nothing: Density and Pressure give {:g} K", fitting));
+      diagnostics.note(
+          *temperature,
+          fmt::format("does nothing: the temperature follows from Density and Pressure, and is {:g} K", fitting));
     else
       diagnostics.error(*temperature,
                         fmt::format("found {:g} K, but the Density, at {}, and the Pressure, at {}, give {:g} K; keep "
@@ -181,7 +187,7 @@ void checkShares(const GasMaterial& material, Diagnostics& diagnostics) {
   for (const GasBody& body : material.bodies)
     if (body.share && !(body.share->isConstant() && (*body.share)(Vec3::Zero()) == 1))
       diagnostics.error(body.share->where(), "MaterialProperties/ICE/material/geom_object/volumeFraction",
-                        fmt::format("found '{}', expected 1: the gas fills the region", body.share->text()));
+                        fmt::format("found '{}', expected 1: a single gas fills the region", body.share->text()));
 }
 
 /// The diffusion of a gas, with the eddies of the scene.
@@ -222,11 +228,11 @@ void readGases(const std::vector<GasMaterial>& materials, const Element& root, G
 
 bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }
 
-/// Sections of implicit steps that do nothing here.
+/// Sections of implicit steps that have no effect in Tushar.
 void noteIdle(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   if (const auto solver = root.child(solverTag))
     diagnostics.note(*solver, isImplicit(ice) ? "does nothing: the settings of the solve are in <ImplicitSolver>"
-                                              : "does nothing: steps are explicit, without a system of equations");
+                                              : "does nothing: explicit steps solve no system of equations");
   if (ice.steps && !isImplicit(ice))
     diagnostics.note(*root.child("CFD")->child("ICE")->child("TimeStepControl"),
                      "does nothing: steps follow from <cfl>, and from the sound speed and the diffusion in each cell");
@@ -249,10 +255,10 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
   return read;
 }
 
-/// Refuses what a gas can have only without bodies.
+/// Refuses features of a gas that are not available with bodies.
 void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   const Element tag = *root.child("CFD")->child("ICE");
-  const char* sentence = "is not available beside bodies: remove it, or keep only the gas";
+  const char* sentence = "is not available with bodies: remove it, or keep only the gas";
   if (ice.push) diagnostics.error(*tag.child("fixedPressureGradient"), sentence);
 }
 
@@ -287,7 +293,7 @@ Vec3 middleOf(const Element& root) {
   return 0.5 * (corner("upper") - corner("lower"));
 }
 
-/// Takes the velocity and the temperature that <customInitialization> gives the gas at the start.
+/// Applies the velocity and the temperature of <customInitialization> to the initial gas.
 void takeDisturbance(const CustomStart& start, const std::vector<GasMaterial>& materials, const Element& root,
                      euler::Settings& gas, Diagnostics& diagnostics) {
   if (const std::string problem = start.problem(materials.size()); !problem.empty())

@@ -91,7 +91,7 @@ const input::Schema<Settings>& schema() {
 
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind =
-      simulation::kindWithSection<ImplicitHeat>("implicit_heat", "heat conduction, implicit: stable with any step",
+      simulation::kindWithSection<ImplicitHeat>("implicit_heat", "heat conduction, implicit: stable with any time step",
                                                 schema(), {boundary::temperature, grid::symmetric});
   kind.takesLevels = true;
   kind.amrSections = {"Heat"};

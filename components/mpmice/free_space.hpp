@@ -23,8 +23,8 @@ struct OpenFaces {
   double wall(int side) const { return area - open[side]; }
 };
 
-/// The degree to which the walls of a cell face the same way: 1 for one plane wall, 0 for two walls that face each
-/// other.
+/// The degree to which the walls of a cell face in the same direction: 1 for one plane wall, 0 for two walls that face
+/// each other.
 template <int D>
 double facingOneWay(const Level& level, const std::array<OpenFaces, D>& faces) {
   double open = 0, all = 0;
@@ -65,7 +65,7 @@ class FreeSpace {
   /// The cell itself or, beyond the grid, the nearest on it.
   Index<D> onGrid(const Index<D>& cell) const { return nearestOnGrid(*level_, cell); }
 
-  /// Open share of a face.
+  /// Open fraction of a face.
   double aperture(const Index<D>& cell, int axis, int side) const {
     if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : roomOf(cells_.free[cell]);
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);

@@ -51,7 +51,7 @@ void checkMomentum(const ice::Exchange& exchange, int solids, int gases, bool ar
   });
   if (solids > 1)
     diagnostics.note(tag.child("momentum").value_or(tag),
-                     "does nothing between bodies: they interact by their <contact>");
+                     "does nothing between bodies: they interact through their <contact>");
 }
 
 /// The coefficients of heat; none if there are not as many as pairs, or a body has no specific heat.
@@ -61,23 +61,25 @@ ice::HeatCoefficients heatOf(const ice::Exchange& exchange, int solids, int gase
   if (!heat.pairs.empty() && !hasAllPairs(heat.pairs, "heat", solids + gases, tag, diagnostics)) return {};
   if (!heat.act()) return {};
   for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material"))
-    if (!material.child("specific_heat")) diagnostics.error(material, "missing tag <specific_heat>: it exchanges heat");
+    if (!material.child("specific_heat"))
+      diagnostics.error(material, "missing tag <specific_heat>: the body exchanges heat");
   return heat;
 }
 
-/// Refuses what gives a burning surface a wrong area or pressure.
+/// Refuses settings that would give a burning surface a wrong area or pressure.
 void checkBurning(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
   if (scene.burns.size() > 1)
-    diagnostics.error(scene.burns[1].where, "Models/Model", "one body of a scene may burn; take the others out");
+    diagnostics.error(scene.burns[1].where, "Models/Model",
+                      "only one body of a scene can burn; remove the other burn models");
   const Element gas = *root.child("CFD")->child("ICE");
   if (scene.thinWalls.value_or(false))
-    diagnostics.error(*gas.child("thin_walls"), "is not available with a body that burns: remove it");
+    diagnostics.error(*gas.child("thin_walls"), "is not available with a burning body: remove it");
   if (scene.implicit)
     diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "is not available with a body that burns: remove it, or run with --set CFD/ICE/explicit=true");
+                      "is not available with a burning body: remove it, or run with --set CFD/ICE/explicit=true");
 }
 
-/// The place of a material among those of its kind; reports a name that is not among them.
+/// The index of a material among those of its kind; reports a name that is not among them.
 std::size_t placeOf(const std::string& name, const std::vector<std::string>& names,
                     const std::vector<std::string>& others, const char* kind, const char* otherKind,
                     const std::function<void(const std::string&)>& refuse) {
@@ -91,7 +93,7 @@ std::size_t placeOf(const std::string& name, const std::vector<std::string>& nam
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// The body that burns, if one does.
+/// The burning body, if there is one.
 std::optional<Burning> burningOf(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
   if (scene.burns.empty()) return {};
   checkBurning(scene, root, diagnostics);
@@ -110,7 +112,8 @@ std::optional<Burning> burningOf(const ice::GasScene& scene, const Element& root
   burning.body = placeOf(model.from, bodies, gases, "body", "gas", refuse("fromMaterial"));
   burning.gas = placeOf(model.to, gases, bodies, "gas", "body", refuse("toMaterial"));
   if (burning.body < materials.size() && !materials[burning.body].child("specific_heat"))
-    diagnostics.error(materials[burning.body], "missing tag <specific_heat>: it burns, and gives its heat to the gas");
+    diagnostics.error(materials[burning.body],
+                      "missing tag <specific_heat>: the body burns, and its heat is added to the gas");
   return burning;
 }
 
@@ -131,7 +134,7 @@ void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diag
                                   scene.gas.cfl, greatestCfl));
 }
 
-/// Notes that conditions on a part of a side hold only for the gas, and that bodies have those of the whole side.
+/// Notes that conditions on a part of a side apply only to the gas, and that bodies have those of the whole side.
 void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagnostics) {
   const auto grid = root.child("Grid");
   const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
@@ -142,7 +145,7 @@ void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagno
       const bool isOfGas = label == euler::boundary::density.name || label == euler::boundary::pressure.name;
       const int material = input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
       if (isOfGas || material >= solids || condition.attribute("var") == nameOf(BoundaryKind::neumann)) continue;
-      diagnostics.note(condition, "holds for the gas only: bodies have the conditions of the whole side");
+      diagnostics.note(condition, "applies only to the gas: bodies have the conditions of the whole side");
     }
   }
 }
@@ -161,13 +164,13 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
   if (!scene.scalars.empty())
     diagnostics.error(scene.scalars.front().where, "Models/Model",
-                      "is not available beside bodies; remove it, or keep only the gas");
+                      "is not available with bodies; remove it, or keep only the gas");
   if (!scene.massExchanges.empty())
     diagnostics.error(scene.massExchanges.front().where, "Models/Model",
-                      "is not available beside bodies; take it out, or keep only the gas");
+                      "is not available with bodies; remove it, or keep only the gas");
   if (scene.implicit && scene.gas.gas.law)
     diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "is not available beside bodies in a gas that is neither ideal nor stiffened: remove it, or run "
+                      "is not available with bodies in a gas that is neither ideal nor stiffened: remove it, or run "
                       "with --set CFD/ICE/explicit=true");
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
@@ -203,7 +206,7 @@ simulation::ComponentKind kind(bool areRigid) {
   simulation::ComponentKind kind;
   kind.name = areRigid ? "rmpmice" : "mpmice";
   kind.sentence = areRigid ? "a compressible gas around bodies of particles that keep their velocities"
-                           : "a compressible gas and bodies of particles, which interact";
+                           : "a compressible gas that interacts with bodies of particles";
   kind.sections = ice::gasSections();
   kind.sections.insert(kind.sections.end(), {"MPM", "PhysicalBC"});
   kind.takesLevels = true;

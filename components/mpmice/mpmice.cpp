@@ -94,7 +94,7 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
       computes(total::forceOnBodies), computes(g::surroundingForce<D>));
 }
 
-/// What burns in the step, by the state at its start.
+/// The mass that burns in the step, according to the state at its start.
 template <int D>
 void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials) const {
   tasks.acrossMaterials("mpmice::measureReactant", measureReactant<D>, materials, with(settings_),
@@ -106,7 +106,7 @@ void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials) 
                  computes(c::burntShare));
 }
 
-/// The pressure at the end of the step, that on walls included.
+/// The pressure at the end of the step, including that on walls.
 template <int D>
 void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials) const {
   constexpr typename GasInCells<D>::Reach reach{.mass = 3, .room = 3};
@@ -122,7 +122,7 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
                         withoutMaterial(all<WallPressures<D>>()));
 }
 
-/// What bodies fill at the end of the step, and what they swept.
+/// The volume that bodies fill at the end of the step, and the volume that they swept.
 template <int D>
 void GasAround<D>::scheduleBoxes(TaskList& tasks, const Materials& materials) const {
   if (burns())
@@ -193,7 +193,7 @@ void GasAround<D>::scheduleHeat(TaskList& tasks, const Materials& materials) con
                    requiresOld(delT), modifies(c::totalEnergy));
 }
 
-/// Heat through the walls of bodies, by the state at the start of the step.
+/// Heat through the walls of bodies, according to the state at the start of the step.
 template <int D>
 void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& materials) const {
   constexpr typename GasInCells<D>::Reach reach{.state = 1, .mass = 2, .room = 2};
@@ -241,7 +241,7 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
   scheduleStepsOfDiffusion(tasks, 1);
 }
 
-/// The limit of a viscosity that varies, beside this part of the speed of sound.
+/// The limit of a varying viscosity, together with this fraction of the speed of sound.
 template <int D>
 void GasAround<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
   if (settings_.diffusion.acts() && settings_.diffusion.varies())

@@ -8,7 +8,7 @@
 
 namespace tushar::mpmice {
 
-/// A gas in the space that bodies of particles leave free, in D dimensions: finite volumes with walls.
+/// A gas in the space around bodies of particles, in D dimensions: finite volumes with walls.
 ///
 /// The schedule of the solids calls its functions, which add its tasks among theirs. mpmice.cpp has the schedule.
 template <int D>
@@ -43,7 +43,7 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
   bool burns() const { return settings_.burning.has_value(); }
-  /// Whether what burns has strain energy, which the gas gets.
+  /// Whether the burning body has strain energy, which is added to the gas.
   bool keepsStrain(const Materials& materials) const;
   void scheduleBurning(TaskList& tasks, const Materials& materials) const;
   void scheduleBoxes(TaskList& tasks, const Materials& materials) const;

@@ -82,7 +82,7 @@ class BoxMean {
 void checkBox(const Vec3& lower, const Vec3& upper) {
   if (!(upper.array() >= lower.array()).all()) {
     throw std::invalid_argument(fmt::format(
-        "There is no mean over the box [{}, {}, {}] to [{}, {}, {}]: its upper corner is below its lower one.",
+        "There is no mean over the box [{}, {}, {}] to [{}, {}, {}]: its upper corner is below its lower corner.",
         lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]));
   }
 }

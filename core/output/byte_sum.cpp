@@ -86,7 +86,7 @@ std::uint64_t ByteSum::power(std::uint64_t number) {
   return last_power_;
 }
 
-/// Adds a part of a word; its other bytes count as 0.
+/// Adds a part of a word; its other bytes are treated as 0.
 void ByteSum::addWord(std::uint64_t number, std::span<const std::byte> bytes, std::uint64_t before) {
   if (bytes.empty()) return;
   std::array<std::byte, wordBytes> word{};

@@ -48,8 +48,7 @@ class BlockChoice {
                                                             namesOfNearest(sizes, wanted));
     diagnostics_.error(
         level_.children("Box").front(),
-        fmt::format("its {} along {} cannot be cut into blocks of an even number of cells from {} to {}; "
-                    "{}",
+        fmt::format("its {} along {} cannot be divided into blocks of an even number of cells from {} to {}; {}",
                     counted(cells, "cell"), "xyz"[axis], amr_.fewestCellsOfBlock, most, instead));
   }
 
@@ -63,9 +62,10 @@ class BlockChoice {
     else if (cells % size == 0 && size >= amr_.fewestCellsOfBlock)
       return;
     else if (sizes.empty())
-      diagnostics_.error(place_,
-                         fmt::format("{}; no even number of at least {} divides the grid: choose another <resolution>",
-                                     problemOfBlock(axis, cells, size), amr_.fewestCellsOfBlock));
+      diagnostics_.error(
+          place_,
+          fmt::format("{}; no even number of at least {} divides the number of cells: choose another <resolution>",
+                      problemOfBlock(axis, cells, size), amr_.fewestCellsOfBlock));
     else
       takeNearestBlock(axis, cells, size, sizes);
   }
@@ -102,7 +102,7 @@ class BlockChoice {
     return sizes;
   }
 
-  /// The sizes nearest to a wanted one, in words: `4, 10 or 20`.
+  /// The sizes closest to a requested one, in words: `4, 10 or 20`.
   static std::string namesOfNearest(std::vector<int> sizes, int wanted) {
     constexpr std::size_t most = 6;
     std::stable_sort(sizes.begin(), sizes.end(),

@@ -22,10 +22,10 @@ const Schema<GridBox>& boxSchema() {
           .required("upper", &GridBox::upper, "m", "upper corner")
           .optional("resolution", &GridBox::resolution, "1", "cells along x, y, z (or give <spacing> of the Level)",
                     input::atLeast(1))
-          .optional(
-              "patches", &GridBox::patches, "1",
-              "patches along x, y, z; if neither this nor autoPatch is given, as many as the threads and ranks need",
-              input::atLeast(1))
+          .optional("patches", &GridBox::patches, "1",
+                    "number of patches along x, y, z; if neither this nor autoPatch is given, it depends on the number "
+                    "of threads and ranks",
+                    input::atLeast(1))
           .optional("autoPatch", &GridBox::autoPatch, "1", "approximate number of patches, instead of <patches>",
                     input::atLeast(1))
           .value(
@@ -49,11 +49,11 @@ const Schema<LevelSection>& levelSchema() {
       Schema<LevelSection>(
           "Level", "A grid of cells of one size; each further Level has boxes in which the grid is at least as fine.")
           .list("Box", &LevelSection::boxes, boxSchema(),
-                "the box that is divided into cells; further Levels may have any number of them, each grown to whole "
-                "blocks (see AMR/Regridder/min_patch_size)",
+                "the box that is divided into cells; further Levels may have any number of boxes, each enlarged to "
+                "whole blocks (see AMR/Regridder/min_patch_size)",
                 1)
-          .optional("spacing", &LevelSection::spacing, "m", "cell widths, instead of the resolution of the Box",
-                    input::positive())
+          .optional("spacing", &LevelSection::spacing, "m",
+                    "cell widths along x, y, z, instead of the resolution of the Box", input::positive())
           .value("periodic", &LevelSection::periodic, Index3{}, "1", "1 along periodic axes; the same for all Levels",
                  input::between(0, 1))
           .check([](const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
@@ -118,16 +118,17 @@ class Refiner {
     if (element.child("periodic") && !(section.periodic == levels_.front().periodic))
       diagnostics_.error(
           *element.child("periodic"),
-          fmt::format("found {}, but the first Level has {}; all Levels are periodic along the same axes",
+          fmt::format("found {}, but the first Level has {}; all Levels must be periodic along the same axes",
                       input::toText(section.periodic), input::toText(levels_.front().periodic)));
     std::optional<int> number;
     for (std::size_t b = 0; b < boxes.size(); ++b) {
       const GridBox& box = section.boxes[b];
       const std::optional<int> of = checkPlace(box, boxes[b]) ? levelOf(box, section, boxes[b]) : std::nullopt;
       if (of && number && of != number)
-        diagnostics_.error(boxes[b], fmt::format("its cells are {:g} times as fine as those of the first Level, but "
-                                                 "{:g} times in a Box above; give it a Level of its own",
-                                                 std::ldexp(1, *of), std::ldexp(1, *number)));
+        diagnostics_.error(boxes[b],
+                           fmt::format("its cells are {:g} times smaller than those of the first Level, but those of a "
+                                       "Box above are {:g} times smaller; put this Box into a separate Level",
+                                       std::ldexp(1, *of), std::ldexp(1, *number)));
       if (!of) continue;
       number = of;
       refinement_.regions.push_back({*of, box.lower, box.upper});
@@ -138,13 +139,16 @@ class Refiner {
 
   void checkOrder(std::size_t k, int number) {
     if (number <= finest_)
-      diagnostics_.error(elements_[k], fmt::format("this Level is not finer than the one before, at {}; Levels go from "
-                                                   "coarse to fine",
-                                                   elements_[k - 1].where().text()));
+      diagnostics_.error(
+          elements_[k],
+          fmt::format("this Level is not finer than the previous one, at {}; give Levels from coarse to fine",
+                      elements_[k - 1].where().text()));
     else if (number >= mostLevels)
-      diagnostics_.error(elements_[k],
-                         fmt::format("its cells are {:g} times as fine as those of the first Level; the most is {:g}",
-                                     std::ldexp(1, number), std::ldexp(1, mostLevels - 1)));
+      diagnostics_.error(
+          elements_[k],
+          fmt::format(
+              "its cells are {:g} times smaller than those of the first Level; the largest possible ratio is {:g}",
+              std::ldexp(1, number), std::ldexp(1, mostLevels - 1)));
     finest_ = std::max(finest_, number);
   }
 
@@ -181,14 +185,14 @@ class Refiner {
       const double ratio = coarsest_.cellWidth(axis) * cells[axis] / (box.upper[axis] - box.lower[axis]);
       const auto halvings = static_cast<int>(std::lround(std::log2(ratio)));
       if (std::abs(ratio - std::ldexp(1, halvings)) > 1e-6 * ratio)
-        diagnostics_.error(element, fmt::format("its cells are {:g} times as fine along {} as those of the first "
-                                                "Level, expected 2, 4, 8 or another power of two",
+        diagnostics_.error(element, fmt::format("its cells are {:g} times smaller along {} than those of the first "
+                                                "Level; the ratio must be 2, 4, 8 or another power of two",
                                                 ratio, "xyz"[axis]));
       else if (first && *first != halvings)
         diagnostics_.error(
             element,
-            fmt::format("its cells are {:g} times as fine along {}, but {:g} times along {}; refine all axes alike, "
-                        "and add another Level where one axis needs finer cells",
+            fmt::format("its cells are {:g} times smaller along {}, but {:g} times smaller along {}; refine all axes "
+                        "equally, and add another Level where one axis needs finer cells",
                         std::ldexp(1, *first), "xyz"[coarsest_.axis(0)], std::ldexp(1, halvings), "xyz"[axis]));
       if (!first) first = halvings;
     }
@@ -234,15 +238,16 @@ class Refiner {
     const int said = amr_.maxLevels.value_or(isAdaptive ? 2 : 1);
     const int asked = amr_.maxLevels ? levelsOfTwos(said) : std::max(levelsOfTwos(said), given);
     if (asked < given)
-      diagnostics_.error(place, fmt::format("found {}, but the Levels of <Grid> make {}", asked, given));
+      diagnostics_.error(
+          place, fmt::format("found {}, but there are {} levels according to the Levels of <Grid>", asked, given));
     else if (isAdaptive && asked < 2)
       diagnostics_.error(place, "found 1, expected at least 2, since the grid is <adaptive>");
     else if (!isAdaptive && asked > given)
       diagnostics_.note(place,
                         "does nothing: the grid is not <adaptive>, so its Levels alone determine what is refined");
     if (asked > mostLevels)
-      diagnostics_.error(place, fmt::format("found {}, which by <cell_refinement_ratio> are {} levels of ratio 2; the "
-                                            "most is {}",
+      diagnostics_.error(place, fmt::format("found {}, which corresponds to {} levels of ratio 2 because of "
+                                            "<cell_refinement_ratio>; at most {} are possible",
                                             said, asked, mostLevels));
     return isAdaptive ? std::min(asked, mostLevels) : given;
   }
@@ -252,8 +257,8 @@ class Refiner {
     const double blocks = cells / refinement_.blockCells[axis];
     if (cells <= mostCells && blocks <= mostBlocks) return;
     const Element place = regridderTagOr(amr_, "max_levels", elements_.back());
-    diagnostics_.error(place, fmt::format("{} levels make {:.3g} cells in {:.3g} blocks along {}; the most is {:.3g} "
-                                          "cells, and {} blocks",
+    diagnostics_.error(place, fmt::format("with {} levels there would be {:.3g} cells in {:.3g} blocks along {}; at "
+                                          "most {:.3g} cells and {} blocks are possible",
                                           refinement_.levels, cells, blocks, "xyz"[axis], mostCells, mostBlocks));
   }
 

@@ -37,9 +37,9 @@ void addBlocks(const std::string& text, std::vector<BlockId>& blocks) {
   std::memcpy(blocks.data() + before, text.data(), count * sizeof(BlockId));
 }
 
-/// Cells of a patch along an axis that are as near to the same blocks.
+/// Cells of a patch along an axis that are near the same blocks.
 struct CellRun {
-  int first, last;             ///< places in the patch, [first, last)
+  int first, last;             ///< indices in the patch, [first, last)
   std::pair<int, int> blocks;  ///< [lower, upper)
 };
 
@@ -89,8 +89,8 @@ void MarkedBlocks::add(const grid::Level& level, const Index3& cell, int mark) {
     });
 }
 
-/// Cells of a row mark blocks along the first axis, which then count for all rows of blocks near that row of cells: so
-/// each block is marked once, however many cells are near it.
+/// Cells of a row mark blocks along the first axis; the marks then apply to all rows of blocks near that row of cells.
+/// So each block is marked once, for any number of cells near it.
 void MarkedBlocks::add(const grid::Patch& patch, const int* marks, const Box& stored) {
   const grid::Level& level = patch.level();
   const Box& cells = patch.cells();

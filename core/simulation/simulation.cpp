@@ -120,8 +120,8 @@ void Simulation::resume() {
   run_.setTimeOfAnalyses();  // what was due up to now, the run before has sampled
 }
 
-/// Initialises the state on finer and finer cells, as far as it requires them: finer cells resolve more of the state in
-/// the scene.
+/// Initialises the state on successively finer cells, as far as it requires them: finer cells resolve more of the
+/// initial state.
 void Simulation::initialize() {
   do {
     initializeOnce();
@@ -133,7 +133,7 @@ void Simulation::initialize() {
   if (hasParticles && collect::particleCount(run_.warehouse, run_.materials()) == 0)
     throw InputError({{{run_.problem.scenePath, 0, 0},
                        "MaterialProperties",
-                       "there are no particles: no geom_object has a point on the grid"}});
+                       "there are no particles: no geom_object overlaps the grid"}});
 }
 
 void Simulation::refuseCoarseParticles() {

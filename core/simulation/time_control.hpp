@@ -53,7 +53,7 @@ class TimeControl {
   /// Whether a step may be repeated with half the time step because of an invalid value: if the scene requests it, and
   /// `repeat` would not throw.
   bool mayHalve() const;
-  /// How often the step in progress was repeated.
+  /// Number of repetitions of the step in progress.
   int repeats() const { return repeats_; }
   /// Steps that were undone and repeated so far.
   int retries() const { return retries_; }
@@ -76,7 +76,7 @@ class TimeControl {
   std::map<data::Reason, int> limits_;
 };
 
-/// Times that differ by less than this, relative to their size, count as the same.
+/// Times that differ by less than this, relative to their size, are considered the same.
 inline constexpr double timeResolution = 1e-12;
 
 /// The times start + k interval, k = 1, 2, …, which a run passes in turn.

@@ -24,8 +24,8 @@ PetscErrorCode keepMessage(MPI_Comm, int, const char*, const char*, PetscErrorCo
   return code;
 }
 
-/// Preserves the program's reaction to SIGTERM, which is to end the run with written output: PETSc takes that signal
-/// for itself when it starts, and leaves the system's default when it gives it back.
+/// Preserves the program's reaction to SIGTERM, which is to end the run with written output: PETSc installs its own
+/// handler at the start, and restores the system's default at the end.
 class KeptTermination {
  public:
   KeptTermination() { sigaction(SIGTERM, nullptr, &before_); }

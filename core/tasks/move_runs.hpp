@@ -34,7 +34,7 @@ inline void copyValue(const std::byte* from, std::byte* to, std::size_t bytes) {
   }
 }
 
-/// Moves `run.count` elements of `bytes` bytes from place `run.from` to place `run.to`.
+/// Moves `run.count` elements of `bytes` bytes from index `run.from` to index `run.to`.
 template <class Run>
 inline void moveRun(const Run& run, const std::byte* from, std::byte* to, std::size_t bytes) {
   to += static_cast<std::size_t>(run.to) * bytes;
@@ -46,9 +46,9 @@ inline void moveRun(const Run& run, const std::byte* from, std::byte* to, std::s
     std::memmove(to, from, static_cast<std::size_t>(run.count) * bytes);
 }
 
-/// Moves runs of elements of `bytes` bytes, possibly within the same memory: runs that move up are handled from the
-/// last to the first, so that none is overwritten before it has moved. Runs keep their order, so that one that goes
-/// down is never in the way of one that goes up.
+/// Moves runs of elements of `bytes` bytes, possibly within the same memory: runs that move up are processed from the
+/// last to the first, so that none is overwritten before it has been moved. Runs keep their order, so that one that
+/// goes down is never in the way of one that goes up.
 template <class Run>
 void moveRuns(const std::vector<Run>& runs, const std::byte* from, std::byte* to, std::size_t bytes) {
   const auto goesUp = [](const Run& run) { return run.to > run.from; };

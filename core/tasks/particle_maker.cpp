@@ -39,8 +39,8 @@ void ParticleMaker::makeSet(data::ParticleSet& set, const grid::Patch& patch, in
 
 void ParticleMaker::check(std::size_t access, const data::Label& label) const {
   if (columns_[access]->size() != ids_.size())
-    throw data::AccessError(
-        fmt::format("{} got {} values for {} particles made", label.name, columns_[access]->size(), ids_.size()));
+    throw data::AccessError(fmt::format("{} has {} values, but {} new particles were made", label.name,
+                                        columns_[access]->size(), ids_.size()));
 }
 
 void ParticleMaker::write(std::size_t access, const data::Label& label, std::byte* to) {

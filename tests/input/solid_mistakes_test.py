@@ -53,7 +53,7 @@ REFUSED = {
     "colors of friction that do not ascend":
         (BLOCK, ("friction_LR</type>", "friction_LRVar</type><master_material>0</master_material><variable_friction>"
                  "<entry><color>1</color><mu>0</mu></entry><entry><color>1</color><mu>1</mu></entry>"
-                 "</variable_friction>"), "its color is not above that of the previous one"),
+                 "</variable_friction>"), "its color is not above that of the previous entry"),
     "a master that turns without a file":
         (BILLET, ("<materials>[0,1]</materials>", "<include_rotation>true</include_rotation>"),
          "needs a contact of type rigid, specified or specified_friction and its <filename>"),
@@ -87,7 +87,7 @@ REFUSED = {
          "temperature_solve: is not available; nodes take the mean temperature of their particles"),
     "a body that does not fill its shape":
         (BILLET, ("<geom_object>", "<geom_object><volumeFraction>0.5</volumeFraction>"),
-         "volumeFraction: found '0.5', expected 1: a body fills its shape"),
+         "volumeFraction: found '0.5', expected 1: a body always fills its shape"),
     "a first step after a restart":
         (BILLET, ("</Time>", "<override_restart_delt>1e-3</override_restart_delt></Time>"),
          "override_restart_delt: found '1e-3', expected 0: a restart continues with the step that the run would "
@@ -122,7 +122,7 @@ REFUSED = {
          "unknown attribute 'unit' of <usePlasticity>"),
     "a tag in a switch":
         (BEAM, (RUBBER, RUBBER + "<usePlasticity>false<b/></usePlasticity>"),
-         "tag <b> in <usePlasticity>, where only a value is allowed"),
+         "found tag <b> in <usePlasticity>, where only a value is allowed"),
     "a surface of Mohr and Coulomb without corners":
         (BEAM, (RUBBER, '<constitutive_model type="MohrCoulomb"><G>1</G><K>1</K><Version>3</Version>'),
          "Version: found '3', expected 1, 11, 12: stresses return to the nearest point of a surface with corners"),
@@ -136,7 +136,7 @@ REFUSED = {
          "MPM/DoPressureStabilization=true"),
     "an energy budget of implicit steps":
         (BEAM, ("<dynamic>", " <dynamic>"),
-         "only solids with explicit time steps have an energy budget; remove the module",
+         "the energy budget is available only for solids with explicit time steps; remove the module",
          "DataAnalysis/Module/@name=energyBudget"),
     "the heat of a viscosity that is not there":
         (SPALL, ("<artificial_viscosity>true", "<artificial_viscosity>false"),
@@ -171,7 +171,7 @@ REFUSED = {
          "<minimum_particle_mass> is 1 kg"),
     "an exclusion that friction does not know":
         (BILLET, ("<type>rigid</type>", "<type>friction</type><mu>.1</mu><ExcludeMaterial>0</ExcludeMaterial>"),
-         "acts in contacts of type rigid, specified and single_velocity only"),
+         "applies only to contacts of type rigid, specified and single_velocity"),
 }
 
 

@@ -67,7 +67,7 @@ class Conservation(SceneTest):
         self.assertAlmostEqual(totals["BurntMass"][-1][1] / before, 1 - 2.718281828459045 ** -.15, delta=1e-3)
 
 
-# Of a model in which a slab as cold as 1 burns at about .02 by pressure 1; see SteadyBurn of components/ice/burn_model.hpp.
+# A slab of temperature 1 burns at about .02 under pressure 1; see SteadyBurn in components/ice/burn_model.hpp.
 STEADY = {"IdealGasConst": 1, "PreExpCondPh": .03, "ActEnergyCondPh": 5, "PreExpGasPh": .08, "CondPhaseHeat": .2,
           "GasPhaseHeat": 1.8, "HeatConductGasPh": .01, "HeatConductCondPh": .01, "SpecificHeatBoth": 1,
           "MoleWeightGasPh": 1}

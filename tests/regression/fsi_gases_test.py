@@ -64,7 +64,7 @@ class Conservation(ConservationTest):
             self.assert_kept(self.warm(heat), "Time/maxTime=0.5")
 
     def assert_energy_grows(self, text, rates):
-        """By the mass of each gas times its rate [W/kg] and the time; rates by names of totals, in the scene's order."""
+        """By the mass of each gas times its rate [W/kg] and the time. `rates`: by names of totals, in order."""
         tags = (f"<add_heat_matls>{[1 + k for k in range(len(rates))]}</add_heat_matls>"
                 f"<add_heat_coeff>{list(rates.values())}</add_heat_coeff>"
                 "<add_heat_t_start>0</add_heat_t_start><add_heat_t_final>9</add_heat_t_final>")

@@ -70,7 +70,7 @@ class Levels(SceneTest):
                         ("</Level>", "</Level>" + level), (END, blocks + END))
         done = run(self.scene(still), "Time/maxTime=0.3")
         self.assertNotEqual(done.code, 0)
-        self.assertIn("not among the finest", done.err)
+        self.assertIn("not on the finest level", done.err)
 
 
 class Shares(SceneTest):
@@ -81,7 +81,8 @@ class Shares(SceneTest):
                        ("<reference_pressure>1<", "<reference_pressure>0<"))
         names = ("c.shareOfGas0", "c.shareOfGas1", "c.density")
         scene = self.scene(also(refined(text), *names))
-        found = columns(archive_of(scene, scene.parent, "Grid/Level/Box/resolution=[80,1,1]", "Time/maxTime=0.3"), *names)
+        archive = archive_of(scene, scene.parent, "Grid/Level/Box/resolution=[80,1,1]", "Time/maxTime=0.3")
+        found = columns(archive, *names)
         shares = zip(found["c.shareOfGas0 [1]"], found["c.shareOfGas1 [1]"], found["c.density [kg/m^3]"])
         sums = [a + b for a, b, mass in shares if mass > 0]
         self.assertGreater(len(sums), 80)

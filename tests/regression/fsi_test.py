@@ -357,7 +357,7 @@ class WrongScenes(RefusedSceneTest):
 
     def test_bodies_that_exchange_heat_need_a_specific_heat(self):
         self.assert_refused(PLUG.replace("<heat>[0]", "<heat>[1e15]"),
-                            "missing tag <specific_heat>: it exchanges heat")
+                            "missing tag <specific_heat>: the body exchanges heat")
 
     def test_bodies_have_walls(self):
         self.assert_refused(PLUG.replace("<momentum>[1e15]", "<momentum>[1e3]"),

@@ -19,7 +19,7 @@ struct NewGas {
   static NewGas from(auto& take) { return {.mass = take(computes(c::gasMass)), .share = take(computes(c::gasShare))}; }
 };
 
-/// The law of gases at a cell: `gases` have the laws, `held` the shares.
+/// The law of the gases in a cell: `gases` have the laws, `held` the volume fractions.
 template <class Held, int D>
 MixedGas mixedAt(const std::vector<Settings>& gases, const std::vector<Held>& held, const Index<D>& cell) {
   MixedGas mixed;
@@ -41,11 +41,12 @@ Mixture<K> mixtureOf(const std::vector<Settings>& gases) {
   return mixture;
 }
 
-/// One step of several gases: that of Advance, of all together, with limited slopes of the mass and the share of each
-/// in place of the density's. Shares go with the velocity of the contact at faces, so that where velocity and pressure
-/// are uniform they stay so. Slopes of three gases need not add up; they are scaled until the shares at a face add up
-/// to 1, and the densities of the gases stay as they are. Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181
-/// (2002) 577; E. Johnsen & T. Colonius, J. Comput. Phys. 219 (2006) 715, of shares with HLLC.
+/// One step of several gases: like Advance for the mixture, but with limited slopes of the mass and the volume fraction
+/// of each gas instead of those of the density. Shares go with the velocity of the contact at faces, so that where
+/// velocity and pressure are uniform they stay so. Slopes of three gases need not add up; they are scaled until the
+/// shares at a face add up to 1, and the densities of the gases stay as they are. Source: G. Allaire, S. Clerc & S.
+/// Kokh, J. Comput. Phys. 181 (2002) 577; E. Johnsen & T. Colonius, J. Comput. Phys. 219 (2006) 715, of shares with
+/// HLLC.
 template <int D>
 using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>& gases, const OldState<D>& old,
                                 const std::vector<OldGas>& oldGases, double time, double dt, const NewState<D>& fresh,
@@ -59,8 +60,8 @@ inline constexpr int kMostGases = 3;
 template <int D>
 AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
 
-/// Rescales shares where fluxes through the rim of a level were corrected: there they no longer add up to 1. Divides
-/// them by their sum, the correction of the flux of volume. Other cells stay as they are.
+/// Rescales volume fractions where fluxes through the rim of a level were corrected, because there they no longer add
+/// up to 1. Divides them by their sum, the correction of the flux of volume. Other cells stay as they are.
 template <int D>
 void closeShares(const Patch& patch, const std::vector<Settings>& gases, const std::vector<CellView<double>>& shares);
 
@@ -72,9 +73,9 @@ struct ChangedGas {
     return {.mass = take(modifies(c::gasMass)), .share = take(modifies(c::gasShare))};
   }
 };
-/// Like mendNewCells, for several gases: as numbers of new cells are interpolated separately, the density is set to the
-/// sum of the masses, and the shares are rescaled to add up to 1. Where that makes no gas, all children of a cell get
-/// their means.
+/// Like mendNewCells, for several gases. Since the values of new cells are interpolated separately, the density is set
+/// to the sum of the masses, and the volume fractions are rescaled to add up to 1. Where that makes no gas, all
+/// children of a cell get their means.
 template <int D>
 void mendNewMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& newCells,
                     const ChangedState<D>& state, const std::vector<ChangedGas>& held);

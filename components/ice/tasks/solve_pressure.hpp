@@ -54,7 +54,8 @@ numerics::CellEquation<D> equationWith(const Index<D>& cell, double weight) {
   return equation;
 }
 
-/// Adds weight (d - d_n) to the left-hand side, where d_n is the change in the cell `next`, which is 0 beyond the grid.
+/// Adds weight (d - d_n) to the left-hand side, where d_n is the change in the cell `next`, which is 0 outside the
+/// grid.
 template <int D>
 void couple(const FaceFlow<D>& flow, const Index<D>& next, double weight, numerics::Balance<D>& left) {
   left.weights[0] += weight;

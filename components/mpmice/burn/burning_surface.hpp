@@ -19,7 +19,7 @@ class SurfaceAtFaces {
       : level_(level), cells_(cells), space_(level, settings, cells) {}
 
   const FreeSpace<D>& space() const { return space_; }
-  /// By how much the cell below a face has more area along the axis than the one above.
+  /// The area of the cell below a face, along the axis, minus that of the cell above.
   double step(const Index<D>& above, int axis) const {
     return space_.faces(above - Index<D>::unit(axis), axis).area - space_.faces(above, axis).area;
   }
@@ -45,7 +45,7 @@ class SurfaceAtFaces {
   }
 
  private:
-  /// Of a cell `offset` away from the face's, in the derivative along `d`.
+  /// The weight, in the derivative along `d`, of a cell at `offset` from the face.
   static double weight(const Index<D>& offset, int axis, int d) {
     double product = 1;
     for (int k = 0; k < D; ++k)
@@ -58,7 +58,7 @@ class SurfaceAtFaces {
   FreeSpace<D> space_;
 };
 
-/// What burns at the lower faces of cells.
+/// The mass that burns at the lower faces of cells.
 template <int D>
 struct NewBurning {
   CellView<Vec<D>> rate, blowing, recoil;
@@ -76,15 +76,15 @@ struct NewBurning {
   }
 };
 
-/// The burning of a body's surface, by the state at the start of the step.
+/// The burning of the surface of a body, according to the state at the start of the step.
 template <int D>
 class BurningSurface {
  public:
   BurningSurface(const Level& level, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant)
       : level_(level), settings_(settings), cells_(cells), reactant_(reactant), surface_(level, settings, cells) {}
 
-  /// Adds what burns at the lower face of a cell. The new gas leaves the body with the speed u = m (1/rho - 1/rho_s),
-  /// and its recoil is m u: mass and momentum across the surface.
+  /// Adds the mass that burns at the lower face of a cell. The new gas leaves the body with the speed u = m (1/rho -
+  /// 1/rho_s), and its recoil is m u: mass and momentum across the surface.
   void burn(const Index<D>& above, int axis, const NewBurning<D>& fresh) const {
     const Index<D> below = above - Index<D>::unit(axis);
     const double share = reactant_.shareIn(below, above), step = share > 0 ? surface_.step(above, axis) : 0;
@@ -107,8 +107,8 @@ class BurningSurface {
     fresh.recoil[above][axis] = part * rate * speed;
   }
 
-  /// What burns in a cell that has a rest of a body, or a part of a plate thinner than a cell: where no cell around is
-  /// a wall, areas have no step. Its surface is that of one face.
+  /// The mass that burns in a cell that contains a remnant of a body, or a part of a plate thinner than a cell: if no
+  /// neighbouring cell is a wall, areas have no step. Its surface is that of one face.
   void burnWithin(const Index<D>& cell, const NewBurning<D>& fresh) const {
     if (!(reactant_.mass[cell] > 0) || cells_.isEmpty(cell) || isBesideWall(cell)) return;
     const euler::Gas law = lawAt<D>(settings_, cells_.held, cell);
@@ -124,7 +124,7 @@ class BurningSurface {
   }
 
  private:
-  /// Whether a body fills most of the area of a cell around.
+  /// Whether a body fills most of the area of a neighbouring cell.
   bool isBesideWall(const Index<D>& cell) const {
     bool is = false;
     forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) {
@@ -132,7 +132,7 @@ class BurningSurface {
     });
     return is;
   }
-  /// The greatest temperature of what fills more than a fifth of one of the cells at a face.
+  /// The greatest temperature of the gas and of bodies that fill more than a fifth of one of the cells at a face.
   double hottestAt(const Index<D>& gas, const Index<D>& body) const {
     double hottest = std::max(reactant_.hottest[gas], reactant_.hottest[body]);
     if (cells_.free[gas] > leastVisible) hottest = std::max(hottest, gasTemperature<D>(settings_, cells_, gas));
@@ -146,7 +146,7 @@ class BurningSurface {
   SurfaceAtFaces<D> surface_;
 };
 
-/// Finds what burns at the faces of a patch's cells.
+/// Finds the mass that burns at the faces of the cells of a patch.
 template <int D>
 void findBurning(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant,
                  const NewBurning<D>& fresh) {

@@ -20,7 +20,8 @@ struct WarmBodies {
   }
 };
 
-/// What the exchange of heat reads and changes of the gas after a step: its energy and, of several gases, the shares.
+/// The variables of the gas that the heat exchange reads and changes after a step: its energy and, for several gases,
+/// the volume fractions.
 template <int D>
 struct HeatedGas {
   CellView<const double> free, density;
@@ -42,8 +43,8 @@ struct HeatedGas {
 /// Up to so many bodies and gases exchange heat without memory from the heap in each cell.
 inline constexpr int kFewThings = 8;
 
-/// Heat between bodies and gases, and among each of these, in the cells where they are together, in the manner of
-/// Uintah's exchange coefficients: what one gives, the others get. `Most`: the largest number of both in all.
+/// Heat exchange between bodies and gases, between bodies, and between gases, in the cells that they share, with
+/// Uintah's exchange coefficients; heat is conserved. `Most`: the largest number of both in all.
 template <int D, int Most>
 class HeatExchange {
  public:

@@ -6,8 +6,8 @@
 
 namespace tushar::mpmice {
 
-/// Calls `visit(cell, distance squared)` for the cells around one, first those within 3, and those further away, up to
-/// all, until `isFound()`.
+/// Calls `visit(cell, distance squared)` for the cells around one, first those within 3, then those farther away, if
+/// necessary all, until `isFound()`.
 template <int D, class Visit, class IsFound>
 void searchAround(const Level& level, const Index<D>& cell, Visit&& visit, IsFound&& isFound) {
   int extent = 1;
@@ -22,8 +22,8 @@ void searchAround(const Level& level, const Index<D>& cell, Visit&& visit, IsFou
   }
 }
 
-/// The gas of a cell with some room: that at its centre or, as scenes cut out the bodies' shapes, at the nearest
-/// centre of a cell that has one. Throws InputError if there is none.
+/// The gas of a cell with some free volume: that at its centre or, since scenes cut out the shapes of bodies, that at
+/// the nearest cell centre where there is gas. Throws InputError if there is none.
 template <int D>
 euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const Index<D>& cell) {
   const auto at = [&](const Index<D>& of) {
@@ -60,8 +60,8 @@ void initialize(const Patch& patch, const Settings& settings, CellView<const dou
   });
 }
 
-/// Several gases at the centre of a cell or, as scenes cut out the bodies' shapes, at the nearest centre that has
-/// some. Throws InputError where there are none, or they do not fill the cell.
+/// Several gases at the centre of a cell or, since scenes cut out the shapes of bodies, at the nearest cell centre
+/// where there are any. Throws InputError where there are none, or they do not fill the cell.
 template <int D>
 ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settings>& gases, const Index<D>& cell) {
   const auto pointOf = [&](const Index<D>& of) { return level.expandPoint<D>(level.cellCentre<D>(of)); };

@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// The gas itself, per volume of the gas, in all cells; if there is none, some gas that nothing reads.
+/// The gas itself, per volume of the gas, in all cells; in cells without gas, arbitrary values that are not used.
 template <int D>
 struct GasAlone {
   euler::StateViews<D, const double> state;
@@ -25,8 +25,8 @@ struct NewGasAlone {
   }
 };
 
-/// Velocities of the walls at the lower and upper faces of cells, across them, m/s, and how much a wall is accelerated
-/// by the pressure of the cell's gas, m/(s² Pa).
+/// Normal velocities of the walls at the lower and upper faces of cells, m/s, and the acceleration of a wall per
+/// pressure of the gas of the cell, m/(s² Pa).
 template <int D>
 struct WallSpeeds {
   CellView<const Vec<D>> below, above, yieldBelow, yieldAbove;
@@ -71,7 +71,7 @@ void takeGasAlone(const Patch& patch, const Settings& settings, const GasInCells
   });
 }
 
-/// The pressure of the gas, a first guess of that at the end of the first step, Pa.
+/// The pressure of the gas, which is the initial guess for that at the end of the first step, Pa.
 template <int D>
 void guessPressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                    CellView<double> pressure) {
@@ -80,7 +80,7 @@ void guessPressure(const Patch& patch, const Settings& settings, const GasInCell
   });
 }
 
-/// The speed of walls at the start of the step, and their acceleration by pressure: of the mass that belongs to the
+/// The speed of walls at the start of the step, and their acceleration by pressure, with the mass that belongs to the
 /// face.
 template <int D>
 void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
@@ -115,7 +115,7 @@ void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&
   });
 }
 
-/// Velocities at the faces of cells, flat beside bodies.
+/// Velocities at the faces of cells, piecewise constant next to bodies.
 template <int D>
 ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
   return [&level, cells](const Index<D>& cell) {
@@ -126,8 +126,8 @@ ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
   };
 }
 
-/// The equation for the change of pressure of a cell's gas: that of `ice`, through open shares g of faces, with walls
-/// of shares w that sweep with v_w:
+/// The equation for the change of pressure of a cell's gas: that of `ice`, through open fractions g of faces, with wall
+/// fractions w that move at v_w:
 ///
 ///   (phi + dt² sum w gamma P y / h) d - dt sum g gamma P_f loss_f (d_n - d) / h
 ///       = -dt sum +- (g gamma P_f u_f + w gamma P v_w) / h + (gamma - 1) dt / 2 sum +- g v (p_n - p) / h.
@@ -160,8 +160,8 @@ numerics::CellEquation<D> pressureEquationBeside(const ice::FaceFlow<D>& flow, c
   return equation;
 }
 
-/// Solves for the change of the gas's pressure in the step [Pa], and gives the pressure at the end.
-/// Throws NumericalError if the solver gives up.
+/// Solves for the change of the pressure of the gas in the step [Pa], and computes the pressure at the end. Throws
+/// NumericalError if the solver gives up.
 template <int D>
 void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings,
                          double dt, const std::vector<GasAlone<D>>& alone, const std::vector<GasInCells<D>>& cells,
@@ -186,8 +186,8 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
       });
 }
 
-/// Pressure of the gas on walls, that at the end of the step, and where they close in, von Neumann's and Richtmyer's
-/// viscosity.
+/// Pressure of the gas on walls: that at the end of the step and, for approaching walls, the viscosity of von Neumann
+/// and Richtmyer.
 template <int D>
 void takeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                       const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,

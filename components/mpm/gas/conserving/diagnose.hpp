@@ -47,7 +47,7 @@ void sumEnergy(const Patch& patch, const Gas&, ParticleView<const double> mass, 
   });
 }
 
-/// Cross-section of the grid: the extent along the axes that the scene leaves out, m^(3-D).
+/// Cross-section of the grid: its extent along the axes that the scene does not use, m^(3-D).
 template <int D>
 double crossSection(const Level& level) {
   double area = level.cellVolume();
@@ -68,7 +68,7 @@ void computeDensity(const Patch& patch, const Gas& gas, ParticleView<const doubl
   }
 }
 
-/// Momentum over mass of the parts of particles in each cell; 0 in cells without any.
+/// Momentum divided by mass, for the parts of particles in each cell; 0 in cells without any.
 template <int D>
 void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,
                          ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
@@ -105,8 +105,8 @@ void computeCellDensity(const Patch& patch, const Gas&, CellView<const double> m
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { density[cell] = mass[cell] / patch.level().cellVolume(); });
 }
 
-/// Errors of M_c / V_c, momentum over mass, and pressure and internal energy of M_c / V_c and IE_c / M_c, against exact
-/// cell means.
+/// Errors of M_c / V_c, of momentum divided by mass, and of pressure and internal energy for M_c / V_c and IE_c / M_c,
+/// relative to exact cell means.
 template <int D>
 void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                       const reference::Clock* clock, CellView<const double> mass, CellView<const Vec<D>> velocity,

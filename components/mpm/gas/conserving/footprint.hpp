@@ -123,9 +123,10 @@ struct Span {
 /// The cells and nodes that boxes touch, one box per lane: the product of their spans.
 template <int D>
 struct Footprint {
-  /// Cells that a box may reach beyond that of its centre: boxes are shorter than 2 h, in one dimension than 3 h.
+  /// Number of cells by which a box may extend beyond the cell of its centre: boxes are shorter than 2 h (in one
+  /// dimension, than 3 h).
   static constexpr int overhang = D == 1 ? 2 : 1;
-  /// Cells beyond a patch whose particles may touch its nodes.
+  /// Layers of cells around a patch whose particles may touch its nodes.
   static constexpr int reach = overhang + 1;
   /// Cells along an axis that boxes of one batch may overlap.
   static constexpr int most = Span<overhang>::most;

@@ -35,7 +35,7 @@ struct Mixture {
 struct GasInCells {
   CellView<const double> mass;            ///< kg
   CellView<const double> internalEnergy;  ///< J
-  CellView<const double> fill;            ///< fraction of the cell's volume
+  CellView<const double> fill;            ///< fraction of the volume of the cell
 
   /// `read` is requiresOld or requiresNew, as a function of a label.
   static GasInCells from(auto& take, const auto& read) {
@@ -48,7 +48,7 @@ struct Cells {
   const std::vector<Gas>& gases;
   const std::vector<GasInCells>& held;  ///< one for each gas
 
-  /// Volume of a gas over that of all gases in the cell.
+  /// Volume of a gas divided by that of all gases in the cell.
   template <class Index>
   double share(std::size_t gas, const Index& cell) const {
     double all = 0;
@@ -75,7 +75,7 @@ struct Cells {
 };
 
 /// epsilon = e - p_inf / rho of each particle, with rho = m / V of its box; negative at pressures below -p_inf, at
-/// which the gas tears.
+/// which the gas ruptures.
 template <int D>
 void computeHeat(const Patch& patch, const Gas& gas, ParticleView<const double> mass, ParticleView<const Vec<D>> edges,
                  ParticleView<const double> internalEnergy, ParticleView<double> heat) {
@@ -210,8 +210,8 @@ void measureMixtureSignals(const Patch& patch, const std::vector<Gas>& gases, co
   pastGas.add(inGas);
 }
 
-/// Errors of the means over cells against exact ones: density, velocity (momentum over mass), pressure and internal
-/// energy of the mixture.
+/// Errors of the means over cells, relative to exact means: density, velocity (momentum over mass), pressure and
+/// internal energy of the mixture.
 template <int D>
 void measureMixtureError(const Patch& patch, const std::vector<Gas>& gases, const reference::GasReference* exact,
                          const reference::Clock* clock, const std::vector<GasInCells>& held,

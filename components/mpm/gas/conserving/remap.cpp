@@ -26,8 +26,8 @@ constexpr bool isMixed(std::size_t a) { return (a & (a - 1)) != 0; }
 template <int D>
 using Contents = GridFields<D, 2>;
 
-/// Van Leer's limited slopes of a cell variable, relative to its value, 1/m; 0 at the rim of the grid. They are scaled
-/// so that in boxes of these edges the variable is at least a fifth of its mean everywhere.
+/// Van Leer's limited slopes of a cell variable, relative to its value, 1/m; 0 at the sides of the grid. They are
+/// scaled so that in boxes of these edges the variable is at least a fifth of its mean everywhere.
 template <int D>
 LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std::size_t field, const Batch<D>& batch,
                            const LanesVec<D>& edges) {
@@ -190,8 +190,8 @@ struct Contained {
   }
 };
 
-/// The box of a new particle: its cell or, next to an empty cell, the part of it that the gas reaches, so that gas does
-/// not spread into a vacuum by a cell with every remap. At least a tenth of the cell wide.
+/// The box of a new particle: its cell or, next to an empty cell, the part of the cell that the gas occupies, so that
+/// gas does not spread into a vacuum by one cell with every remap. At least a tenth of the cell wide.
 template <int D>
 struct NewBox {
   Vec<D> centre, edges;

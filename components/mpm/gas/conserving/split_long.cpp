@@ -22,7 +22,7 @@ GasBox<D> half(const GasBox<D>& whole, int axis, int side) {
   return part;
 }
 
-/// Adds a piece, halved along each axis from `axis` on where it is too long.
+/// Adds a piece, halved along each axis from `axis` on along which it is too long.
 template <int D>
 void addHalved(const Patch& patch, double longestInCells, const GasBox<D>& piece, int axis, ParticleMaker& maker,
                const NewBoxes<D>& fresh) {

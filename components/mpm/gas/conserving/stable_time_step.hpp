@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// dt <= 0.4 over the rates at which cells are compressed, -div v, cool by expansion, (gamma - 1) div v, and are
+/// dt <= 0.4 divided by the rates at which cells are compressed, -div v, cool by expansion, (gamma - 1) div v, and are
 /// stretched along an axis, |dv_d/dx_d|: no box doubles its length, no cell loses half its volume or energy. In cells
 /// without gas the rates count half: a front moves by at most .8 of the width of an empty cell.
 template <int D>

@@ -114,7 +114,7 @@ void interpolateParticlesToGrid(const Patch& patch, const Gas&, const ParticlesT
   gatherOnGrid<D, false>(patch, transfer, [](const Index<D>&, double) {});
 }
 
-/// Calls gatherOnGrid, and computes the volume of the boxes in each cell over that of the cell: 1 if they tile the gas.
+/// Calls gatherOnGrid, and computes the volume fraction of the boxes in each cell, which is 1 if they tile the cell.
 template <int D>
 void interpolateAndMeasureFill(const Patch& patch, const Gas&, const ParticlesToGrid<D>& transfer,
                                CellView<double> fill, Maximum& greatest) {
@@ -126,7 +126,7 @@ void interpolateAndMeasureFill(const Patch& patch, const Gas&, const ParticlesTo
   });
 }
 
-/// Sums of (E1)-(E3) of updateParticles over the nodes on a line (Axis = 0), on a plane, or of the whole footprint
+/// Sums of (E1)-(E3) of updateParticles over the nodes on a line (Axis = 0), on a plane, or in the whole footprint
 /// (Axis = D - 1), with the weights along these axes.
 template <int D, class Scheme, int Axis>
 struct Gathered {

@@ -124,7 +124,7 @@ struct ElasticPlastic {
                              const State&) const {
     return stressWork(d, oldStress, stress);
   }
-  /// Rise of the temperature by plastic work, chi sigma_y de_p / (rho c), and by the change of volume.
+  /// Increase of the temperature due to plastic work, chi sigma_y de_p / (rho c), and to the change of volume.
   double temperatureChange(const Deformation& d, const Matrix3& stress, const State& state) const {
     const double equivalent = std::sqrt(1.5) * deviator(stress).norm(), j = d.deformationGradient.determinant();
     const VolumeState volume = volumeState(d, 0, 0);
@@ -184,10 +184,10 @@ struct ElasticPlastic {
   static void acceptWhatDoesNotMatter(input::Schema<ElasticPlastic>& tags) {
     tags.ignored("tolerance", "the return is exact to round-off")
         .ignored("coeff_thermal_expansion", "the equation of state includes the temperature")
-        .ignored("critical_stress", "Uintah does not read it either")
-        .ignored("isothermal", "Uintah does not read it either")
-        .ignored("check_failure", "Uintah does not read it either")
-        .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
+        .ignored("critical_stress", "Uintah does not use it either")
+        .ignored("isothermal", "Uintah does not use it either")
+        .ignored("check_failure", "Uintah does not use it either")
+        .ignored("useModifiedEOS", "only the fluid coupling of Uintah uses it")
         .ignored("evolve_damage", "use a <damage_model>")
         .ignored("do_melting", "as in Uintah, there is no shear stress above <melt_temp>");
     declarePores(tags);
@@ -219,8 +219,8 @@ struct ElasticPlastic {
         .value("initial_std_porosity", &Self::porosityDeviation, 0.002, "1", "for gurson: standard deviation",
                input::nonNegative())
         .choice("initial_porosity_distrib", &Self::porositySpreads, {{"constant", false}, {"gauss", true}}, false,
-                "for gurson: distribution of the porosity at the start over the particles; the random numbers differ "
-                "from Uintah's")
+                "for gurson: distribution of the initial porosity among the particles; the random numbers differ from "
+                "Uintah's")
         .value("frac_nucleation", &Self::nucleating, 0.1, "1", "for gurson: total porosity that nucleates",
                input::nonNegative())
         .value("meanstrain_nucleation", &Self::nucleationStrain, 0.3, "1",

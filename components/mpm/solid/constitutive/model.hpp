@@ -16,7 +16,7 @@ namespace tushar::mpm::solid {
 /// Largest number of particles in one call of a constitutive model.
 inline constexpr int stressGroup = 64;
 
-/// Consecutive particles in memory, and the results for them at the end of a step that a caller wants.
+/// Consecutive particles in memory, and the results at the end of a step that the caller requests.
 struct StressPoints {
   int count = 0;
   double timeStep = 0;  ///< s

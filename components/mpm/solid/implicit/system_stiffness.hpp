@@ -166,7 +166,7 @@ void ImplicitSystem<D>::addSharedStiffness(const PointRun& run, const std::vecto
   }
 }
 
-/// Inertia, weak springs, and a diagonal as stiff as the rest for prescribed displacements.
+/// Inertia, weak springs, and diagonal entries for prescribed displacements that are as stiff as the others.
 template <int D>
 void ImplicitSystem<D>::addDiagonals(solvers::Matrix& matrix) const {
   for (int k = 0; k < map_.owned(); ++k) {

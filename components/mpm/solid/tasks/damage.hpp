@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The damage at the start of a particle with that volume, m^3, and p.color.
+/// The initial damage of a particle with this volume, m^3, and p.color.
 inline DamageState initialDamage(const Damage& damage, double volume, ParticleId id, double color) {
   return std::visit(
       [&](const auto& model) {
@@ -18,7 +18,7 @@ inline DamageState initialDamage(const Damage& damage, double volume, ParticleId
       damage);
 }
 
-/// Particles start with the damage of the scene, each with its own threshold; none has failed.
+/// Initialises the damage of particles from the scene, each with its own threshold; none has failed.
 inline void initializeDamage(const Patch&, const Material& material, ParticleView<const ParticleId> id,
                              ParticleView<const double> volume, OptionalView<const double> color,
                              ParticleView<double> damage, ParticleView<double> threshold, ParticleView<int> localized,
@@ -41,7 +41,7 @@ inline void scheduleInitialDamage(TaskList& tasks, const std::vector<Material>& 
                     computes(p::failureThreshold), computes(p::localized), computes(p::failureTime));
 }
 
-/// Without a damage model no particle is localized.
+/// Without a damage model, no particle fails.
 inline void showSound(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<int> localized) {
   for (int p = 0; p < mass.owned(); ++p) localized[p] = 0;
 }
@@ -53,7 +53,7 @@ struct DamageGrowth {
   ParticleView<const double> oldFailureTime;
   ParticleView<const Matrix3> deformation;  ///< at the end of the step, like all below
   ParticleView<const double> volume;
-  OptionalView<const double> state;  ///< internal variables, if any model keeps some
+  OptionalView<const double> state;  ///< internal variables, if any model has some
   ParticleView<Matrix3> stress;
   ParticleView<double> damage, threshold;
   ParticleView<int> localized;
@@ -97,7 +97,7 @@ inline void computeDamage(const Patch&, const Material& material, int stateSize,
   }
 }
 
-/// `state` holds the internal variables of the constitutive models.
+/// `state` contains the internal variables of the constitutive models.
 inline void scheduleDamage(TaskList& tasks, const std::vector<Material>& materials,
                            const ParticleLabel<double>& state) {
   tasks.perMaterial("mpm::computeDamage", computeDamage, materials, with(state.components), startTime(),

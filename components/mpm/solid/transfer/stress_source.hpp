@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Stresses of particles that follow each other in memory: those that they keep, else those of F.
+/// Stresses of particles that are contiguous in memory: stored ones, or those that follow from F.
 struct StressSource {
   const Matrix3* stress = nullptr;       ///< Pa; null if it is a function of F alone
   const double* volume = nullptr;        ///< m^3; not null if `stress` is not

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 
 #include <vector>
 
+#include "components/mpm/solid/explicit/tasks/remove_inverted.hpp"
 #include "components/mpm/solid/explicit/tasks/share_volume.hpp"
 #include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
 #include "components/mpm/solid/explicit/tasks/state_update.hpp"
@@ -106,7 +105,7 @@ template <int D>
 }
 
 /// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p, in
-/// parts or with the terms of its series that the scene requests.
+/// substeps, or with the terms of its series that the scene requests.
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt,
                                                   const Gathered<D>& sums, const Erosion& erosion,
@@ -215,8 +214,7 @@ void updateViscosity(const Material& material, const Method& method, double dt, 
   }
 }
 
-/// Strain energy of particles from `first` on, from its density (J/m^3 of the volume at F = I): failed particles have
-/// none.
+/// Strain energy of particles from `first` on, from its density (J/m^3 of the volume at F = I); 0 for failed particles.
 template <int D>
 void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const double* density, int first,
                         int count) {
@@ -245,20 +243,6 @@ void updateStress(const Level& level, const Material& material, const Method& me
   material.model->updateStress(material.density, points);
   if (u.viscosity) updateViscosity(material, method, dt, u, velocityGradient, results.bulkSpeed.data(), first, count);
   if (u.strainEnergy) updateStrainEnergy(material, u, results.energyDensity.data(), first, count);
-}
-
-/// The error for the first particle of a cell without a wave speed: its velocity is not a number, or it is inverted.
-template <int D>
-NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
-                                const data::ParticleRange& range) {
-  const auto isSound = [&](int p) { return u.velocity[p].allFinite() && u.deformation[p].determinant() > 0; };
-  int p = range.first;
-  while (p + 1 < range.last && isSound(p)) ++p;
-  const Vec3 x = level.expandPoint<D>(u.x[p]);
-  return {fmt::format("the wave speed of the particle at ({:g}, {:g}, {:g}) m is not a number: det F is {:g}, the "
-                      "particle's speed {:g} m/s",
-                      x[0], x[1], x[2], u.deformation[p].determinant(), u.velocity[p].norm()),
-          "", "p.deformationMeasure", level.cellNumber<D>(cell)};
 }
 
 /// Whether several particles are updated at once: only in three dimensions do cells contain enough of them.
@@ -312,8 +296,8 @@ struct MovedParticles {
   }
 };
 
-/// Updates the stress of particles that have moved, and the stable time step of their cells. Throws NumericalError
-/// where a wave has no speed. No particle is left in `moved`.
+/// Updates the stress of particles that have moved, and the stable time step of their cells. Removes those that the
+/// step turns inside out, or throws NumericalError. No particle is left in `moved`.
 template <int D>
 void updateStresses(const Level& level, const Material& material, const Method& method, double time, double dt,
                     const StateUpdate<D>& u, const CrossingRate<D>& none, MovedParticles<D>& moved) {
@@ -323,9 +307,9 @@ void updateStresses(const Level& level, const Material& material, const Method& 
   });
   moved.cells.forEachCell([&](const Index<D>& cell, const data::ParticleRange& range) {
     CrossingRate<D> rate = none;
-    rate.add(moved.waveSpeed.data() + (range.first - moved.cells.first()), u.velocity.values() + range.first,
-             range.size());
-    if (!rate.isKnown()) throw withoutWaveSpeed<D>(level, u, cell, range);
+    const double* const waveSpeed = moved.waveSpeed.data() + (range.first - moved.cells.first());
+    rate.add(waveSpeed, u.velocity.values() + range.first, range.size());
+    if (!rate.isKnown()) rate = withoutInverted<D>(level, u, cell, range, none, waveSpeed);
     u.stableTimeStep[cell] = rate.time();
   });
   moved.cells.clear();
