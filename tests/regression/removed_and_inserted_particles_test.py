@@ -73,7 +73,7 @@ class RemovedParticles(unittest.TestCase):
             self.assertEqual(report[key], expected[key])
 
     def test_stop_the_run_if_the_scene_says_so(self):
-        result = run(COLLISION, *UNSTABLE, "MPM/inverted_particles=stop")
+        result = run(COLLISION, *UNSTABLE, "MPM/lost_particles=stop")
         self.assertEqual(result.code, 4)
         self.assertIn("the wave speed of the particle at", result.err)
 

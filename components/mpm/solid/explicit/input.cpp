@@ -42,7 +42,7 @@ struct MpmSection {
   double linearViscosity = 0, quadraticViscosity = 0, damping = 0;
   double minimumParticleMass = 0, minimumMassForAcceleration = 0;
   std::optional<double> maximumParticleVelocity;
-  bool removesInverted = true;
+  bool removesLost = true;
   int minimumSubcycles = 1;
   bool momentumForm = false, prescribesDeformation = false, insertsParticles = false;
   std::string deformationFile, insertionFile;
@@ -70,9 +70,10 @@ void addLimits(Schema<MpmSection>& mpm) {
              "lighter nodes are accelerated only by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
                 "faster particles are slowed down to 9/10 of it", input::positive())
-      .choice("inverted_particles", &MpmSection::removesInverted, {{"remove", true}, {"stop", false}}, true,
-              "what a particle does that a step turns inside out (det F <= 0): it is removed and counted, or the run "
-              "stops")
+      .choice(
+          "lost_particles", &MpmSection::removesLost, {{"remove", true}, {"stop", false}}, true,
+          "particles that a step turns inside out (det F <= 0) or throws through a symmetry plane: they are removed "
+          "and counted, or the run stops")
       .ours()
       .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
              "smallest number of substeps in which a step updates the deformation gradient; -n: uses the exponential "
@@ -249,7 +250,7 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   if (read.artificialViscosity) method.viscosity = {read.linearViscosity, read.quadraticViscosity};
   method.minimumMassForAcceleration = read.minimumMassForAcceleration;
   method.maximumParticleVelocity = read.maximumParticleVelocity;
-  method.removesInverted = read.removesInverted;
+  method.removesLost = read.removesLost;
   method.minimumSubcyclesForF = read.minimumSubcycles;
   method.conductsHeat = read.conductsHeat;
   method.stressUpdate = read.momentumForm ? StressUpdate::modifiedLast : read.stressUpdate;
@@ -336,7 +337,7 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
   problem.start = {read.axisymmetric, readLoads(root, read.useLoadCurves, diagnostics),
                    makeManufactured(read.manufactured)};
   problem.start.leastMass = read.minimumParticleMass;
-  problem.method.removesInverted = problem.method.removesInverted && !repeatsSteps(root);
+  problem.method.removesLost = problem.method.removesLost && !repeatsSteps(root);
   problem.motion = readMotion(read, root, diagnostics);
   problem.insertions = readEntering(read, root, diagnostics);
   nameMaterials(problem.materials);

@@ -175,7 +175,7 @@ void SolidMpm<D>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) con
 template <int D>
 void SolidMpm<D>::scheduleComputeStressTensor(TaskList& tasks, const NodeLabel<NodeRecord>& record) const {
   const Method& method = problem_.method;
-  const bool removes = method.removesInverted && method.stressUpdate != StressUpdate::first;
+  const bool removes = method.removesLost && method.stressUpdate != StressUpdate::first;
   const auto body = method.sharesVolume ? bodies_->computeSharedStressTensor : bodies_->computeStressTensor;
   tasks.perMaterial("mpm::computeStressTensor", body, problem_.materials, with(method), startTime(), requiresOld(delT),
                     all<StateUpdate<D>>(shapes_.ghostNodes, keeps(), &record, removes));

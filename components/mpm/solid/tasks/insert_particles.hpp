@@ -3,6 +3,7 @@
 #include "components/mpm/solid/loads/inserted_particles.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "core/core.hpp"
+#include "core/data/vanished.hpp"
 
 namespace tushar::mpm::solid {
 

@@ -23,7 +23,7 @@ template <class Shape, int D = Shape::dimension>
 void interpolateToParticlesAndUpdate(const Patch& patch, const Material& material, const Method& method, double time,
                                      double dt, const ParticleUpdate<D>& u) {
   StateUpdate<D> state = u.state;
-  if (method.removesInverted) state.newX = u.newX;
+  if (method.removesLost) state.newX = u.newX;
   updateParticles<Shape, Volumes::own>(
       patch, material, method, time, dt, state, [&](int p, int count, const auto& sums) {
         prefetch(u.newX.values(), p + count, count);

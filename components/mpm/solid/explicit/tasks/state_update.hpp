@@ -29,7 +29,7 @@ struct StateUpdate {
   OptionalView<double> state, viscosity, strainEnergy, temperatureChange;
   OptionalView<Matrix3> velocityGradient;
   CellView<double> stableTimeStep;
-  OptionalView<Vec<D>> newX;  ///< if particles that are turned inside out can be removed
+  OptionalView<Vec<D>> newX;  ///< if particles can be removed
 
   int stateSize = 0;  ///< number of values per particle in `state`
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "components/mpm/solid/explicit/tasks/remove_inverted.hpp"
+#include "components/mpm/solid/explicit/tasks/remove_lost.hpp"
 #include "components/mpm/solid/explicit/tasks/share_volume.hpp"
 #include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
 #include "components/mpm/solid/explicit/tasks/state_update.hpp"
@@ -297,10 +297,11 @@ struct MovedParticles {
 };
 
 /// Updates the stress of particles that have moved, and the stable time step of their cells. Removes those that the
-/// step turns inside out, or throws NumericalError. No particle is left in `moved`.
+/// step turns inside out or throws out of `space`, or throws NumericalError. No particle is left in `moved`.
 template <int D>
 void updateStresses(const Level& level, const Material& material, const Method& method, double time, double dt,
-                    const StateUpdate<D>& u, const CrossingRate<D>& none, MovedParticles<D>& moved) {
+                    const StateUpdate<D>& u, const CrossingRate<D>& none, const BetweenPlanes<D>& space,
+                    MovedParticles<D>& moved) {
   moved.cells.forEachGroup([&](int k, int count) {
     updateStress<D>(level, material, method, time, dt, u, moved.velocityGradient.data() + k, moved.cells.first() + k,
                     count, moved.waveSpeed.data() + k);
@@ -309,7 +310,8 @@ void updateStresses(const Level& level, const Material& material, const Method& 
     CrossingRate<D> rate = none;
     const double* const waveSpeed = moved.waveSpeed.data() + (range.first - moved.cells.first());
     rate.add(waveSpeed, u.velocity.values() + range.first, range.size());
-    if (!rate.isKnown()) rate = withoutInverted<D>(level, u, cell, range, none, waveSpeed);
+    if (!rate.isKnown() || (u.newX && !space.containAll(u.newX->values() + range.first, range.size())))
+      rate = withoutLost<D>(level, u, cell, range, none, space, waveSpeed);
     u.stableTimeStep[cell] = rate.time();
   });
   moved.cells.clear();
@@ -324,16 +326,17 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
   const Level& level = patch.level();
   const Extents<Shape> extents(level, method.commonSize, u.size, u.oldDeformation);
   const CrossingRate<D> none(level);
+  const BetweenPlanes<D> space(level, material.index);
   u.stableTimeStep.fill(none.time());
   if (u.x.owned() == 0) return;
   MovedParticles<D> moved;
   u.x.template forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
-    if (!moved.cells.takes(range)) updateStresses<D>(level, material, method, time, dt, u, none, moved);
+    if (!moved.cells.takes(range)) updateStresses<D>(level, material, method, time, dt, u, none, space, moved);
     Matrix3* const velocityGradient = moved.add(cell, range);
     moveAndDeform(level, cell, extents, material, method, dt, u, range, velocityGradient, move);
     if constexpr (volumes == Volumes::shared) shareVolume<D>(dt, range, u, velocityGradient);
   });
-  updateStresses<D>(level, material, method, time, dt, u, none, moved);
+  updateStresses<D>(level, material, method, time, dt, u, none, space, moved);
 }
 
 }  // namespace tushar::mpm::solid

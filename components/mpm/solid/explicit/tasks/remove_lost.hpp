@@ -4,6 +4,8 @@
 
 #include <Eigen/LU>
 
+#include <limits>
+
 #include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
 #include "components/mpm/solid/explicit/tasks/state_update.hpp"
 #include "core/data/vanished.hpp"
@@ -38,18 +40,41 @@ void removeParticle(const StateUpdate<D>& u, int p) {
   if (u.velocityGradient) (*u.velocityGradient)[p].setZero();
 }
 
-/// Removes the particles of a cell that the step turns inside out, det F <= 0, as finite elements with negative
-/// Jacobians are deleted in explicit codes. Returns the waves of the others; `none` has none. Throws NumericalError
-/// if particles cannot be removed, or a wave of the others has no speed.
+/// The space between the symmetry planes at the sides of the grid, m; infinite along axes without them.
 template <int D>
-CrossingRate<D> withoutInverted(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
-                                const data::ParticleRange& range, const CrossingRate<D>& none,
-                                const double* waveSpeed) {
-  NumericalError error = withoutWaveSpeed<D>(level, u, cell, range);
+struct BetweenPlanes {
+  Vec<D> lower = Vec<D>::Constant(-std::numeric_limits<double>::infinity()), upper = -lower;
+
+  BetweenPlanes(const Level& level, int material) {
+    for (int d = 0; d < D; ++d) {
+      if (level.isSymmetry(d, 0, material)) lower[d] = level.nodePosition(d, 0);
+      if (level.isSymmetry(d, 1, material)) upper[d] = level.nodePosition(d, level.cells().upper[d]);
+    }
+  }
+  bool contains(const Vec<D>& x) const {
+    return (x.array() >= lower.array()).all() && (x.array() <= upper.array()).all();
+  }
+  /// Whether all of `count` positions are inside.
+  bool containAll(const Vec<D>* x, int count) const {
+    bool inside = true;
+    for (int k = 0; k < count; ++k)
+      for (int d = 0; d < D; ++d) inside &= (x[k][d] >= lower[d]) & (x[k][d] <= upper[d]);
+    return inside;
+  }
+};
+
+/// Removes the particles of a cell that the step turns inside out, det F <= 0, or throws through a symmetry plane, as
+/// finite elements with negative Jacobians are deleted in explicit codes. Returns the waves of the others; `none` has
+/// none. Throws NumericalError if particles cannot be removed, or a wave of the others has no speed.
+template <int D>
+CrossingRate<D> withoutLost(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
+                            const data::ParticleRange& range, const CrossingRate<D>& none,
+                            const BetweenPlanes<D>& space, const double* waveSpeed) {
+  const NumericalError error = withoutWaveSpeed<D>(level, u, cell, range);
   CrossingRate<D> rate = none;
   for (int k = 0; k < range.size(); ++k) {
     const int p = range.first + k;
-    if (u.deformation[p].determinant() > 0)
+    if (u.deformation[p].determinant() > 0 && (!u.newX || space.contains((*u.newX)[p])))
       rate.add(waveSpeed[k], u.velocity[p]);
     else if (u.newX)
       removeParticle<D>(u, p);

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "components/mpm/solid/explicit/tasks/remove_inverted.hpp"
+#include "components/mpm/solid/explicit/tasks/remove_lost.hpp"
 
 namespace tushar::mpm::solid {
 namespace {
@@ -20,6 +20,7 @@ struct Cell {
     grid::Domain domain;
     domain.upper = {1, 1, 0};
     domain.resolution = {{1, 1, 0}};
+    domain.boundaries.face(0, 0) = {{grid::symmetric, grid::BoundaryKind::symmetry}};
     return domain;
   }
 
@@ -52,11 +53,12 @@ struct Cell {
                                 .stableTimeStep = {nullptr, level.cells()},
                                 .newX = canRemove ? OptionalView<Vec<2>>(view(newX)) : OptionalView<Vec<2>>{}};
     const CrossingRate<2> none(level);
-    return withoutInverted<2>(level, update, Index<2>{}, {0, 3}, none, waveSpeed.data()).time();
+    const BetweenPlanes<2> space(level, 0);
+    return withoutLost<2>(level, update, Index<2>{}, {0, 3}, none, space, waveSpeed.data()).time();
   }
 };
 
-TEST(RemoveInverted, RemovesTheParticleAndGivesItTheStateAtTheStartOfTheStep) {
+TEST(RemoveLost, RemovesTheParticleAndGivesItTheStateAtTheStartOfTheStep) {
   Cell cell;
 
   cell.remove();
@@ -68,24 +70,38 @@ TEST(RemoveInverted, RemovesTheParticleAndGivesItTheStateAtTheStartOfTheStep) {
   EXPECT_EQ(cell.newX[2], cell.x[2]);
 }
 
-TEST(RemoveInverted, LeavesTheTimeStepToTheOtherParticles) {
+TEST(RemoveLost, LeavesTheTimeStepToTheOtherParticles) {
   Cell cell;
 
   EXPECT_EQ(cell.remove(), 1.0 / 7);  // 5 m/s + 2 m/s through 1 m
 }
 
-TEST(RemoveInverted, StopsTheRunWhereParticlesCannotBeRemoved) {
+TEST(RemoveLost, StopsTheRunWhereParticlesCannotBeRemoved) {
   Cell cell;
 
   EXPECT_THROW(cell.remove(false), NumericalError);
   EXPECT_EQ(cell.newX[1], cell.x[1]);
 }
 
-TEST(RemoveInverted, StopsTheRunIfAParticleIsSoundButItsWaveHasNoSpeed) {
+TEST(RemoveLost, StopsTheRunIfAParticleIsSoundButItsWaveHasNoSpeed) {
   Cell cell;
   cell.deformation[1] = Matrix3::Identity();
 
   EXPECT_THROW(cell.remove(), NumericalError);
+}
+
+TEST(RemoveLost, RemovesWhatIsThrownThroughASymmetryPlaneButNotWhatLeavesThroughAFreeSide) {
+  Cell cell;
+  cell.deformation[1] = Matrix3::Identity();
+  cell.waveSpeed[1] = 3;
+  cell.newX[0][0] = -1e-9;
+  cell.newX[2][0] = 1.5;
+
+  cell.remove();
+
+  EXPECT_EQ(cell.newX[0][0], data::removed);
+  EXPECT_EQ(cell.newX[1], cell.x[1]);
+  EXPECT_EQ(cell.newX[2][0], 1.5);
 }
 
 }  // namespace
