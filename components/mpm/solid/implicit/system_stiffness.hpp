@@ -41,22 +41,24 @@ void ImplicitSystem<D>::addStiffnessOf(const PointGroup& group, int k, const Mat
   std::array<int, D> axis;
   for (int d = 0; d < D; ++d) axis[d] = sceneAxis<D>(map_.level(), d);
   const NodeTouch<D>* touch = touchesOf(at);
-  /// The scalar product of a column of B, that of component i of a node, and one number per row.
-  const auto times = [&](const NodeTouch<D>& node, int i, const auto& rows) {
-    auto sum = rows(3 * axis[i] + axis[0]) * node.gradient[0];
-    for (int j = 1; j < D; ++j) sum += rows(3 * axis[i] + axis[j]) * node.gradient[j];
+  /// The sum over B's column of component i of a node, from `sum` on, times what belongs to its rows.
+  const auto times = [&](const NodeTouch<D>& node, int i, const auto& rows, auto sum) {
+    for (int j = 0; j < D; ++j) sum += rows(3 * axis[i] + axis[j]) * node.gradient[j];
     if (i == 0 && node.hoop != 0) sum += rows(8) * node.hoop;
-    return decltype(sum)(node.sign[i] * sum);
+    sum *= node.sign[i];
+    return sum;
   };
   for (int n = 0; n < touches_; ++n)
     for (int i = 0; i < D; ++i) {
       if (touch[n].node < 0) continue;
       using Row = Eigen::Matrix<double, 1, 9>;
-      const Row force = times(touch[n], i, [&](int row) -> Row { return whole.row(row); });
+      const Row force = times(
+          touch[n], i, [&](int row) { return whole.row(row); }, Row(Row::Zero()));
       for (int m = 0; m < touches_; ++m)
         for (int j = 0; j < D; ++j)
           if (touch[m].node >= 0)
-            stiffness(D * n + i, D * m + j) += times(touch[m], j, [&](int r) { return force[r]; });
+            stiffness(D * n + i, D * m + j) += times(
+                touch[m], j, [&](int row) { return force[row]; }, 0.0);
     }
 }
 
@@ -100,7 +102,8 @@ void ImplicitSystem<D>::addStiffness(std::span<const int> numbers, Local& stiffn
   matrix.add(numbers, numbers, {stiffness.data(), static_cast<std::size_t>(stiffness.size())});
 }
 
-/// Adds consecutive points together if they touch the same nodes, as those of a cell do with linear functions.
+/// Points that follow each other and touch the same nodes, as those of a cell do with linear functions, are added
+/// together.
 template <int D>
 void ImplicitSystem<D>::addRunStiffness(const PointRun& run, solvers::Matrix& matrix) {
   const PointGroup& group = *run.group;
