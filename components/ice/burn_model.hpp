@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -86,23 +85,6 @@ struct Decay {
   double startTime = 0;  ///< s
 };
 
-/// Detonation at high pressure: the burnt part F of the mass grows at the rate dF/dt = G p^b (1 - F), in a step by at
-/// most a fifth. Source: P. C. Souers, S. Anderson, J. Mercer, E. McGuire & P. Vitello, Propellants Explos. Pyrotech.
-/// 25 (2000) 54: JWL++.
-struct Detonation {
-  double leastPressure = 0;  ///< Pa
-  double factor = 0;         ///< G, 1/(s Pa^b)
-  double exponent = 0;       ///< b, 1
-  double heat = 0;           ///< J/kg
-
-  /// The share of what is left, `part` of the mass at the start, that burns in a step of dt, s.
-  double share(double pressure, double part, double dt) const {
-    if (!(pressure > leastPressure)) return 0;
-    constexpr double most = 0.2;
-    return std::min({factor * std::pow(pressure, exponent) * dt, most / part, 1.0});
-  }
-};
-
 /// The time that a flame takes to cross a cell of explosive: a flame spreads along a surface with the speed F_b (p /
 /// p_0)^F_c, and into the body faster, by the factor 1 / I_c. Source: S. F. Son, B. W. Asay, E. M. Whitney & H. L.
 /// Berghout, Proc. Combust. Inst. 31 (2007) 2063; the dependence on the angle is that of Uintah's DDT1.
@@ -121,11 +103,11 @@ struct Induction {
   double time(double width, double at) const { return width / (speed * std::pow(at / pressure, exponent)); }
 };
 
-/// From deflagration to detonation, as Uintah's DDT1 has it: surfaces and cracks deflagrate, and under high pressure
-/// the whole detonates. Source: J. R. Peterson & C. A. Wight, Combust. Flame 159 (2012) 2491.
+/// The deflagration of Uintah's DDT1, at surfaces and in cracks; a detonation ends the run. Source: J. R. Peterson & C.
+/// A. Wight, Combust. Flame 159 (2012) 2491.
 struct Ddt {
   SteadyBurn surface;
-  Detonation detonation;
+  double detonationPressure = 0;  ///< above it the body detonates, Pa
   bool burnsCracks = false;
   std::optional<Induction> induction;
 
@@ -148,7 +130,7 @@ struct BurnModel {
   double heat = 0;                 ///< of the reaction, J/kg
   std::variant<SimpleBurn, SteadyBurn, Decay, Ddt> law;
 
-  /// Deflagration that may become a detonation; null for other models.
+  /// Deflagration in cracks, too; null for other models.
   const Ddt* ddt() const { return std::get_if<Ddt>(&law); }
   /// Whether surfaces burn, rather than the whole.
   bool burnsAtSurface() const { return !std::holds_alternative<Decay>(law); }
@@ -191,14 +173,14 @@ struct SteadyBurnSection : SteadyBurn {
 const input::Schema<SteadyBurnSection>& steadyBurnSchema();
 
 /// `<DDT1>`.
-struct DdtSection : SteadyBurn, Detonation, Induction {
+struct DdtSection : SteadyBurn, Induction {
   Location where;
   std::string from, to, burnt;
-  double ignitionTemperature = 0, thresholdPressure = 0;
+  double ignitionTemperature = 0, thresholdPressure = 0, detonationPressure = 0;
   bool burnsCracks = false, waits = false;
 
   BurnModel model() const {
-    Ddt law{SteadyBurn(*this), Detonation(*this), burnsCracks, {}};
+    Ddt law{SteadyBurn(*this), detonationPressure, burnsCracks, {}};
     if (waits) law.induction = Induction(*this);
     return {where, from, to, ignitionTemperature, thresholdPressure, solidHeat + gasHeat, law};
   }

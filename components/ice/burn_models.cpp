@@ -79,16 +79,6 @@ const Schema<SteadyBurnSection>& steadyBurnSchema() {
 
 namespace {
 
-void addDetonation(Schema<DdtSection>& tags) {
-  const auto of = [](double Detonation::*number) -> double DdtSection::* { return number; };
-  tags.required("ThresholdPressureJWL", of(&Detonation::leastPressure), "Pa", "above this pressure the body detonates",
-                input::positive())
-      .required("G", of(&Detonation::factor), "1/(s Pa^b)", "rate of the detonation: dF/dt = G p^b (1 - F)",
-                input::nonNegative())
-      .required("b", of(&Detonation::exponent), "1", "exponent of the pressure", input::nonNegative())
-      .required("E0", of(&Detonation::heat), "J/kg", "heat of the detonation");
-}
-
 void addInduction(Schema<DdtSection>& tags) {
   const auto of = [](double Induction::*number) -> double DdtSection::* { return number; };
   tags.value("useInductionTime", &DdtSection::waits, false, "1",
@@ -113,12 +103,13 @@ void checkDdt(const DdtSection& read, const input::Element& section, input::Diag
 
 const Schema<DdtSection>& ddtSchema() {
   static const Schema<DdtSection> schema = [] {
-    Schema<DdtSection> tags("DDT1",
-                            "A body deflagrates at its surface and in cracks, and detonates under high pressure.");
+    Schema<DdtSection> tags("DDT1", "A body deflagrates at its surface and in cracks; a detonation ends the run.");
     addMaterials(tags);
     tags.value("burnMaterial", &DdtSection::burnt, "", "1", "only <toMaterial>");
     addSteadyBurn(tags, "ThresholdPressureSB");
-    addDetonation(tags);
+    tags.required("ThresholdPressureJWL", &DdtSection::detonationPressure, "Pa",
+                  "above this pressure the body would detonate, which ends the run", input::positive());
+    for (const char* tag : {"G", "b", "E0"}) tags.ignored(tag, "belongs to the detonation, which ends the run");
     addInduction(tags);
     tags.value("useCrackModel", &DdtSection::burnsCracks, false, "1",
                "gas burns in cracks that its pressure lets it enter: p^2.84 p.crackRad^2 > 8e8");

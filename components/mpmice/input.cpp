@@ -125,8 +125,8 @@ std::size_t placeOf(const std::string& name, const std::vector<std::string>& nam
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// Checks a body that may detonate: its cracks and its pressure count.
-void checkDetonation(const Element& body, bool areRigid, const ice::BurnModel& model, Diagnostics& diagnostics) {
+/// Checks a body that burns in cracks, too.
+void checkCracks(const Element& body, bool areRigid, const ice::BurnModel& model, Diagnostics& diagnostics) {
   const auto given = body.child("constitutive_model");
   const std::string name = given ? given->attribute("type").value_or("") : "";
   if (name != mpm::solid::ViscoScram::name)
@@ -134,7 +134,7 @@ void checkDetonation(const Element& body, bool areRigid, const ice::BurnModel& m
                       fmt::format("the model DDT1 needs a body of visco_scram, which has cracks, found '{}'", name));
   if (areRigid)
     diagnostics.error(model.where, "Models/Model/DDT1",
-                      "is not available with rmpmice, whose bodies have no pressure; use mpmice");
+                      "is not available with rmpmice, whose bodies have no stress; use mpmice");
 }
 
 /// The body that burns, if one does.
@@ -159,7 +159,7 @@ std::optional<Burning> burningOf(const ice::GasScene& scene, bool areRigid, cons
   if (burning.body < materials.size() && !materials[burning.body].child("specific_heat"))
     diagnostics.error(materials[burning.body], "missing tag <specific_heat>: it burns, and gives its heat to the gas");
   if (burning.body < materials.size() && model.ddt())
-    checkDetonation(materials[burning.body], areRigid, model, diagnostics);
+    checkCracks(materials[burning.body], areRigid, model, diagnostics);
   return burning;
 }
 

@@ -67,8 +67,7 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
                    computes(c::pressureAtEnd));
   if (burns()) {
     tasks.perMaterial("mpmice::startUnburned", startUnburned, materials, requiresNew(p::mass), computes(p::unburned));
-    for (const CellLabel<double>* sum : {&c::burntSinceStart, &c::heatSinceBurn})
-      tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(*sum));
+    tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(c::burntSinceStart));
     if (waitsForFlames())
       tasks.perPatch("mpmice::startBurnModes", startBurnModes<D>, computes(c::burnMode), computes(c::waited),
                      computes(c::inductionTime));
@@ -107,7 +106,7 @@ void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials,
   constexpr typename GasInCells<D>::Reach reach{.state = 1, .mass = 3, .room = 3};
   tasks.acrossMaterials("mpmice::measureReactant", measureReactant<D>, materials, with(settings_),
                         all<ParticlesAtStart>(), withoutMaterial(all<NewReactant>()));
-  if (mayDetonate()) {
+  if (hasCracks()) {
     tasks.acrossMaterials("mpmice::measureLoad", measureLoad<D>, materials, with(settings_), with(state.components),
                           all<StressedParticles>(&state), withoutMaterial(computes(c::bodyPressure)),
                           withoutMaterial(computes(c::crackRadius)));
@@ -116,10 +115,10 @@ void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials,
                    all<NewBurnModes>());
   }
   tasks.perPatch("mpmice::findBurning", findBurning<D>, with(settings_), gasIn(readsOld, reach), all<Reactant>(1),
-                 all<KnownModes>(mayDetonate(), 1), all<NewBurning<D>>());
-  tasks.perPatch("mpmice::findBurntShare", findBurntShare<D>, with(settings_),
-                 with(materials[settings_.burning->body].undeformedDensity()), startTime(), requiresOld(delT),
-                 all<BurntShares<D>>(mayDetonate()));
+                 all<KnownModes>(hasCracks(), 1), all<NewBurning<D>>());
+  tasks.perPatch("mpmice::findBurntShare", findBurntShare<D>, with(settings_), startTime(), requiresOld(delT),
+                 requiresNew(c::burnRate<D>, 2), requiresNew(c::burnRateWithin, 1), requiresNew(c::reactantMass, 1),
+                 computes(c::burntShare));
 }
 
 /// The pressure at the end of the step, that on walls included.
@@ -301,7 +300,7 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
     tasks.perPatch(
         "mpmice::sumHeat", [](const Patch&, Sum&) {}, computes(total::heat));
   if (burns())
-    tasks.perPatch("mpmice::sumBurnt", sumBurnt<D>, requiresOld(c::burntSinceStart), requiresOld(c::heatSinceBurn),
+    tasks.perPatch("mpmice::sumBurnt", sumBurnt<D>, with(settings_), requiresOld(c::burntSinceStart),
                    computes(total::burntMass), computes(total::reactionHeat));
   tasks.perPatch("mpmice::sumLeak", sumOverVolume<D>, requiresOld(c::leakSinceStart), computes(total::leak));
 }

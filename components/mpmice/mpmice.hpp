@@ -29,7 +29,7 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleRefine(TaskList& tasks) const;
   bool isImplicit() const { return settings_.implicit.has_value(); }
   /// Whether cells count the time until a flame has crossed them.
-  bool waitsForFlames() const { return mayDetonate() && settings_.burning->model.ddt()->induction; }
+  bool waitsForFlames() const { return hasCracks() && settings_.burning->model.ddt()->induction; }
 
  private:
   /// The gas in cells; `reads` gives the access.
@@ -44,7 +44,7 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
   bool burns() const { return settings_.burning.has_value(); }
-  bool mayDetonate() const { return burns() && settings_.burning->model.ddt(); }
+  bool hasCracks() const { return burns() && settings_.burning->model.ddt(); }
   /// Whether what burns has strain energy, which the gas gets.
   bool keepsStrain(const Materials& materials) const;
   void scheduleBurning(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const;

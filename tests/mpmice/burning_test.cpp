@@ -164,15 +164,6 @@ TEST(SteadyBurn, IsFasterUnderPressureAndWhereTheBodyIsWarm) {
   }
 }
 
-TEST(Detonation, BurnsAtMostAFifthInAStep) {
-  const ice::Detonation law{1e9, 2e-6, 1.2, 5e6};
-  EXPECT_EQ(law.share(0.9e9, 1, 1e-9), 0);
-  EXPECT_DOUBLE_EQ(law.share(2e9, 1, 1e-9), 2e-6 * std::pow(2e9, 1.2) * 1e-9);
-  EXPECT_EQ(law.share(2e9, 1, 1), 0.2);
-  EXPECT_EQ(law.share(2e9, 0.5, 1), 0.4) << "of the half that is left";
-  EXPECT_EQ(law.share(2e9, 0.1, 1), 1);
-}
-
 TEST(Induction, IsShorterIntoTheBodyThanAlongItsSurface) {
   const ice::Induction law{0.01, 1e5, 0.0026, 0.5};
   EXPECT_NEAR(law.part(1), 0.01, 1e-15);
@@ -202,7 +193,7 @@ struct Explosive {
     settings.burning = Burning();
     settings.burning->model.ignitionTemperature = 2;
     settings.burning->model.leastPressure = 0.5;
-    law.detonation = {10, 1, 1, 1};
+    law.detonationPressure = 10;
     for (std::size_t k = 2; k < 6; ++k) {
       fields.free.values[k] = fields.density.values[k] = fields.energy.values[k] = 0;
       mass.values[k] = 5;
@@ -231,12 +222,11 @@ TEST(BurnModes, OfASurfaceNeedAHotGasWithPressure) {
   EXPECT_EQ(line.at(2).mode, BurnMode::none);
 }
 
-TEST(BurnModes, OfADetonationStopOthersBesideIt) {
+TEST(BurnModes, OfADetonationEndTheRun) {
   Explosive line;
   line.pressure.values[3] = 11;
-  EXPECT_EQ(line.at(3).mode, BurnMode::detonation);
-  EXPECT_EQ(line.at(3).pressure, 11);
-  EXPECT_EQ(line.at(2).mode, BurnMode::none);
+  EXPECT_EQ(line.at(2).mode, BurnMode::surface);
+  EXPECT_THROW(line.at(3), NumericalError);
 }
 
 TEST(BurnModes, InCracksNeedThemWide) {

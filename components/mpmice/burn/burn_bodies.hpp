@@ -53,42 +53,17 @@ class BurntMass {
   double dt_;
 };
 
-/// What burns in a step: what is wanted, and the share of each cell's mass that it is, with its heat.
+/// Finds the share of each cell's mass that burns in a step.
 template <int D>
-struct BurntShares {
-  CellView<const Vec<D>> rate;
-  CellView<const double> within, mass;
-  KnownModes modes;
-  CellView<double> share, heat;
-
-  static BurntShares from(auto& take, bool mayDetonate) {
-    return {.rate = take(requiresNew(c::burnRate<D>, 2)),
-            .within = take(requiresNew(c::burnRateWithin, 1)),
-            .mass = take(requiresNew(c::reactantMass, 1)),
-            .modes = KnownModes::from(take, mayDetonate, 0),
-            .share = take(computes(c::burntShare)),
-            .heat = take(computes(c::burnHeat))};
-  }
-};
-
-/// Finds the share of each cell's mass that burns in a step; `density` is that of the body at the start, kg/m³.
-template <int D>
-void findBurntShare(const Patch& patch, const Settings& settings, double density, double start, double dt,
-                    const BurntShares<D>& found) {
-  const ice::BurnModel& model = settings.burning->model;
-  const BurntMass<D> burnt(patch.level(), found.rate, found.within, found.mass, dt);
-  const auto* decay = std::get_if<ice::Decay>(&model.law);
+void findBurntShare(const Patch& patch, const Settings& settings, double start, double dt, CellView<const Vec<D>> rate,
+                    CellView<const double> within, CellView<const double> mass, CellView<double> share) {
+  const BurntMass<D> burnt(patch.level(), rate, within, mass, dt);
+  const auto* decay = std::get_if<ice::Decay>(&settings.burning->model.law);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    found.heat[cell] = model.heat;
-    if (decay) {
-      found.share[cell] = start < decay->startTime ? 0 : std::min(1.0, decay->perTime * dt);
-    } else if (found.modes.is(cell, BurnMode::detonation)) {
-      const ice::Detonation& detonation = model.ddt()->detonation;
-      found.share[cell] = detonation.share((*found.modes.pressure)[cell], found.mass[cell] / density, dt);
-      found.heat[cell] = detonation.heat;
-    } else {
-      found.share[cell] = burnt.shareOf(cell);
-    }
+    if (decay)
+      share[cell] = start < decay->startTime ? 0 : std::min(1.0, decay->perTime * dt);
+    else
+      share[cell] = burnt.shareOf(cell);
   });
 }
 

@@ -101,9 +101,8 @@ class BurnModes {
   Found find(const Index<D>& cell, const Waited& before, double dt) const {
     if (!(reactant_.mass[cell] > 0)) return {};
     const double own = pressureOf(cell);
-    if (own > model_.ddt()->detonation.leastPressure) return {BurnMode::detonation, own, 0, 0};
+    if (own > model_.ddt()->detonationPressure) refuseDetonation(cell, own);
     const Around around = lookAround(cell);
-    if (around.detonates) return {};
     const double pressure = std::max(own, around.product);
     const bool isSurface = isExposed(cell);
     const bool lights = isSurface && around.isHot && around.product > model_.leastPressure;
@@ -115,9 +114,17 @@ class BurnModes {
   }
 
  private:
+  [[noreturn]] void refuseDetonation(const Index<D>& cell, double pressure) const {
+    const Vec3 at = level_.expandPoint<D>(level_.cellCentre<D>(cell));
+    throw NumericalError(
+        fmt::format("the body detonates: its pressure is {:.6g} Pa in the cell at ({:g}, {:g}, {:g}) m, "
+                    "above <ThresholdPressureJWL>; DDT1 has only the deflagration here",
+                    pressure, at[0], at[1], at[2]),
+        "", "c.burnPressure", level_.cellNumber<D>(cell));
+  }
   struct Around {
     double product = 0;  ///< pressure, Pa
-    bool isHot = false, detonates = false;
+    bool isHot = false;
   };
   struct Conditions {
     bool isSurface, lights, cracked, isHot;
@@ -154,7 +161,6 @@ class BurnModes {
     double most = 0;
     forEachAround(cell, [&](const Index<D>& at) {
       found.isHot = found.isHot || isHot(at);
-      found.detonates = found.detonates || pressureOf(at) > model_.ddt()->detonation.leastPressure;
       if (cells_.isEmpty(at) || cells_.free[at] <= most) return;
       most = cells_.free[at];
       found.product = gasPressure(at);

@@ -58,16 +58,16 @@ class SurfaceAtFaces {
   FreeSpace<D> space_;
 };
 
-/// How a cell burns, of a body that may detonate: c.burnMode.
-enum class BurnMode { none, surface, cracks, waiting, detonation };
+/// How a cell burns, of a body with cracks: c.burnMode.
+enum class BurnMode { none, surface, cracks, waiting };
 
-/// How cells burn, and at which pressure [Pa]; only of a body that may detonate.
+/// How cells burn, and at which pressure [Pa]; only of a body with cracks.
 struct KnownModes {
   std::optional<CellView<const double>> mode, pressure;
 
-  static KnownModes from(auto& take, bool mayDetonate, int ghost) {
-    return {.mode = take(when(mayDetonate, requiresNew(c::burnMode, ghost))),
-            .pressure = take(when(mayDetonate, requiresNew(c::burnPressure, ghost)))};
+  static KnownModes from(auto& take, bool hasCracks, int ghost) {
+    return {.mode = take(when(hasCracks, requiresNew(c::burnMode, ghost))),
+            .pressure = take(when(hasCracks, requiresNew(c::burnPressure, ghost)))};
   }
   template <int D>
   bool is(const Index<D>& cell, BurnMode one) const {

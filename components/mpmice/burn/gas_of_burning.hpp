@@ -32,10 +32,10 @@ struct BurningParticles {
 template <int D>
 struct BurntGas {
   GasInCells<D> before;
-  CellView<const double> share, heat, newFree;
+  CellView<const double> share, newFree;
   euler::MixtureViews<D, double> held;  ///< of several gases the volumes, in place of the shares
-  CellView<const double> burntBefore, releasedBefore;
-  CellView<double> burnt, released;
+  CellView<const double> burntBefore;
+  CellView<double> burnt;
 
   static BurntGas from(auto& take, std::size_t gases) {
     const auto ofEach = [&](const auto& labels) {
@@ -43,16 +43,13 @@ struct BurntGas {
     };
     return {.before = GasInCells<D>::from(take, readsOld, {.state = 1, .mass = 1, .room = 1, .gases = gases}),
             .share = take(requiresNew(c::burntShare)),
-            .heat = take(requiresNew(c::burnHeat)),
             .newFree = take(requiresNew(c::unfilledVolume)),
             .held = {{take(modifies(c::unsharedDensity)), take(modifies(c::unsharedMomentum<D>)),
                       take(modifies(c::unsharedEnergy))},
                      ofEach(c::unsharedMass),
                      ofEach(c::unsharedVolume)},
             .burntBefore = take(requiresOld(c::burntSinceStart)),
-            .releasedBefore = take(requiresOld(c::heatSinceBurn)),
-            .burnt = take(computes(c::burntSinceStart)),
-            .released = take(computes(c::heatSinceBurn))};
+            .burnt = take(computes(c::burntSinceStart))};
   }
 };
 
@@ -122,13 +119,11 @@ void addBurntGas(const Patch& patch, const std::vector<mpm::solid::Material>& ma
   const double specificHeat = materials[burning.body].specificHeat, inverse = 1 / patch.level().cellVolume();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     gas.burnt[cell] = gas.burntBefore[cell];
-    gas.released[cell] = gas.releasedBefore[cell];
     if (!(gas.share[cell] > 0)) return;
     const auto burnt =
-        Burnt<D>::of(body, body.mass.template in<D>(cell), gas.share[cell] * inverse, specificHeat, gas.heat[cell]);
+        Burnt<D>::of(body, body.mass.template in<D>(cell), gas.share[cell] * inverse, specificHeat, burning.model.heat);
     if (!(burnt.mass > 0)) return;
     gas.burnt[cell] += burnt.mass;
-    gas.released[cell] += burnt.mass * gas.heat[cell];
     gas.held.density[cell] += burnt.mass;
     gas.held.momentum[cell] += burnt.momentum;
     gas.held.totalEnergy[cell] += burnt.kinetic + burnt.internal;
@@ -146,11 +141,11 @@ inline void startUnburned(const Patch&, const mpm::solid::Material&, ParticleVie
 
 /// The mass that has burned, and the heat of its reaction.
 template <int D>
-void sumBurnt(const Patch& patch, CellView<const double> burnt, CellView<const double> released, Sum& mass, Sum& heat) {
+void sumBurnt(const Patch& patch, const Settings& settings, CellView<const double> burnt, Sum& mass, Sum& heat) {
   const double volume = patch.level().cellVolume();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     mass.add(volume * burnt[cell]);
-    heat.add(volume * released[cell]);
+    heat.add(settings.burning->model.heat * volume * burnt[cell]);
   });
 }
 
