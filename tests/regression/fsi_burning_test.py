@@ -60,6 +60,9 @@ class Conservation(SceneTest):
         text = start + '<Model type="Test">' + model + end[end.index("</Simple_Burn>") + len("</Simple_Burn>"):]
         totals = globals_of(self.scene(text), "BurntMass", "TotalMass", "GasMass", sets=("Time/maxTime=0.5", *RIGID))
         before = totals["TotalMass"][0][1] - totals["GasMass"][0][1]
+        older = text.replace("<Test>", "").replace("</Test>", "")  # without a section of its own
+        prints = {run(self.scene(one), "Time/max_Timesteps=3", *RIGID).report["fingerprint"] for one in (text, older)}
+        self.assertEqual(len(prints), 1)
         # Each step takes .3 dt of what is left; steps are less than 1e-2.
         self.assertAlmostEqual(totals["BurntMass"][-1][1] / before, 1 - 2.718281828459045 ** -.15, delta=1e-3)
 
