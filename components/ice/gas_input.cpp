@@ -159,8 +159,14 @@ void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagn
   }
 }
 
-/// Reads a gas and its state at the start into the settings that it shares with others.
-void readMaterial(const GasMaterial& material, const Element& element, euler::Settings& settings,
+/// Whether a volume fraction is a number, and this one.
+bool isShareOf(const GasBody& body, double share) {
+  return body.share && body.share->isConstant() && (*body.share)(Vec3::Zero()) == share;
+}
+
+/// Reads a gas and its state at the start into the settings that it shares with others. `besideBodies`: a region with
+/// none of a single gas is a body's, and what space it leaves has the gas around it.
+void readMaterial(const GasMaterial& material, const Element& element, bool besideBodies, euler::Settings& settings,
                   Diagnostics& diagnostics) {
   settings.name = material.name;
   euler::Gas& gas = settings.gas;
@@ -171,6 +177,7 @@ void readMaterial(const GasMaterial& material, const Element& element, euler::Se
   const auto tags = element.children("geom_object");
   for (std::size_t k = 0; k < material.bodies.size(); ++k) {
     const GasBody& body = material.bodies[k];
+    if (besideBodies && isShareOf(body, 0)) continue;
     settings.objects.push_back({.where = body.where,
                                 .shape = body.shape,
                                 .density = body.density,
@@ -182,10 +189,10 @@ void readMaterial(const GasMaterial& material, const Element& element, euler::Se
   }
 }
 
-/// Checks that a single gas fills its regions.
-void checkShares(const GasMaterial& material, Diagnostics& diagnostics) {
+/// Checks that a single gas fills its regions, or leaves them to bodies.
+void checkShares(const GasMaterial& material, bool besideBodies, Diagnostics& diagnostics) {
   for (const GasBody& body : material.bodies)
-    if (body.share && !(body.share->isConstant() && (*body.share)(Vec3::Zero()) == 1))
+    if (body.share && !isShareOf(body, 1) && !(besideBodies && isShareOf(body, 0)))
       diagnostics.error(body.share->where(), "MaterialProperties/ICE/material/geom_object/volumeFraction",
                         fmt::format("found '{}', expected 1: a single gas fills the region", body.share->text()));
 }
@@ -203,8 +210,9 @@ void readOneGas(const GasMaterial& material, const Element& element, GasScene& s
   scene.viscosity = material.viscosity;
   scene.conductivity = material.conductivity;
   scene.varying = varyingOf(material, scene);
-  readMaterial(material, element, scene.gas, diagnostics);
-  checkShares(material, diagnostics);
+  const bool besideBodies = scene.gas.gas.material > 0;  // which are numbered before it
+  readMaterial(material, element, besideBodies, scene.gas, diagnostics);
+  checkShares(material, besideBodies, diagnostics);
   if (scene.implicit && scene.gas.gas.isBarotropic())
     diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
                       "is not available with JWLC or Murnaghan, whose pressure does not depend on the energy: remove "
@@ -218,7 +226,7 @@ void readGases(const std::vector<GasMaterial>& materials, const Element& root, G
     euler::Settings settings = scene.gas;
     settings.where = elements[k].where();
     settings.gas.material += static_cast<int>(k);
-    readMaterial(materials[k], elements[k], settings, diagnostics);
+    readMaterial(materials[k], elements[k], false, settings, diagnostics);
     if (settings.name.empty()) settings.name = fmt::format("gas{}", k);
     scene.mixture.push_back(settings);
     scene.diffusions.push_back({materials[k].viscosity, materials[k].conductivity});
@@ -255,7 +263,29 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
   return read;
 }
 
-/// Refuses features of a gas that are not available with bodies.
+/// Why a gas beside bodies takes explicit steps though the scene has an <ImplicitSolver>; empty if it does not.
+std::string whyExplicit(const std::vector<GasMaterial>& materials, const GasScene& scene) {
+  if (!scene.burns.empty()) return "with a body that burns";
+  if (materials.size() > 1) return "with several gases beside bodies";
+  const auto kind = materials.front().state.kind;
+  if (kind != EquationOfState::Kind::ideal && kind != EquationOfState::Kind::stiffened)
+    return "beside bodies in a gas that is neither ideal nor stiffened";
+  return "";
+}
+
+/// Takes the settings of implicit steps, or notes why steps are explicit.
+void takeImplicitSteps(const IceSection& ice, const std::vector<GasMaterial>& materials, const Element& root,
+                       int solids, GasScene& scene, Diagnostics& diagnostics) {
+  if (!isImplicit(ice)) return;
+  const std::string why = solids > 0 ? whyExplicit(materials, scene) : "";
+  if (why.empty())
+    scene.implicit = implicitPressureOf(ice);
+  else
+    diagnostics.note(*root.child("CFD")->child("ICE")->child("ImplicitSolver"),
+                     fmt::format("does nothing: {} steps are explicit, so that sound limits them", why));
+}
+
+/// Refuses what a gas can have only without bodies.
 void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   const Element tag = *root.child("CFD")->child("ICE");
   const char* sentence = "is not available with bodies: remove it, or keep only the gas";
@@ -329,7 +359,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   takeModels(models, root, solids, scene, diagnostics);
   scene.gravity = constants.gravity;
   scene.referencePressure = constants.referencePressure;
-  if (isImplicit(cfd.ice)) scene.implicit = implicitPressureOf(cfd.ice);
+  takeImplicitSteps(cfd.ice, materials, root, solids, scene, diagnostics);
   if (cfd.ice.push) scene.push = Vec3(cfd.ice.push->x, cfd.ice.push->y, cfd.ice.push->z);
   if (cfd.ice.heating) scene.heating = heatingOf(*cfd.ice.heating, solids, materials.size(), diagnostics);
   if (cfd.ice.eddies) scene.varying.smagorinsky = cfd.ice.eddies->constant;

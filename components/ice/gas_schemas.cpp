@@ -243,6 +243,26 @@ const Schema<CoefficientSection>& coefficientModelSchema() {
   return schema;
 }
 
+const Schema<ExchangeModelSection>& exchangeModelSchema() {
+  static const Schema<ExchangeModelSection> schema = [] {
+    Schema<ExchangeModelSection> tags("Model", "How bodies and gases exchange momentum and heat.");
+    tags.requiredChoiceAttribute("type", &ExchangeModelSection::type, {{"scalar", "scalar"}, {"slip", "slip"}},
+                                 "by <exchange_coefficients>; slip: likewise, as <useSlipCoeffs> must be false")
+        .value("useSlipCoeffs", &ExchangeModelSection::slips, true, "1",
+               "for slip: false; coefficients from the mean free path of a gas are not available");
+    for (const char* tag :
+         {"fluidMatlIndex", "solidMatlIndex", "momentum_accommodation_coeff", "thermal_accommodation_coeff"})
+      tags.ignored(tag, "belongs to useSlipCoeffs");
+    return tags.check([](const ExchangeModelSection& read, const Element& model, Diagnostics& diagnostics) {
+      if (read.type == "slip" && read.slips)
+        diagnostics.error(model.child("useSlipCoeffs").value_or(model),
+                          "slip by the mean free path is not available: viscous gas sticks to walls; set "
+                          "<useSlipCoeffs> to false, or remove the model");
+    });
+  }();
+  return schema;
+}
+
 const Schema<ExchangeSection>& exchangeSchema() {
   static const Schema<ExchangeSection> schema = [] {
     Schema<ExchangeSection> tags("exchange_properties", "The exchange between materials.");
@@ -250,9 +270,8 @@ const Schema<ExchangeSection>& exchangeSchema() {
     input::refuseSwitch(tags, "do_convective_heat_transfer", "walls are adiabatic");
     for (const char* tag : {"convective_fluid", "convective_solid"})
       tags.ignored(tag, "belongs to do_convective_heat_transfer");
-    tags.section("CoefficientModel", &ExchangeSection::model, coefficientModelSchema(),
-                 "what the coefficients depend on");
-    input::refuseTag(tags, "Model", "bodies are walls to the gas");
+    tags.section("CoefficientModel", &ExchangeSection::model, coefficientModelSchema(), "what coefficients depend on");
+    tags.section("Model", &ExchangeSection::exchangeModel, exchangeModelSchema(), "how materials exchange momentum");
     return tags;
   }();
   return schema;

@@ -18,7 +18,7 @@ using input::Schema;
 namespace {
 
 /// The attribute `type` of a <Model>.
-const std::vector<std::string> modelTypes{"PassiveScalar", "Test", "Simple_Burn", "Steady_Burn"};
+const std::vector<std::string> modelTypes{"PassiveScalar", "Test", "Simple_Burn", "Steady_Burn", "DDT1"};
 
 const Schema<ScalarRegion>& startSchema() {
   static const Schema<ScalarRegion> schema = [] {
@@ -115,6 +115,7 @@ const Schema<MassExchange>& massExchangeSchema() {
   static const Schema<MassExchange> schema =
       Schema<MassExchange>("Test", "One material is converted into another one.")
           .location(&MassExchange::where)
+          .foreignAttribute("type", "Test")
           .required("fromMaterial", &MassExchange::from, "1", "the gas or the body that is converted")
           .required("toMaterial", &MassExchange::to, "1", "the gas into which it is converted")
           .required("rate", &MassExchange::rate, "1/s", "fraction that is converted per time", input::nonNegative())
@@ -122,10 +123,11 @@ const Schema<MassExchange>& massExchangeSchema() {
   return schema;
 }
 
+/// Older scenes give the numbers without a <Test> around them.
 void readExchange(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
   const auto given = model.child("Test");
-  if (!given) return diagnostics.error(model, "missing tag <Test> in <Model>");
-  models.massExchanges.push_back(massExchangeSchema().read(*given, diagnostics));
+  if (!given && !model.child("fromMaterial")) return diagnostics.error(model, "missing tag <Test> in <Model>");
+  models.massExchanges.push_back(massExchangeSchema().read(given.value_or(model), diagnostics));
 }
 
 /// Reads a body that burns from the tag with the name of the model.
@@ -144,6 +146,7 @@ void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnos
   if (type == "Test") return readExchange(model, models, diagnostics);
   if (type == simpleBurnSchema().name()) return readBurning(model, simpleBurnSchema(), models, diagnostics);
   if (type == steadyBurnSchema().name()) return readBurning(model, steadyBurnSchema(), models, diagnostics);
+  if (type == ddtSchema().name()) return readBurning(model, ddtSchema(), models, diagnostics);
   if (type != "PassiveScalar")
     return diagnostics.error(model, fmt::format("the type '{}' is not available; available are {}; remove the model",
                                                 type, input::listed(modelTypes)));
@@ -183,13 +186,14 @@ const Schema<ModelsSection>& modelsSchema() {
                 for (const Element& model : section.children("Model")) readModel(model, models, diagnostics);
               },
               {"Model"},
-              "type=\"PassiveScalar\": a quantity per mass that is transported with the gas; type=\"Test\": one "
-              "material is converted into another one; type=\"Simple_Burn\", type=\"Steady_Burn\": a body burns",
+              "type=\"PassiveScalar\": a number per mass that the gas carries along; type=\"Test\": one material "
+              "becomes another one; type=\"Simple_Burn\", type=\"Steady_Burn\", type=\"DDT1\": a body burns",
               [](std::ostream& out, int indent) {
                 passiveScalarSchema().describe(out, indent);
                 massExchangeSchema().describe(out, indent);
                 simpleBurnSchema().describe(out, indent);
                 steadyBurnSchema().describe(out, indent);
+                ddtSchema().describe(out, indent);
               })
           .forms({{.tags = {"Model"}, .demands = {{"type", modelTypes}}}});
   return schema;

@@ -1,5 +1,6 @@
 #include "components/mpmice/mpmice.hpp"
 
+#include "components/mpmice/burn/burn_modes.hpp"
 #include "components/mpmice/burn/gas_of_burning.hpp"
 #include "components/mpmice/tasks/add_diffusion.hpp"
 #include "components/mpmice/tasks/add_gravity.hpp"
@@ -67,6 +68,9 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
   if (burns()) {
     tasks.perMaterial("mpmice::startUnburned", startUnburned, materials, requiresNew(p::mass), computes(p::unburned));
     tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(c::burntSinceStart));
+    if (waitsForFlames())
+      tasks.perPatch("mpmice::startBurnModes", startBurnModes<D>, computes(c::burnMode), computes(c::waited),
+                     computes(c::inductionTime));
   }
   tasks.perPatch("mpmice::startImpulse", startSum<D, Vec<D>>, computes(c::impulseSinceStart<D>));
   for (const CellLabel<double>* sum : {&c::workSinceStart, &c::heatSinceStart, &c::leakSinceStart})
@@ -74,8 +78,9 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
 }
 
 template <int D>
-void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) const {
-  if (burns()) scheduleBurning(tasks, materials);
+void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials,
+                                  const ParticleLabel<double>& state) const {
+  if (burns()) scheduleBurning(tasks, materials, state);
   if (settings_.implicit)
     schedulePressure(tasks, materials);
   else
@@ -96,11 +101,21 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
 
 /// The mass that burns in the step, according to the state at its start.
 template <int D>
-void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials) const {
+void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials,
+                                   const ParticleLabel<double>& state) const {
+  constexpr typename GasInCells<D>::Reach reach{.state = 1, .mass = 3, .room = 3};
   tasks.acrossMaterials("mpmice::measureReactant", measureReactant<D>, materials, with(settings_),
                         all<ParticlesAtStart>(), withoutMaterial(all<NewReactant>()));
-  tasks.perPatch("mpmice::findBurning", findBurning<D>, with(settings_),
-                 gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), all<Reactant>(1), all<NewBurning<D>>());
+  if (hasCracks()) {
+    tasks.acrossMaterials("mpmice::measureLoad", measureLoad<D>, materials, with(settings_), with(state.components),
+                          all<StressedParticles>(&state), withoutMaterial(computes(c::bodyPressure)),
+                          withoutMaterial(computes(c::crackRadius)));
+    tasks.perPatch("mpmice::findBurnModes", findBurnModes<D>, with(settings_), requiresOld(delT),
+                   gasIn(readsOld, reach), all<Reactant>(1), all<Load>(1), all<Waited>(waitsForFlames()),
+                   all<NewBurnModes>());
+  }
+  tasks.perPatch("mpmice::findBurning", findBurning<D>, with(settings_), gasIn(readsOld, reach), all<Reactant>(1),
+                 all<KnownModes>(hasCracks(), 1), all<NewBurning<D>>());
   tasks.perPatch("mpmice::findBurntShare", findBurntShare<D>, with(settings_), startTime(), requiresOld(delT),
                  requiresNew(c::burnRate<D>, 2), requiresNew(c::burnRateWithin, 1), requiresNew(c::reactantMass, 1),
                  computes(c::burntShare));
@@ -305,6 +320,7 @@ template <int D>
 std::vector<std::string> MpmIce<D>::foreignLabels() const {
   std::vector<std::string> labels = solids_->foreignLabels();
   labels.insert(labels.end(), ice::uintahsLabels.begin(), ice::uintahsLabels.end());
+  labels.insert(labels.end(), uintahsLabels.begin(), uintahsLabels.end());
   return labels;
 }
 

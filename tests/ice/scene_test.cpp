@@ -224,8 +224,8 @@ TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
 }
 
 TEST(IceScene, RefusesModels) {
-  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"DDT1\"/></Models>\n  <CFD>")),
-            "the type 'DDT1' is not available; available are PassiveScalar, Test, Simple_Burn, Steady_Burn; remove the "
+  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"DDT0\"/></Models>\n  <CFD>")),
+            "the type 'DDT0' is not available, but PassiveScalar, Test, Simple_Burn, Steady_Burn, DDT1 are; remove the "
             "model");
 }
 

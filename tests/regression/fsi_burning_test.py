@@ -63,6 +63,9 @@ class Conservation(SceneTest):
         text = start + '<Model type="Test">' + model + end[end.index("</Simple_Burn>") + len("</Simple_Burn>"):]
         totals = globals_of(self.scene(text), "BurntMass", "TotalMass", "GasMass", sets=("Time/maxTime=0.5", *RIGID))
         before = totals["TotalMass"][0][1] - totals["GasMass"][0][1]
+        older = text.replace("<Test>", "").replace("</Test>", "")  # without a section of its own
+        prints = {run(self.scene(one), "Time/max_Timesteps=3", *RIGID).report["fingerprint"] for one in (text, older)}
+        self.assertEqual(len(prints), 1)
         # Each step takes .3 dt of what is left; steps are less than 1e-2.
         self.assertAlmostEqual(totals["BurntMass"][-1][1] / before, 1 - 2.718281828459045 ** -.15, delta=1e-3)
 
@@ -142,8 +145,13 @@ class WrongScenes(RefusedSceneTest):
     def test_what_would_change_the_rate(self):
         self.assert_refused(SLAB.replace("<ICE>", "<ICE>\n<thin_walls>true</thin_walls>", 1),
                             "ICE/thin_walls: is not available with a body that burns")
-        self.assert_refused(SLAB.replace("<ICE>", "<ICE>\n<ImplicitSolver/>", 1),
-                            "ICE/ImplicitSolver: is not available with a body that burns")
+
+    def test_steps_are_explicit_whatever_the_scene_says(self):
+        implicit = SLAB.replace("<ICE>", "<ICE>\n<ImplicitSolver/>", 1)
+        done = run(self.scene(implicit), options=("--check",))
+        self.assertIn("ICE/ImplicitSolver: does nothing: with a body that burns steps are explicit", done.out + done.err)
+        prints = {run(self.scene(text), "Time/max_Timesteps=5").report["fingerprint"] for text in (SLAB, implicit)}
+        self.assertEqual(len(prints), 1)
 
     def test_what_burns_has_a_specific_heat(self):
         self.assert_refused(SLAB.replace("<specific_heat>1</specific_heat>", ""),

@@ -207,8 +207,10 @@ void acceptUintahsTags(Schema<Material>& tags) {
   tags.ignored("C_p", "the <specific_heat> is used").ignored("do_conc_reduction", "belongs to do_scalar_diffusion");
   for (const char* tag : {"D1", "D2", "D3", "D4", "D5"})
     tags.ignored(tag, "it has an effect only in <damage_model type=\"johnson_cook\">, as in Uintah");
-  requireSwitch(tags, "is_active", "all materials exist from the start");
-  refuseSwitch(tags, "activation_time", "all materials exist from the start");
+  for (const char* tag : {"ThresholdTemp", "ThresholdPressure", "Enthalpy", "BurnCoeff", "refPressure"})
+    noteTag(tags, tag, "a <Model> in <Models> says how the material burns, as in Uintah");
+  requireSwitch(tags, "is_active", "every material exists from the start");
+  refuseSwitch(tags, "activation_time", "every material exists from the start");
 }
 
 const Schema<Material>& materialSchema() {

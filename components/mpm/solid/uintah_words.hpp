@@ -19,6 +19,7 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
     {"DoDefGradAveraging", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
     {"use_volume_integral", "remove it: particles represent their volume"},
     {"restartOnLargeNodalVelocity", "recompute_timestep in <Time> repeats a step that fails"},
+    {"delete_rogue_particles", "remove it: no particle is taken out for its speed or temperature"},
 };
 
 /// Tags of Uintah that have no effect in Tushar, with the reasons.
@@ -92,6 +93,7 @@ template <class S>
 void addForeignTags(input::Schema<S>& mpm) {
   for (const auto& [tag, why] : meaninglessTags) mpm.ignored(tag, why);
   for (const auto& [tag, instead] : lackingSwitches) refuseSwitch(mpm, tag, instead);
+  refuseOtherValues(mpm, "ForceBC_force_increment_factor", {"1", "1.0", "1."}, "multiply the <force> itself");
 }
 
 }  // namespace tushar::mpm::solid

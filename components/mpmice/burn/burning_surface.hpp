@@ -58,7 +58,29 @@ class SurfaceAtFaces {
   FreeSpace<D> space_;
 };
 
-/// The mass that burns at the lower faces of cells.
+/// How a cell burns, of a body with cracks: c.burnMode.
+enum class BurnMode { none, surface, cracks, waiting };
+
+/// How cells burn, and at which pressure [Pa]; only of a body with cracks.
+struct KnownModes {
+  std::optional<CellView<const double>> mode, pressure;
+
+  static KnownModes from(auto& take, bool hasCracks, int ghost) {
+    return {.mode = take(when(hasCracks, requiresNew(c::burnMode, ghost))),
+            .pressure = take(when(hasCracks, requiresNew(c::burnPressure, ghost)))};
+  }
+  template <int D>
+  bool is(const Index<D>& cell, BurnMode one) const {
+    return mode && (*mode)[cell] == double(one);
+  }
+  /// Whether the surface of a cell may burn.
+  template <int D>
+  bool allowSurface(const Index<D>& cell) const {
+    return !mode || is(cell, BurnMode::surface);
+  }
+};
+
+/// What burns at the lower faces of cells.
 template <int D>
 struct NewBurning {
   CellView<Vec<D>> rate, blowing, recoil;
@@ -80,8 +102,14 @@ struct NewBurning {
 template <int D>
 class BurningSurface {
  public:
-  BurningSurface(const Level& level, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant)
-      : level_(level), settings_(settings), cells_(cells), reactant_(reactant), surface_(level, settings, cells) {}
+  BurningSurface(const Level& level, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant,
+                 const KnownModes& modes)
+      : level_(level),
+        settings_(settings),
+        cells_(cells),
+        reactant_(reactant),
+        modes_(modes),
+        surface_(level, settings, cells) {}
 
   /// Adds the mass that burns at the lower face of a cell. The new gas leaves the body with the speed u = m (1/rho -
   /// 1/rho_s), and its recoil is m u: mass and momentum across the surface.
@@ -96,6 +124,7 @@ class BurningSurface {
     const ice::BurnModel& model = settings_.burning->model;
     if (!(pressure > model.leastPressure) || !(hottestAt(gas, body) > model.ignitionTemperature)) return;
     const Index<D>& main = reactant_.mass[body] > reactant_.mass[gas] ? body : gas;
+    if (!modes_.allowSurface(main)) return;
     const double bodyDensity = reactant_.mass[main] / reactant_.volume[main];
     const double rate = model.rate({pressure, reactant_.temperature[main], bodyDensity});
     fresh.rate[above][axis] = rate * share * step * surface_.normalAlong(above, axis) * level_.inverseSpacing(axis);
@@ -111,6 +140,7 @@ class BurningSurface {
   /// neighbouring cell is a wall, areas have no step. Its surface is that of one face.
   void burnWithin(const Index<D>& cell, const NewBurning<D>& fresh) const {
     if (!(reactant_.mass[cell] > 0) || cells_.isEmpty(cell) || isBesideWall(cell)) return;
+    if (!modes_.allowSurface(cell)) return;
     const euler::Gas law = lawAt<D>(settings_, cells_.held, cell);
     const euler::State<D> w = cells_.primitive(law, cell);
     const double pressure = law.pressureOf(w[euler::kDensity], w[euler::kPressure<D>]);
@@ -121,6 +151,15 @@ class BurningSurface {
     const double density = reactant_.mass[cell] / reactant_.volume[cell];
     fresh.within[cell] =
         perWidth * reactant_.shareIn(cell, cell) * model.rate({pressure, reactant_.temperature[cell], density});
+  }
+
+  /// What burns in the cracks of a cell.
+  void burnCracks(const Index<D>& cell, const NewBurning<D>& fresh) const {
+    if (!modes_.is(cell, BurnMode::cracks)) return;
+    const double density = reactant_.mass[cell] / reactant_.volume[cell];
+    fresh.within[cell] =
+        ice::Ddt::surfaceOfCracks * reactant_.volume[cell] *
+        settings_.burning->model.rate({(*modes_.pressure)[cell], reactant_.temperature[cell], density});
   }
 
  private:
@@ -143,22 +182,24 @@ class BurningSurface {
   const Settings& settings_;
   GasInCells<D> cells_;
   const Reactant& reactant_;
+  const KnownModes& modes_;
   SurfaceAtFaces<D> surface_;
 };
 
 /// Finds the mass that burns at the faces of the cells of a patch.
 template <int D>
 void findBurning(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant,
-                 const NewBurning<D>& fresh) {
+                 const KnownModes& modes, const NewBurning<D>& fresh) {
   fresh.clear();
   if (!settings.burning->model.burnsAtSurface()) return;
   const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
-  const BurningSurface<D> surface(patch.level(), settings, cells, reactant);
+  const BurningSurface<D> surface(patch.level(), settings, cells, reactant, modes);
   const FreeSpace<D> space(patch.level(), settings, cells);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     for (int d = 0; d < D; ++d)
       if (!space.isAtSide(cell, d, 0)) surface.burn(cell, d, fresh);
     surface.burnWithin(cell, fresh);
+    surface.burnCracks(cell, fresh);
   });
 }
 

@@ -48,7 +48,8 @@ euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<const double> free, CellView<double> density,
                 CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
-  if (patch.id() == 0) euler::checkObjects<D>(patch.level(), settings.gas);
+  // what a body burns to may be nowhere yet
+  if (patch.id() == 0 && !settings.burning) euler::checkObjects<D>(patch.level(), settings.gas);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     density[cell] = totalEnergy[cell] = 0;
     momentum[cell] = Vec<D>::Zero();

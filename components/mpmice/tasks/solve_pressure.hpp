@@ -56,12 +56,16 @@ struct NewWallSpeeds {
   }
 };
 
+/// The pressure that cells without gas have in the equations, Pa.
+inline constexpr double pressureOfNothing = 1;
+
 /// The state of the gas itself.
 template <int D>
 void takeGasAlone(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                   const NewGasAlone<D>& alone) {
   euler::State<D> none{};
-  none[euler::kDensity] = none[euler::kPressure<D>] = 1;
+  none[euler::kDensity] = 1;
+  none[euler::kPressure<D>] = pressureOfNothing;
   none = euler::conserved<D>(settings.gas.gas, none);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const euler::State<D> u = cells.isEmpty(cell) ? none : cells.conserved(cell);
@@ -76,7 +80,8 @@ template <int D>
 void guessPressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                    CellView<double> pressure) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    pressure[cell] = cells.isEmpty(cell) ? 1 : cells.primitive(settings.gas.gas, cell)[euler::kPressure<D>];
+    pressure[cell] =
+        cells.isEmpty(cell) ? pressureOfNothing : cells.primitive(settings.gas.gas, cell)[euler::kPressure<D>];
   });
 }
 
@@ -180,7 +185,10 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
   }
   ice::solveForChange<D>(
       patches, ranks, *settings.implicit, flows, guess, fresh, totals,
-      [&](std::size_t p, const Index<D>& cell) { return spaces[p].isEmpty(cell); },
+      [&](std::size_t p, const Index<D>& cell) {
+        const bool wasEmpty = std::abs(guess[p][cell] - pressureOfNothing) < 1e-12;  // the guess is none then
+        return spaces[p].isEmpty(cell) || wasEmpty;
+      },
       [&](std::size_t p, const Index<D>& cell) {
         return pressureEquationBeside<D>(flows[p], spaces[p], walls[p], cells[p].free[cell], cell, dt);
       });

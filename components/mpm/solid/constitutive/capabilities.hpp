@@ -277,6 +277,27 @@ struct Melting {
   }
 };
 
+/// Whether plastic flow in the step has lost its stability; `stress` (Pa) and `state` are those at its end, before
+/// damage. The particle fails then where the scene has an <erosion>.
+struct Stability {
+  struct Name {
+    int isUnstable;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = providesCapability<M, Stability>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::isUnstable; };
+    static_assert(isNamed || isAbsent, "a member isUnstable is used only if the model names capability::Stability");
+    constexpr bool fits = requires {
+      Member<M, bool, const Deformation&, const Matrix3&, const typename M::State&>{&M::isUnstable};
+    };
+    static_assert(!isNamed || fits,
+                  "capability::Stability needs the public member `bool isUnstable(const Deformation&, const Matrix3& "
+                  "stress, const State&) const`");
+    return true;
+  }
+};
+
 // Internal variables.
 
 /// Whether particles keep a State, depending on the constants of the model; if not, initialState() is used. Offer it
@@ -353,9 +374,10 @@ struct AbsentVariables {
 };
 
 /// Every capability that a constitutive model can name.
-using OfModels = CapabilityList<DependsOnDeformationOnly, IgnoresTemperature, FBar, PlaceAndTime, Vectorized,
-                                NominalTangent, BulkSpeed, InitialWaveSpeed, InitialVolumeRatio, InitialStress,
-                                OwnViscosity, ConstantsOfMaterial, TemperatureChange, HeatCapacity, ViscousHeat,
-                                Melting, OptionalState, PartialState, StateByParticle, Nonlocal, AbsentVariables>;
+using OfModels =
+    CapabilityList<DependsOnDeformationOnly, IgnoresTemperature, FBar, PlaceAndTime, Vectorized, NominalTangent,
+                   BulkSpeed, InitialWaveSpeed, InitialVolumeRatio, InitialStress, OwnViscosity, ConstantsOfMaterial,
+                   TemperatureChange, HeatCapacity, ViscousHeat, Melting, Stability, OptionalState, PartialState,
+                   StateByParticle, Nonlocal, AbsentVariables>;
 
 }  // namespace tushar::mpm::solid::capability

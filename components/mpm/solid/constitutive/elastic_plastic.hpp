@@ -12,6 +12,7 @@
 #include "components/mpm/solid/constitutive/plasticity/return_tangent.hpp"
 #include "components/mpm/solid/constitutive/plasticity/shear_and_melting.hpp"
 #include "components/mpm/solid/constitutive/plasticity/specific_heat.hpp"
+#include "components/mpm/solid/constitutive/plasticity/stability.hpp"
 #include "components/mpm/solid/constitutive/polar.hpp"
 #include "components/mpm/solid/constitutive/tangent.hpp"
 #include "core/input/refuse.hpp"
@@ -34,10 +35,10 @@ struct ElasticPlastic {
     double energy;                                               ///< J/kg
     std::array<Tensor, MaxwellDeviator::greatestCount> maxwell;  ///< s_j of the Maxwell elements, Pa
   };
-  using Capabilities =
-      CapabilityList<capability::AbsentVariables, capability::ConstantsOfMaterial, capability::NominalTangent,
-                     capability::BulkSpeed, capability::InitialWaveSpeed, capability::TemperatureChange,
-                     capability::HeatCapacity, capability::ViscousHeat, capability::Melting, capability::PartialState>;
+  using Capabilities = CapabilityList<capability::AbsentVariables, capability::ConstantsOfMaterial,
+                                      capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed,
+                                      capability::TemperatureChange, capability::HeatCapacity, capability::ViscousHeat,
+                                      capability::Melting, capability::Stability, capability::PartialState>;
   static constexpr std::array<StateVariable, 9> stateVariables{
       {{"p.plasticStrain", "1", "equivalent plastic strain"},
        {"p.plasticStrainRate", "1/s", "equivalent plastic strain rate in the last step"},
@@ -65,6 +66,7 @@ struct ElasticPlastic {
   bool computesHeat = false;  ///< otherwise the specific heat is that of the material
   SpecificHeatModel specificHeat;
   std::variant<VonMisesYield, GursonYield> yieldCondition;    ///< with GursonYield the model is GursonPlastic
+  StabilityCheck stability;                                   ///< what flow makes particles fail
   bool poresEvolve = true;                                    ///< this and the following: only with GursonYield
   double initialPorosity = 0.002, porosityDeviation = 0.002;  ///< f at the start, mean and standard deviation, 1
   bool porositySpreads = false;                               ///< f at the start is normally distributed
@@ -146,6 +148,15 @@ struct ElasticPlastic {
   bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const {
     return temperature > compressionOf(deformation.determinant(), -stress.trace() / 3, temperature).meltTemperature;
   }
+  bool isUnstable(const Deformation& d, const Matrix3& stress, const State& state) const {
+    const FlowState end = flowStateOf(compressionOf(d, stress), state, d.timeStep);
+    if (!(state.plasticStrainRate > 0) || isFluid(end)) return false;
+    const double hardening = std::visit(
+        [&]<class Flow>(const Flow& model) { return RadialReturn<Flow>(model, end, d.timeStep).hardening(end); }, flow);
+    const PlasticTangent tangent{bulkModulus, end.shearModulus, hardening};
+    const Matrix3 rate = 0.5 * (d.velocityGradient + d.velocityGradient.transpose());
+    return std::visit([&](const auto& check) { return check.fails(tangent, stress, rate); }, stability);
+  }
 
  private:
   friend struct GursonPlastic;
@@ -206,8 +217,8 @@ struct ElasticPlastic {
     tags.forms({input::choiceForm({"plastic_convergence_algo"}, {"radialReturn", "biswajit"})});
     typedTag(tags, "yield_condition", &ElasticPlastic::yieldCondition,
              "the model of the yield surface; vonMises if left out", false);
-    refuseTypes(tags, "stability_check", {"none", "drucker", "becker", "drucker_becker"},
-                "has no effect; only none is allowed with <erosion>");
+    typedTag(tags, "stability_check", &ElasticPlastic::stability,
+             "with <erosion>, particles fail where plastic flow loses its stability; none if left out", false);
   }
 
   /// Tags that only the yield condition gurson uses.

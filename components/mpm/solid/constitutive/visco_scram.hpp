@@ -229,9 +229,9 @@ struct ViscoScram {
     for (const char* tag : {"Chi", "delH", "Z", "EoverR", "dynamic_coeff_friction", "volfracHE"})
       tags.ignored(tag, "belongs to the hot spots in Uintah's visco_scram_hs");
     refuseSwitch(tags, "randomize_parameters", "all particles have the given moduli");
-    for (const char* tag : {"useMurnahanEOS", "useBirchMurnaghanEOS", "useJWLEOS", "useJWLCEOS", "gamma", "P0",
-                            "bulkPrime", "A", "B", "C", "R1", "R2", "om", "Cv"})
-      tags.ignored(tag, "only the fluid coupling of Uintah uses it");
+    for (const char* tag : {"useMurnahanEOS", "useMurnaghanEOS", "useBirchMurnaghanEOS", "useJWLEOS", "useJWLCEOS",
+                            "gamma", "P0", "bulkPrime", "A", "B", "C", "R1", "R2", "om", "Cv", "rho0"})
+      tags.ignored(tag, "only Uintah's coupled fluid reads it");
     return tags;
   }
   static void addElements(input::Schema<ViscoScram>& tags) {

@@ -36,8 +36,10 @@ const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
         .required("D3", &Self::d3, "1", "factor of the triaxiality")
         .required("D4", &Self::d4, "1", "factor of the logarithm of the rate")
         .required("D5", &Self::d5, "1", "factor of the temperature")
-        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller values of damage are treated as 0",
-               input::nonNegative());
+        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller damage counts as 0",
+               input::nonNegative())
+        .ignored("D0", "Uintah does not read it either")
+        .ignored("Dc", "Uintah does not read it either");
     declareStart(tags);
     return tags;
   }();
@@ -210,14 +212,16 @@ void connect(Material& material, const Element& parent, const Element& tag, Diag
   brittle->young = 9 * *bulk * *shear / (3 * *bulk + *shear);
 }
 
-/// Refuses stability checks with erosion, which make particles fail in Uintah.
+/// Refuses stability checks of porous metals with erosion, by which particles fail in Uintah.
 void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");
   const auto check = model ? model->child("stability_check") : std::nullopt;
-  if (check && check->attribute("type") != "none")
+  const auto yield = model ? model->child("yield_condition") : std::nullopt;
+  if (check && check->attribute("type") != "none" && yield && yield->attribute("type") == "gurson")
     diagnostics.error(*check,
-                      fmt::format("<erosion> on line {} requires a loss of stability, which is not detected; set the "
-                                  "stability_check type to none, and give the particles a <damage_model>",
+                      fmt::format("<erosion> on line {} acts after a loss of stability, which is not detected with "
+                                  "yield_condition gurson; give the stability_check type none, and the particles a "
+                                  "<damage_model>",
                                   erosion.where().line));
 }
 

@@ -170,7 +170,7 @@ void SolidsOf<D>::scheduleCornerLoads(TaskList& tasks) const {
 template <int D>
 void SolidsOf<D>::scheduleSurroundingForce(TaskList& tasks) const {
   if (!problem_.surroundings) return;
-  problem_.surroundings->scheduleForces(tasks, problem_.materials);
+  problem_.surroundings->scheduleForces(tasks, problem_.materials, state_);
   tasks.perMaterial("mpm::addSurroundingForce", addSurroundingForce<D>, problem_.materials,
                     requiresNew(g::surroundingForce<D>), modifies(g::record));
 }

@@ -48,6 +48,7 @@ inline void showSound(const Patch&, const Material&, ParticleView<const double> 
 
 /// The particles whose damage grows in a step.
 struct DamageGrowth {
+  ParticleView<const Matrix3> oldDeformation;
   ParticleView<const double> temperature, oldDamage, oldThreshold;
   ParticleView<const int> oldLocalized;
   ParticleView<const double> oldFailureTime;
@@ -60,7 +61,8 @@ struct DamageGrowth {
   ParticleView<double> failureTime;
 
   static DamageGrowth from(auto& take, const ParticleLabel<double>* state) {
-    return {.temperature = take(requiresOld(p::temperature)),
+    return {.oldDeformation = take(requiresOld(p::deformationMeasure)),
+            .temperature = take(requiresOld(p::temperature)),
             .oldDamage = take(requiresOld(p::damage)),
             .oldThreshold = take(requiresOld(p::failureThreshold)),
             .oldLocalized = take(requiresOld(p::localized)),
@@ -76,6 +78,15 @@ struct DamageGrowth {
   }
 };
 
+/// Whether the plastic flow of a particle has lost its stability in the step; its stress is that before damage.
+inline bool isUnstable(const Material& material, int p, int stateSize, double dt, const DamageGrowth& d) {
+  if (!material.erosion.acts() || !d.state) return false;
+  const Matrix3& f = d.deformation[p];
+  const Matrix3 velocityGradient = (f * d.oldDeformation[p].inverse() - Matrix3::Identity()) / dt;
+  return material.model->isUnstable({f, d.oldDeformation[p], velocityGradient, dt, d.temperature[p]}, d.stress[p],
+                                    &(*d.state)[0] + p * stateSize);
+}
+
 /// Damage at the end of the step, and the stress that damaged and failed particles still bear. Uintah's
 /// computeBasicDamage and updateErosionParameter.
 inline void computeDamage(const Patch&, const Material& material, int stateSize, double time, double dt,
@@ -86,8 +97,10 @@ inline void computeDamage(const Patch&, const Material& material, int stateSize,
     const double plasticStrainRate = rate < 0 ? 0.0 : (&(*d.state)[0])[p * stateSize + rate];
     const DamageConditions conditions{d.deformation[p], d.volume[p], plasticStrainRate, d.temperature[p], dt};
     DamageState now{d.oldDamage[p], d.oldThreshold[p], d.oldLocalized[p] != 0};
+    const bool losesStability = !now.hasFailed && isUnstable(material, p, stateSize, dt, d);
     std::visit([&](const auto& model) { model.grow(constants, conditions, d.stress[p], now); }, material.damage);
-    if (material.erosion.acts() && material.model->isMolten(d.deformation[p], d.stress[p], d.temperature[p]))
+    if (losesStability ||
+        (material.erosion.acts() && material.model->isMolten(d.deformation[p], d.stress[p], d.temperature[p])))
       now.hasFailed = true;
     d.damage[p] = now.damage;
     d.threshold[p] = now.threshold;

@@ -273,10 +273,14 @@ TEST(MaterialInput, ChecksDamageAgainstTheConstitutiveModel) {
       "found 'uniform', expected 'constant' or 'gauss'");
   expectProblem(sceneOf("hypo_elastic", "<G>1</G><K>1</K>", "<damage_model type='Brittle'/>"),
                 "Brittle needs a constitutive model with bulk_modulus and shear_modulus");
-  expectProblem(sceneOf("elastic_plastic", moduli + flow + "<stability_check type='drucker'/>",
+  const std::string gurson =
+      "<yield_condition type='gurson'><q1>1.5</q1><q2>1</q2><q3>2.25</q3><k>4</k><f_c>.1</f_c></yield_condition>";
+  expectProblem(sceneOf("elastic_plastic", moduli + flow + gurson + "<stability_check type='drucker'/>",
                         "<erosion algorithm='ZeroStress'/>"),
-                "requires a loss of stability, which is not detected");
-  EXPECT_EQ(sentencesOf(sceneOf("elastic_plastic", moduli + flow + "<stability_check type='drucker'/>")), "");
+                "acts after a loss of stability, which is not detected with yield_condition gurson");
+  EXPECT_EQ(sentencesOf(sceneOf("elastic_plastic", moduli + flow + "<stability_check type='drucker'/>",
+                                "<erosion algorithm='ZeroStress'/>")),
+            "");
 }
 
 TEST(MaterialInput, ChecksTheThresholdsOfDamage) {
