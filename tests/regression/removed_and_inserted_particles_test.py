@@ -84,8 +84,8 @@ class InsertedParticles(unittest.TestCase):
             state = last_state(pellets(folder), "p.x", "p.color")
         at = {color: [(x, y) for x, y, c in zip(state["x [m]"], state["y [m]"], state["p.color [1]"])
                       if c == color] for color in (1, 2)}
-        # The first flies at 2 m/s from the end of the step at .25 s on, the second at 4 m/s from that at .5 s. None comes
-        # to lie on a node, where its weight is zero but not its gradient.
+        # The first flies at 2 m/s from the end of the step at .25 s on, the second at 4 m/s from that at .5 s. None
+        # comes to lie on a node, where its weight is zero but not its gradient.
         for color, (x, y) in ((1, (2.35 + 2 * (.75 - .0625), 5.25)), (2, (11.35 + 4 * (.5 - .0625), 5.25))):
             self.assertEqual(len(at[color]), 4)
             self.assertAlmostEqual(min(at[color])[0], x, delta=1e-9)
