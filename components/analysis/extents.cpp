@@ -41,19 +41,27 @@ std::string problemOfName(const std::string& name) {
   return {};
 }
 
-/// Why the points are invalid; empty if the grid has cells between them.
+/// The width of the coarsest cells along an axis of the scene, m; 0 where the grid leaves the axis out.
+double coarsestWidth(const Level& level, int axis) {
+  for (int d = 0; d < level.dimension(); ++d)
+    if (level.axis(d) == axis) return std::ldexp(level.spacing(d), level.number());
+  return 0;
+}
+
+/// Why the points are invalid; empty if there are cells of the grid between them. Uintah has a layer of cells beyond
+/// each side, which scenes may sample: there an extent begins or ends at the side.
 std::string problemOf(const Extent& extent, int axes, const Level& level) {
   const Vec3 lower = level.domain().lower, upper = level.domain().upper;
   int along = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double from = extent.start[axis], to = extent.end[axis];
-    const double rounding = slack * (upper[axis] - lower[axis]);
+    const double beyond = slack * (upper[axis] - lower[axis]) + coarsestWidth(level, axis);
     if (from > to)
       return fmt::format("found endingPt at {} = {:g} m, expected {:g} m or more, the coordinate of startingPt",
                          "xyz"[axis], to, from);
-    if (from < lower[axis] - rounding || to > upper[axis] + rounding)
-      return fmt::format("found {} from {:g} to {:g} m, expected positions on the grid, from {:g} to {:g} m",
-                         "xyz"[axis], from, to, lower[axis], upper[axis]);
+    if (from < lower[axis] - beyond || to > upper[axis] + beyond || from > upper[axis] || to < lower[axis])
+      return fmt::format("found {} from {:g} to {:g} m, expected places on the grid, from {:g} to {:g} m", "xyz"[axis],
+                         from, to, lower[axis], upper[axis]);
     if (from < to) ++along;
   }
   if (along == axes) return {};

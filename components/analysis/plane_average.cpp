@@ -40,8 +40,11 @@ const input::Schema<AverageSettings>& averageSchema() {
           .location(&Weight::where, "label")
           .requiredAttribute("label", &Weight::label, "1", "a cell variable, such as c.density");
   static const input::Schema<AverageSettings> schema =
-      samplingSchema<AverageSettings>("planeAverage", "Means over planes of cells, one file per variable and time.",
-                                      weightedSchema())
+      samplingSchema<AverageSettings>(
+          "planeAverage",
+          "Means over planes of cells, on several levels of the coarsest ones, one file per "
+          "variable and time.",
+          weightedSchema())
           .requiredChoice("planeOrientation", &AverageSettings::axis, {{"YZ", 0}, {"XZ", 1}, {"XY", 2}},
                           "the axes along which the planes lie")
           .section("weight", &AverageSettings::weight, weight,
@@ -53,9 +56,6 @@ const input::Schema<AverageSettings>& averageSchema() {
 class PlaneAverage : public SamplingModule {
  public:
   PlaneAverage(const AverageSettings& settings, const Level& level) : SamplingModule(settings), level_(&level) {
-    if (level.domain().refinement.levels > 1)
-      throw InputError({{settings.where, "DataAnalysis/Module",
-                         "planeAverage needs a grid of one level; remove the module, or the finer Levels and <AMR>"}});
     for (int d = 0; d < level.dimension(); ++d)
       if (level.axis(d) == settings.axis) across_ = d;
     for (const Analyzed& one : settings.variables.list) weightings_[one.where.text()] = one.weighting;
@@ -92,19 +92,20 @@ class PlaneAverage : public SamplingModule {
   }
 
  private:
+  /// Of several levels: coarsest cells. Finer ones count by their volume.
   int cellsPerPlane() const {
     int cells = 1;
     for (int d = 0; d < level_->dimension(); ++d)
-      if (d != across_) cells *= level_->cells().extent(d);
+      if (d != across_) cells *= level_->cells().extent(d) >> level_->number();
     return cells;
   }
 
   Vec3 middleOf(std::size_t plane) const {
     Vec3 middle = 0.5 * (level_->domain().lower + level_->domain().upper);
     if (across_ >= 0) {
+      const auto node = [&](int at) { return level_->nodePosition(across_, at << level_->number()); };
       const int cell = static_cast<int>(plane);
-      middle[level_->axis(across_)] =
-          0.5 * (level_->nodePosition(across_, cell) + level_->nodePosition(across_, cell + 1));
+      middle[level_->axis(across_)] = 0.5 * (node(cell) + node(cell + 1));
     }
     return middle;
   }

@@ -9,7 +9,7 @@ namespace tushar::euler {
 /// The cold curve of a substance: pressure [Pa] and energy [J/m³] as functions of density, with dE/drho = (E + p) /
 /// rho, so that compression without heat costs p dV.
 struct ColdCurve {
-  enum class Kind { jwl, murnaghan };
+  enum class Kind { jwl, murnaghan, linear };
 
   Kind kind = Kind::jwl;
   double density = 1;  ///< rho_0, kg/m³
@@ -21,13 +21,19 @@ struct ColdCurve {
   /// (K P0)), which has the same slope there and stays positive. The energy is 0 at rho_0. Source: F. D. Murnaghan,
   /// Proc. Natl. Acad. Sci. 30 (1944) 244.
   double exponent = 1, compressibility = 1, pressureThere = 1;
+  /// p = P0 + A (rho / rho_0 - 1), with A in `a` and P0 in `pressureThere`; the energy is 0 at rho_0.
 
   double pressure(double rho) const {
+    if (kind == Kind::linear) return pressureThere + a * (rho / density - 1);
     if (kind == Kind::murnaghan) return murnaghanPressure(rho / density);
     const double volume = density / rho;
     return a * std::exp(-r1 * volume) + b * std::exp(-r2 * volume) + tail(volume);
   }
   double energy(double rho) const {
+    if (kind == Kind::linear) {
+      const double ratio = rho / density;
+      return (pressureThere - a) * (ratio - 1) + a * ratio * std::log(ratio);
+    }
     if (kind == Kind::murnaghan) return rho / density * murnaghanEnergy(rho / density);
     const double volume = density / rho;
     const double perMass = a / r1 * std::exp(-r1 * volume) + b / r2 * std::exp(-r2 * volume);
@@ -35,6 +41,7 @@ struct ColdCurve {
   }
   /// dp/drho, m²/s².
   double slope(double rho) const {
+    if (kind == Kind::linear) return a / density;
     if (kind == Kind::murnaghan) {
       const double ratio = rho / density;
       const double power = ratio >= 1 ? exponent : 1 / (compressibility * pressureThere);
@@ -68,14 +75,15 @@ struct ColdCurve {
 // gives pressure and energy: the pressure itself [Pa] or, of a substance whose pressure does not depend on its heat,
 // the heat rho c_v T [J/m³].
 
-/// p = p_cold + Gamma rho c_v T, E = E_cold + rho c_v T, with a constant Gamma: after Mie & Grueneisen. With Gamma = 0
-/// the pressure is that of the density alone.
+/// p = p_cold + Gamma rho c_v T, E = E_cold + rho c_v T: after Mie & Grueneisen. Gamma is constant or, with a linear
+/// cold curve, Gamma rho is. With Gamma = 0 the pressure is that of the density alone.
 ///
 /// rho E and so the energy of mixed states are convex where p_cold rises with the density, so that the heat of a mean
 /// of possible states is positive.
 class CurvedGas {
  public:
-  /// `gamma` is the Grüneisen parameter, at least 0; the specific heat is c_v, J/(kg K).
+  /// `gamma` is the Grüneisen parameter, at least 0, with a linear cold curve that at rho_0; the specific heat is c_v,
+  /// J/(kg K).
   CurvedGas(const ColdCurve& cold, double gamma, double specificHeat)
       : cold_(cold), gamma_(gamma), specificHeat_(specificHeat) {}
 
@@ -84,7 +92,7 @@ class CurvedGas {
 
   /// p [Pa] for an internal energy per volume [J/m³].
   double pressure(double rho, double energy) const {
-    return cold_.pressure(rho) + (isBarotropic() ? 0.0 : gamma_ * (energy - cold_.energy(rho)));
+    return cold_.pressure(rho) + (isBarotropic() ? 0.0 : gammaAt(rho) * (energy - cold_.energy(rho)));
   }
   /// The last number of a state for an internal energy per volume.
   double last(double rho, double energy) const {
@@ -92,13 +100,16 @@ class CurvedGas {
   }
   double pressureOf(double rho, double last) const { return isBarotropic() ? cold_.pressure(rho) : last; }
   double energyOf(double rho, double last) const { return cold_.energy(rho) + heat(rho, last); }
-  /// c² = p_cold' + (1 + Gamma) (p - p_cold) / rho.
+  /// c² = p_cold' + (1 + Gamma) (p - p_cold) / rho; with a constant Gamma rho, Gamma in place of 1 + Gamma.
   double soundSpeedSquared(double rho, double last) const {
-    const double thermal = isBarotropic() ? 0.0 : (1 + gamma_) * (last - cold_.pressure(rho)) / rho;
+    const double factor = isLinear() ? gammaAt(rho) : 1 + gamma_;
+    const double thermal = isBarotropic() ? 0.0 : factor * (last - cold_.pressure(rho)) / rho;
     return cold_.slope(rho) + thermal;
   }
   /// The heat per volume, which must be above 0.
-  double heat(double rho, double last) const { return isBarotropic() ? last : (last - cold_.pressure(rho)) / gamma_; }
+  double heat(double rho, double last) const {
+    return isBarotropic() ? last : (last - cold_.pressure(rho)) / gammaAt(rho);
+  }
   bool canBe(double rho, double energy) const { return energy > cold_.energy(rho); }
   double leastEnergy(double rho) const { return cold_.energy(rho); }
   static double greatestEnergy(double) { return std::numeric_limits<double>::infinity(); }
@@ -107,7 +118,7 @@ class CurvedGas {
   /// The last number of a state for a temperature [K].
   double lastAt(double rho, double temperature) const {
     const double heat = rho * specificHeat_ * temperature;
-    return isBarotropic() ? heat : cold_.pressure(rho) + gamma_ * heat;
+    return isBarotropic() ? heat : cold_.pressure(rho) + gammaAt(rho) * heat;
   }
   /// rho for a pressure and a temperature, by bisection to round-off.
   double densityAt(double pressure, double temperature) const {
@@ -122,9 +133,9 @@ class CurvedGas {
     }
     return most;
   }
-  /// Entropy per mass divided by c_v, up to a constant: ln T - Gamma ln rho.
+  /// Entropy per mass over c_v, except for a constant: ln T minus the integral of Gamma d(ln rho).
   double entropy(double rho, double energy) const {
-    return std::log(temperature(rho, energy)) - gamma_ * std::log(rho);
+    return std::log(temperature(rho, energy)) + (isLinear() ? gammaAt(rho) : -gamma_ * std::log(rho));
   }
   /// Approximately p / (rho u²) behind a strong shock, which accelerates gas at rest to the speed u.
   double shockSlope() const {
@@ -132,6 +143,9 @@ class CurvedGas {
   }
 
  private:
+  bool isLinear() const { return cold_.kind == ColdCurve::Kind::linear; }
+  double gammaAt(double rho) const { return isLinear() ? gamma_ * cold_.density / rho : gamma_; }
+
   ColdCurve cold_;
   double gamma_, specificHeat_;
 };

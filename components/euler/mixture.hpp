@@ -36,6 +36,8 @@ struct MixedGas {
   /// p + p_inf [Pa] of the stiffened gas with the same G and S, which must be greater than 0.
   double heat(double, double pressure) const { return pressure + leastPressure(); }
   double leastPressure() const { return stiffness / (1 + softness); }
+  /// (gamma + 1) / 2 of that gas.
+  double shockSlope() const { return 1 + 0.5 / softness; }
   /// The equivalent stiffened gas; its numbers are NaN for impossible shares.
   Gas alike() const {
     Gas gas;

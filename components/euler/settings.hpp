@@ -41,7 +41,8 @@ struct Settings {
   std::string section = "Euler";  ///< path of the section with the objects
   std::string name = {};          ///< name of the gas
   Method method;
-  double cfl = 0.8;  ///< dt max(sum_d (|v_d| + c) / h_d)
+  bool objectsMayBeEmpty = false;  ///< whether objects may contain no cell centre, as parts of what the scene has
+  double cfl = 0.8;                ///< dt max(sum_d (|v_d| + c) / h_d)
   Gas gas;
   std::vector<GasObject> objects;  ///< where they overlap, the last one applies
   /// Changes the velocity and, for objects that have one, the temperature at the start, at a point with the density

@@ -69,6 +69,21 @@ const Schema<euler::ColdCurve>& murnaghanSchema() {
           .required("P0", &euler::ColdCurve::pressureThere, "Pa", "pressure at rho0", input::positive());
   return schema;
 }
+/// The tags of Gruneisen.
+struct GruneisenTags {
+  double a = 0, b = 0, density = 0, pressure = 0, temperature = 0;
+};
+const Schema<GruneisenTags>& gruneisenSchema() {
+  static const Schema<GruneisenTags> schema =
+      Schema<GruneisenTags>("EOS", "p = P0 + A (rho / rho0 - 1) + B (T - T0).")
+          .foreignAttribute("type", "Gruneisen")
+          .required("A", &GruneisenTags::a, "Pa", "rise with rho / rho0", input::positive())
+          .required("B", &GruneisenTags::b, "Pa/K", "rise with temperature", input::positive())
+          .required("rho0", &GruneisenTags::density, "kg/m^3", "density at P0 and T0", input::positive())
+          .required("P0", &GruneisenTags::pressure, "Pa", "pressure at rho0 and T0")
+          .required("T0", &GruneisenTags::temperature, "K", "temperature at rho0 and P0", input::positive());
+  return schema;
+}
 const Schema<euler::Water::Numbers>& waterSchema() {
   using Numbers = euler::Water::Numbers;
   static const Schema<Numbers> schema =
@@ -86,9 +101,13 @@ const Schema<euler::Water::Numbers>& waterSchema() {
 }
 
 const std::vector<std::pair<std::string, Kind>>& kinds() {
-  static const std::vector<std::pair<std::string, Kind>> list{
-      {"ideal_gas", Kind::ideal}, {"stiffened_gas", Kind::stiffened}, {"JWL", Kind::jwl},
-      {"JWLC", Kind::jwlc},       {"Murnaghan", Kind::murnaghan},     {"Thomsen_Hartka_water", Kind::water}};
+  static const std::vector<std::pair<std::string, Kind>> list{{"ideal_gas", Kind::ideal},
+                                                              {"stiffened_gas", Kind::stiffened},
+                                                              {"JWL", Kind::jwl},
+                                                              {"JWLC", Kind::jwlc},
+                                                              {"Murnaghan", Kind::murnaghan},
+                                                              {"Gruneisen", Kind::gruneisen},
+                                                              {"Thomsen_Hartka_water", Kind::water}};
   return list;
 }
 
@@ -99,6 +118,7 @@ std::shared_ptr<const euler::Gas::Law> EquationOfState::law(double specificHeat)
     return std::make_shared<const euler::Gas::Law>(euler::CurvedGas(cold, gamma, specificHeat));
   };
   if (kind == Kind::jwl) return curved(cold.omega);
+  if (kind == Kind::gruneisen) return curved(perKelvin / (cold.density * specificHeat));
   if (kind == Kind::jwlc || kind == Kind::murnaghan) return curved(0);
   if (kind == Kind::water) return std::make_shared<const euler::Gas::Law>(euler::Water(water));
   return nullptr;
@@ -135,6 +155,14 @@ EquationOfState readEquationOfState(const Element& material, Diagnostics& diagno
   if (kind == Kind::murnaghan) {
     read.cold = murnaghanSchema().read(*given, diagnostics);
     read.cold.kind = euler::ColdCurve::Kind::murnaghan;
+  }
+  if (kind == Kind::gruneisen) {
+    const GruneisenTags tags = gruneisenSchema().read(*given, diagnostics);
+    read.cold = {.kind = euler::ColdCurve::Kind::linear,
+                 .density = tags.density,
+                 .a = tags.a,
+                 .pressureThere = tags.pressure - tags.b * tags.temperature};
+    read.perKelvin = tags.b;
   }
   if (kind == Kind::water) read.water = waterSchema().read(*given, diagnostics);
   read.kind = kind;

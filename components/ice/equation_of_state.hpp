@@ -11,13 +11,16 @@ namespace tushar::ice {
 
 /// The `<EOS>` of a gas.
 struct EquationOfState {
-  enum class Kind { ideal, stiffened, jwl, jwlc, murnaghan, water };
+  enum class Kind { ideal, stiffened, jwl, jwlc, murnaghan, gruneisen, water };
 
   Kind kind = Kind::ideal;
   double pInfinity = 0;        ///< Pa
-  euler::ColdCurve cold = {};  ///< for JWL, JWLC and Murnaghan
+  euler::ColdCurve cold = {};  ///< for JWL, JWLC, Murnaghan and Gruneisen
+  double perKelvin = 0;        ///< for Gruneisen: B, Pa/K
   euler::Water::Numbers water = {};
 
+  /// Whether <gamma> counts.
+  bool hasGamma() const { return kind == Kind::ideal || kind == Kind::stiffened; }
   /// The law of a gas with a given specific heat [J/(kg K)]; null for a stiffened gas.
   std::shared_ptr<const euler::Gas::Law> law(double specificHeat) const;
 };

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "components/euler/diffusion.hpp"
+#include "components/euler/mixture.hpp"
 #include "components/euler/settings.hpp"
 #include "components/euler/tasks/advance_block.hpp"
 #include "core/solvers/solver.hpp"
@@ -23,13 +24,37 @@ struct IceSettings {
 template <int D>
 using IsFlat = std::function<bool(const Index<D>&)>;
 
-/// The gas before a step, including cells outside the grid, and the values prescribed at faces in its sides. A face is
-/// named by an axis and the cell above it.
-template <int D>
+/// The laws of one gas, or of K gases that share cells.
+template <int K>
+using LawsOf = std::conditional_t<K == 1, euler::Gas, euler::Mixture<K>>;
+
+/// After separate changes of the numbers of several gases: scales masses and shares so that the shares add up to 1, and
+/// sets the density to the sum of the masses. Returns whether each mass and each share is at least 0.
+template <int D, int K>
+bool closeState([[maybe_unused]] euler::State<D, K>& w) {
+  if constexpr (K == 1) {
+    return true;
+  } else {
+    double shares = 0, density = 0;
+    bool isFine = true;
+    for (int k = 0; k < K; ++k) shares += w[euler::kShare<D, K>(k)];
+    for (std::size_t k = D + 2; k < w.size(); ++k) {
+      isFine &= w[k] >= 0;
+      w[k] /= shares;
+    }
+    for (int k = 0; k < K; ++k) density += w[euler::kMass<D>(k)];
+    w[euler::kDensity] = density;
+    return isFine;
+  }
+}
+
+/// One gas, or K gases, before a step, also beyond sides of the grid, and the values prescribed at faces in these
+/// sides. A face is named by an axis and the cell above it.
+template <int D, int K = 1>
 class GasBefore {
  public:
-  /// Space for boxes of up to `cells` cells; the rules at the sides must outlive this object.
-  GasBefore(const Level& level, const euler::Gas& gas, const Vec3& gravity, const euler::GhostRules<D>& rules,
+  /// Room for boxes of up to `cells` cells; the laws and the rules at the sides outlive this.
+  GasBefore(const Level& level, const LawsOf<K>& gas, const Vec3& gravity, const euler::GhostRules<D>& rules,
             std::size_t cells, IsFlat<D> isFlat = {})
       : level_(level),
         rules_(rules),
@@ -39,24 +64,33 @@ class GasBefore {
         old_(cells) {}
 
   /// Loads the gas in the cells of `box`.
-  void hold(const Box& box, const euler::StateViews<D, const double>& before) {
+  void hold(const Box& box, const euler::ViewsOf<D, K, const double>& before) {
     old_.hold(box);
-    gas_.withLaw([&](const auto& law) { euler::recover<D>(law, level_, old_.box(), before, old_); });
+    if constexpr (K == 1)
+      gas_.withLaw([&](const auto& law) { euler::recover<D>(law, level_, old_.box(), before, old_); });
+    else
+      euler::recover<D>(gas_, level_, old_.box(), before, old_);
     euler::fillBeyondGrid<D>(level_, rules_, old_);
   }
 
   const Level& level() const { return level_; }
-  const euler::Gas& gas() const { return gas_; }
+  const LawsOf<K>& gas() const { return gas_; }
   const Vec<D>& gravity() const { return gravity_; }
-  /// rho, v and p.
-  const euler::Rows<D>& old() const { return old_; }
-  /// Fills `rows`, including cells outside the grid, with the old state, but with another pressure in the cells of the
-  /// grid.
-  void fillWithPressure(const CellView<const double>& pressure, euler::Rows<D>& rows) const {
+  /// rho, v and p; of several gases also their masses and shares.
+  const euler::Rows<D, K>& old() const { return old_; }
+  /// c [m/s] of a cell.
+  double soundSpeed(const Index<D>& cell) const { return soundSpeed(cell, old_.number(cell, euler::kDensity)); }
+  /// c [m/s] of a cell, if its density [kg/m³] were this one.
+  double soundSpeed(const Index<D>& cell, double density) const {
+    const double pressure = old_.number(cell, euler::kPressure<D>);
+    return std::sqrt(euler::lawIn<D>(gas_, old_.state(cell)).soundSpeedSquared(density, pressure));
+  }
+  /// Fills `rows`, also beyond sides, with the old state but another pressure in the cells of the grid.
+  void fillWithPressure(const CellView<const double>& pressure, euler::Rows<D, K>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double) { return pressure[cell]; });
   }
   /// The same with the old pressure and its change.
-  void fillWithChange(const CellView<const double>& change, euler::Rows<D>& rows) const {
+  void fillWithChange(const CellView<const double>& change, euler::Rows<D, K>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double old) { return old + change[cell]; });
   }
   /// Whether a cell, or a cell of which it is an image, is on the grid.
@@ -107,13 +141,13 @@ class GasBefore {
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     return rule ? rule->relaxes : euler::Relaxation();
   }
-  static double mean(const euler::Rows<D>& of, const Index<D>& face, int axis, std::size_t number) {
+  static double mean(const euler::Rows<D, K>& of, const Index<D>& face, int axis, std::size_t number) {
     return 0.5 * (of.number(face - Index<D>::unit(axis), number) + of.number(face, number));
   }
 
  private:
   template <class PressureOf>
-  void fillWith(euler::Rows<D>& rows, PressureOf&& pressureOf) const {
+  void fillWith(euler::Rows<D, K>& rows, PressureOf&& pressureOf) const {
     rows = old_;
     forEach<D>(level_.clipCells(rows.box()), [&](const Index<D>& cell) {
       double& pressure = *rows.at(cell)[euler::kPressure<D>];
@@ -130,10 +164,10 @@ class GasBefore {
 
   const Level& level_;
   const euler::GhostRules<D>& rules_;
-  const euler::Gas& gas_;
+  const LawsOf<K>& gas_;
   Vec<D> gravity_;
   IsFlat<D> is_flat_;
-  euler::Rows<D> old_;
+  euler::Rows<D, K> old_;
 };
 
 /// The normal velocities at the faces of cells that follow from the pressure p' at the end of a step:
@@ -151,20 +185,24 @@ class GasBefore {
 /// All that p' counts by is its change from p, so that where the gas is at rest no rounding of p pushes it.
 /// Source: F. H. Harlow & A. A. Amsden, J. Comput. Phys. 8 (1971) 197; N. Kwatra, J. Su, J. T. Gretarsson & R. Fedkiw,
 /// J. Comput. Phys. 228 (2009) 4146; K. W. Thompson, J. Comput. Phys. 68 (1987) 1, for open sides.
-template <int D>
-class FaceFlow : public GasBefore<D> {
+template <int D, int K = 1>
+class FaceFlow : public GasBefore<D, K> {
  public:
   /// Space for boxes no larger than `largest`.
   FaceFlow(const Level& level, const euler::Settings& method, const IceSettings& settings,
+           const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {}) requires(K == 1)
+      : FaceFlow(level, method.gas, method.method, settings, rules, largest, dt, std::move(isFlat)) {}
+  /// The same for these laws, which outlive this.
+  FaceFlow(const Level& level, const LawsOf<K>& gas, const euler::Method& method, const IceSettings& settings,
            const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {})
-      : GasBefore<D>(level, method.gas, settings.gravity, rules, largest.grown(2, D).size(), std::move(isFlat)),
+      : GasBefore<D, K>(level, gas, settings.gravity, rules, largest.grown(2, D).size(), std::move(isFlat)),
         dt_(dt),
-        hasSlopes_(method.method.reconstruction != euler::Reconstruction::firstOrder),
+        hasSlopes_(method.reconstruction != euler::Reconstruction::firstOrder),
         ahead_(this->old()) {}
 
   /// Loads the faces of the cells in `box`, from the state in two more layers.
-  void hold(const Box& box, const euler::StateViews<D, const double>& before) {
-    GasBefore<D>::hold(box.grown(2, D), before);
+  void hold(const Box& box, const euler::ViewsOf<D, K, const double>& before) {
+    GasBefore<D, K>::hold(box.grown(2, D), before);
     ahead_ = this->old();
     if (hasSlopes_) carryVelocities(this->level().clipCells(box.grown(1, D)));
   }
@@ -215,7 +253,7 @@ class FaceFlow : public GasBefore<D> {
     const std::size_t v = euler::kVelocity(axis);
     const double rho = this->density(face, axis), h = this->level().spacing(axis), normal = isLower ? -1 : 1;
     const double pressure = this->old().number(cell, euler::kPressure<D>), speed = this->old().number(cell, v);
-    const double sound = std::sqrt(this->gas().soundSpeedSquared(rho, pressure));
+    const double sound = this->soundSpeed(cell, rho);
     const euler::Relaxation relaxes = this->relaxationOf(face, axis);
     return {.normal = normal,
             .speed = normal * speed,
@@ -228,7 +266,7 @@ class FaceFlow : public GasBefore<D> {
   /// Changes the velocities of cells to v - dt (v . grad) v.
   void carryVelocities(const Box& cells) {
     forEach<D>(cells, [&](const Index<D>& cell) {
-      const euler::State<D> w = this->old().state(cell);
+      const euler::State<D, K> w = this->old().state(cell);
       const auto ahead = ahead_.at(cell);
       for (int k = 0; k < D; ++k)
         for (int d = 0; d < D; ++d)
@@ -239,7 +277,7 @@ class FaceFlow : public GasBefore<D> {
 
   double dt_;
   bool hasSlopes_;
-  euler::Rows<D> ahead_;
+  euler::Rows<D, K> ahead_;
 };
 
 }  // namespace tushar::ice

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "components/euler/labels.hpp"
+#include "components/ice/gas_materials.hpp"
 #include "components/ice/gas_schemas.hpp"
 #include "components/ice/heating_input.hpp"
-#include "components/ice/mixture/input.hpp"
 #include "core/simulation/by_dimension.hpp"
 
 namespace tushar::ice {
@@ -20,12 +20,6 @@ using input::Element;
 namespace {
 
 constexpr const char* solverTag = "Solver";
-
-/// The index of the material to which a condition applies; -1 for all materials, or if the id is invalid, which the
-/// grid reports.
-int materialOf(const Element& condition) {
-  return input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
-}
 
 /// Reports an invalid condition of the gas: its value, and derivatives other than 0.
 void checkCondition(const Element& condition, Diagnostics& diagnostics) {
@@ -100,140 +94,6 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
   }
 }
 
-/// Notes a given pressure that differs from the one that follows from density and temperature; as in Uintah, it is
-/// ignored.
-void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
-  if (!body.pressure) return;
-  if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;
-  const double given = (*body.pressure)(Vec3::Zero());
-  const double density = body.density(Vec3::Zero());
-  const double pressure = gas.pressureOf(density, gas.lastAt(density, body.temperature(Vec3::Zero())));
-  if (std::abs(given - pressure) > 1e-3 * pressure)
-    diagnostics.note(
-        *element.child("pressure"),
-        fmt::format("does nothing: the pressure follows from density and temperature, and is {:g} Pa", pressure));
-}
-
-/// The Dirichlet condition of a face for the gas, if it has one; the pressure is shared with material 0.
-std::optional<Element> dirichletOf(const Element& face, const grid::BoundaryVariable& label, int gas) {
-  const bool isShared = label.name == euler::boundary::pressure.name;
-  for (const Element& condition : face.children("BCType")) {
-    const int material = materialOf(condition);
-    if (condition.attribute("label") == label.name && condition.attribute("var") == nameOf(BoundaryKind::dirichlet) &&
-        (material < 0 || material == gas || (isShared && material == 0)))
-      return condition;
-  }
-  return {};
-}
-
-/// Checks that density, pressure and temperature agree at faces with all three, as two determine the third.
-void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagnostics) {
-  const auto sides = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
-  if (!sides) return;
-  const auto valueOf = [](const Element& condition) -> std::optional<double> {
-    const auto text = condition.child("value");
-    return text ? input::parse<double>(text->text()).value : std::nullopt;
-  };
-  for (const Element& face : sides->children("Face")) {
-    const auto density = dirichletOf(face, euler::boundary::density, gas.material),
-               pressure = dirichletOf(face, euler::boundary::pressure, gas.material),
-               temperature = dirichletOf(face, euler::boundary::temperature, gas.material);
-    if (!density || !pressure || !temperature) continue;
-    const auto rho = valueOf(*density), p = valueOf(*pressure), t = valueOf(*temperature);
-    if (!rho || !p || !t) {
-      diagnostics.error(*temperature,
-                        "the temperature already follows from Density and Pressure; keep two of the three");
-      continue;
-    }
-    const double fitting = *p / (gas.gasConstant() * *rho);
-    if (std::abs(*t - fitting) <= 1e-3 * fitting) continue;
-    if (std::abs(*t - fitting) <= 1e-2 * fitting)  // rounded, or changed a little in one of them
-      diagnostics.note(
-          *temperature,
-          fmt::format("does nothing: the temperature follows from Density and Pressure, and is {:g} K", fitting));
-    else
-      diagnostics.error(*temperature,
-                        fmt::format("found {:g} K, but the Density, at {}, and the Pressure, at {}, give {:g} K; keep "
-                                    "two of the three",
-                                    *t, density->where().text(), pressure->where().text(), fitting));
-  }
-}
-
-/// Whether a volume fraction is a number, and this one.
-bool isShareOf(const GasBody& body, double share) {
-  return body.share && body.share->isConstant() && (*body.share)(Vec3::Zero()) == share;
-}
-
-/// Reads a gas and its state at the start into the settings that it shares with others. `besideBodies`: a region with
-/// none of a single gas is a body's, and what space it leaves has the gas around it.
-void readMaterial(const GasMaterial& material, const Element& element, bool besideBodies, euler::Settings& settings,
-                  Diagnostics& diagnostics) {
-  settings.name = material.name;
-  euler::Gas& gas = settings.gas;
-  gas.gamma = material.gamma;
-  gas.specificHeat = material.specificHeat;
-  gas.pInfinity = material.state.pInfinity;
-  gas.law = material.state.law(material.specificHeat);
-  const auto tags = element.children("geom_object");
-  for (std::size_t k = 0; k < material.bodies.size(); ++k) {
-    const GasBody& body = material.bodies[k];
-    if (besideBodies && isShareOf(body, 0)) continue;
-    settings.objects.push_back({.where = body.where,
-                                .shape = body.shape,
-                                .density = body.density,
-                                .pressure = {},
-                                .velocity = body.velocity,
-                                .temperature = body.temperature,
-                                .share = body.share});
-    if (k < tags.size()) noteOtherPressure(body, gas, tags[k], diagnostics);
-  }
-}
-
-/// Checks that a single gas fills its regions, or leaves them to bodies.
-void checkShares(const GasMaterial& material, bool besideBodies, Diagnostics& diagnostics) {
-  for (const GasBody& body : material.bodies)
-    if (body.share && !isShareOf(body, 1) && !(besideBodies && isShareOf(body, 0)))
-      diagnostics.error(body.share->where(), "MaterialProperties/ICE/material/geom_object/volumeFraction",
-                        fmt::format("found '{}', expected 1: a single gas fills the region", body.share->text()));
-}
-
-/// The diffusion of a gas, with the eddies of the scene.
-euler::VaryingDiffusion varyingOf(const GasMaterial& material, const GasScene& scene) {
-  euler::VaryingDiffusion varying = material.varying;
-  varying.uniform = {material.viscosity, material.conductivity};
-  varying.smagorinsky = scene.varying.smagorinsky;
-  return varying;
-}
-
-void readOneGas(const GasMaterial& material, const Element& element, GasScene& scene, Diagnostics& diagnostics) {
-  scene.specificHeat = material.specificHeat;
-  scene.viscosity = material.viscosity;
-  scene.conductivity = material.conductivity;
-  scene.varying = varyingOf(material, scene);
-  const bool besideBodies = scene.gas.gas.material > 0;  // which are numbered before it
-  readMaterial(material, element, besideBodies, scene.gas, diagnostics);
-  checkShares(material, besideBodies, diagnostics);
-  if (scene.implicit && scene.gas.gas.isBarotropic())
-    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "is not available with JWLC or Murnaghan, whose pressure does not depend on the energy: remove "
-                      "it, or run with --set CFD/ICE/explicit=true");
-}
-
-void readGases(const std::vector<GasMaterial>& materials, const Element& root, GasScene& scene,
-               Diagnostics& diagnostics) {
-  const auto elements = root.child("MaterialProperties")->child("ICE")->children("material");
-  for (std::size_t k = 0; k < materials.size(); ++k) {
-    euler::Settings settings = scene.gas;
-    settings.where = elements[k].where();
-    settings.gas.material += static_cast<int>(k);
-    readMaterial(materials[k], elements[k], false, settings, diagnostics);
-    if (settings.name.empty()) settings.name = fmt::format("gas{}", k);
-    scene.mixture.push_back(settings);
-    scene.diffusions.push_back({materials[k].viscosity, materials[k].conductivity});
-  }
-  checkMixture(materials, root, scene, scene.gas.gas.material, diagnostics);
-}
-
 bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }
 
 /// Sections of implicit steps that have no effect in Tushar.
@@ -297,6 +157,8 @@ void takeModels(ModelsSection& models, const Element& root, int solids, GasScene
   scene.scalars = std::move(models.scalars);
   scene.massExchanges = std::move(models.massExchanges);
   scene.burns = std::move(models.burns);
+  scene.programs = std::move(models.programs);
+  scene.binary = std::move(models.binary);
   std::set<std::string> bodies;
   const auto mpm = root.child("MaterialProperties")->child("MPM");
   for (const Element& material : mpm ? mpm->children("material") : std::vector<Element>())
@@ -369,15 +231,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
     scene.exchange->heatByMasses = properties.exchange->model.value_or(CoefficientSection()).heat != "constant";
   }
   if (solids > 0) refuseBesideBodies(root, cfd.ice, diagnostics);
-  if (materials.size() > 1) {
-    readGases(materials, root, scene, diagnostics);
-    return scene;
-  }
-  if (!scene.massExchanges.empty())
-    diagnostics.error(scene.massExchanges.front().where, "Models/Model",
-                      "there is one gas, which cannot become another");
-  readOneGas(materials.front(), *root.child("MaterialProperties")->child("ICE")->child("material"), scene, diagnostics);
-  checkInflows(root, scene.gas.gas, diagnostics);
+  readMaterials(materials, root, solids, scene, diagnostics);
   return scene;
 }
 

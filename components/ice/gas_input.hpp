@@ -8,6 +8,8 @@
 #include "components/ice/burn_model.hpp"
 #include "components/ice/heat_coefficients.hpp"
 #include "components/ice/heating.hpp"
+#include "components/ice/mixture/binary_properties.hpp"
+#include "components/ice/mixture/programmed_burn.hpp"
 #include "components/ice/scalar.hpp"
 #include "core/input/diagnostics.hpp"
 #include "core/simulation/catalogue.hpp"
@@ -61,6 +63,8 @@ struct GasScene {
   std::vector<euler::Diffusion> diffusions = {};  ///< diffusion of each of several gases
   std::vector<MassExchange> massExchanges = {};   ///< between them
   std::vector<BurnModel> burns = {};              ///< of bodies
+  std::vector<ProgrammedBurn> programs = {};      ///< of gases that become others
+  std::optional<BinaryProperties> binary = {};    ///< where one gas of the scene is a mixture of two
 };
 
 /// Why implicit steps need one level.

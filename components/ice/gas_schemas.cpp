@@ -188,11 +188,13 @@ const Schema<GasMaterial>& materialSchema() {
     Schema<GasMaterial> tags("material", "A gas, and where it is at the start.");
     tags.attributeValue("name", &GasMaterial::name, "", "1", "its name")
         .ignoredAttribute("index", "gases are numbered in the order of the scene")
-        .custom("EOS", readState, {"EOS"},
-                "the equation of state, by its type: ideal_gas p = (gamma - 1) c_v rho T; stiffened_gas; for "
-                "explosives and liquids JWL, JWLC, Murnaghan and Thomsen_Hartka_water, for which <gamma> has no effect")
+        .custom(
+            "EOS", readState, {"EOS"},
+            "the equation of state, by its type: ideal_gas p = (gamma - 1) c_v rho T; stiffened_gas; for "
+            "explosives and liquids JWL, JWLC, Murnaghan, Gruneisen and Thomsen_Hartka_water, for which <gamma> has no "
+            "effect")
         .forms({{.tags = {"EOS"}, .demands = {{"type", equationsOfState()}}, .atLeast = 1, .repeats = false}})
-        .required("gamma", &GasMaterial::gamma, "1", "ratio of specific heats", input::greaterThan(1))
+        .required("gamma", &GasMaterial::gamma, "1", "ratio of specific heats, more than 1", input::atLeast(1))
         .required("specific_heat", &GasMaterial::specificHeat, "J/(kg K)", "c_v", input::positive())
         .value("dynamic_viscosity", &GasMaterial::viscosity, 0, "Pa s", "shear viscosity; there is no bulk viscosity",
                input::nonNegative())

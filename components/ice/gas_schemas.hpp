@@ -147,6 +147,8 @@ struct ModelsSection {
   std::vector<ScalarSettings> scalars;
   std::vector<MassExchange> massExchanges;
   std::vector<BurnModel> burns;
+  std::vector<ProgrammedBurn> programs;
+  std::optional<BinaryProperties> binary;
 };
 const input::Schema<ModelsSection>& modelsSchema();
 

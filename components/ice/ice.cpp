@@ -173,7 +173,12 @@ namespace {
 int cellsOfBlocks(const input::Element& root) {
   const auto properties = root.child("MaterialProperties");
   const auto gases = properties ? properties->child("ICE") : std::nullopt;
-  return gases && gases->children("material").size() > 1 ? 6 : 4;
+  const auto models = root.child("Models");
+  const auto list = models ? models->children("Model") : std::vector<input::Element>();
+  const bool isBinary = std::any_of(list.begin(), list.end(), [](const input::Element& model) {
+    return model.attribute("type") == "BinaryProperties";
+  });
+  return isBinary || (gases && gases->children("material").size() > 1) ? 6 : 4;
 }
 
 }  // namespace
@@ -202,6 +207,8 @@ simulation::ComponentKind kind() {
     if (scene.exchange && scene.mixture.empty())
       diagnostics.note(scene.exchange->where, exchangePath, "does nothing: there is one material");
     if (diagnostics.size() > before) return {};
+    if (!scene.mixture.empty() && scene.implicit)
+      return [scene](const Level& level) { return simulation::makeByDimension<ImplicitMixtureIce>(level, scene); };
     if (!scene.mixture.empty())
       return [scene](const Level& level) {
         return simulation::makeByDimension<MixtureIce>(level, scene, level.domain().refinement.levels > 1);

@@ -18,7 +18,8 @@ using input::Schema;
 namespace {
 
 /// The attribute `type` of a <Model>.
-const std::vector<std::string> modelTypes{"PassiveScalar", "Test", "Simple_Burn", "Steady_Burn", "DDT1"};
+const std::vector<std::string> modelTypes{"PassiveScalar", "Test",      "Simple_Burn",
+                                          "Steady_Burn",   "LightTime", "BinaryProperties"};
 
 const Schema<ScalarRegion>& startSchema() {
   static const Schema<ScalarRegion> schema = [] {
@@ -141,9 +142,26 @@ void readBurning(const Element& model, const Schema<Section>& schema, ModelsSect
   models.burns.push_back(read.model());
 }
 
+void readProgram(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
+  const auto given = model.child("LightTime");
+  if (!given) return diagnostics.error(model, "missing tag <LightTime> in <Model>");
+  models.programs.push_back(programmedBurnSchema().read(*given, diagnostics));
+}
+
+void readBinary(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
+  const auto given = model.child("BinaryProperties");
+  if (!given) return diagnostics.error(model, "missing tag <BinaryProperties> in <Model>");
+  if (models.binary) return diagnostics.error(model, "a second <Model type=\"BinaryProperties\"> is not available");
+  const std::size_t before = diagnostics.size();
+  BinaryProperties read = readBinaryProperties(*given, diagnostics);
+  if (diagnostics.size() == before) models.binary = std::move(read);
+}
+
 void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
   const std::string type = model.attribute("type").value_or("");
   if (type == "Test") return readExchange(model, models, diagnostics);
+  if (type == "LightTime") return readProgram(model, models, diagnostics);
+  if (type == "BinaryProperties") return readBinary(model, models, diagnostics);
   if (type == simpleBurnSchema().name()) return readBurning(model, simpleBurnSchema(), models, diagnostics);
   if (type == steadyBurnSchema().name()) return readBurning(model, steadyBurnSchema(), models, diagnostics);
   if (type == ddtSchema().name()) return readBurning(model, ddtSchema(), models, diagnostics);
@@ -187,13 +205,16 @@ const Schema<ModelsSection>& modelsSchema() {
               },
               {"Model"},
               "type=\"PassiveScalar\": a number per mass that the gas carries along; type=\"Test\": one material "
-              "becomes another one; type=\"Simple_Burn\", type=\"Steady_Burn\", type=\"DDT1\": a body burns",
+              "becomes another one; type=\"Simple_Burn\", type=\"Steady_Burn\": a body burns; "
+              "type=\"LightTime\": a gas burns by a program; type=\"BinaryProperties\": the gas is two gases at one "
+              "temperature",
               [](std::ostream& out, int indent) {
                 passiveScalarSchema().describe(out, indent);
                 massExchangeSchema().describe(out, indent);
                 simpleBurnSchema().describe(out, indent);
                 steadyBurnSchema().describe(out, indent);
-                ddtSchema().describe(out, indent);
+                programmedBurnSchema().describe(out, indent);
+                describeBinaryProperties(out, indent);
               })
           .forms({{.tags = {"Model"}, .demands = {{"type", modelTypes}}}});
   return schema;

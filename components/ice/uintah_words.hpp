@@ -77,6 +77,14 @@ inline const std::vector<std::string> uintahsLabels{"vol_frac_CC",
                                                     "mom_exch_error",
                                                     "Totaldensity_src",
                                                     "TotalMom_src",
-                                                    "TotalEng_src"};
+                                                    "TotalEng_src",
+                                                    "mass_adv",
+                                                    "mom_adv",
+                                                    "eng_adv",
+                                                    "sp_vol_adv",
+                                                    "sum_rho_CC",
+                                                    "F",
+                                                    "delF",
+                                                    "mag_grad_Fr"};
 
 }  // namespace tushar::ice

@@ -54,7 +54,7 @@ void addPatch(const Patch& patch, const Label& label, const data::Variable& vari
   const std::size_t components = label.components;
   const double weight = patch.level().weight();
   grid::forEach<3>(countedBy(patch, label), [&](const Index3& at) {
-    const std::size_t plane = over.axis < 0 ? 0 : static_cast<std::size_t>(at[over.axis]);
+    const std::size_t plane = over.axis < 0 ? 0 : static_cast<std::size_t>(at[over.axis] >> patch.level().number());
     const std::size_t place = variable.stored.offset(at);
     for (std::size_t k = 0; k < components; ++k)
       extremes[plane * components + k].add(numberAt(label, variable.values, place * components + k), weight);

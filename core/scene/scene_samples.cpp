@@ -34,8 +34,8 @@ struct Known {
     const std::vector<std::string> lacking = component.foreignLabels();
     foreign.insert(lacking.begin(), lacking.end());
     materials = phases.materials();
-    const std::vector<std::string> gases = component.gasNames();
-    materials.insert(materials.end(), gases.begin(), gases.end());
+    for (const std::string& gas : component.gasNames())
+      if (std::find(materials.begin(), materials.end(), gas) == materials.end()) materials.push_back(gas);
   }
 };
 

@@ -23,12 +23,13 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::max();
 
-void refuseRestartStep(TimeSettings&, const Element& element, Diagnostics& diagnostics) {
+constexpr const char* afterRestart =
+    "does nothing: a restart continues with the step that the run would have taken; sus --restart --set "
+    "Time/delt_max=… makes its steps shorter";
+
+void noteRestartStep(TimeSettings&, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("override_restart_delt");
-  if (given && input::parse<double>(given->text()).value != 0.0)
-    diagnostics.error(
-        *given, fmt::format("found '{}', expected 0: a restart continues with the step that the run would have taken",
-                            given->text()));
+  if (given && input::parse<double>(given->text()).value != 0.0) diagnostics.note(*given, afterRestart);
 }
 
 const Schema<TimeSettings>& timeSchema() {
@@ -57,10 +58,8 @@ const Schema<TimeSettings>& timeSchema() {
           .ours()
           .value("initial_delt_range", &TimeSettings::initialDeltRange, 0, "s",
                  "time until which delt_init limits the steps; it always limits the first", input::nonNegative())
-          .custom("override_restart_delt", refuseRestartStep, {"override_restart_delt"},
-                  "must be 0: a restart continues with the step that the run would have taken; to make its steps "
-                  "shorter, use sus --restart --set Time/delt_max=…")
-          .forms({input::patternForm({"override_restart_delt"}, input::zeroPattern)})
+          .custom("override_restart_delt", noteRestartStep, {"override_restart_delt"}, afterRestart)
+          .forms({input::anyForm({"override_restart_delt"})})
           .check([](const TimeSettings& time, const Element& element, Diagnostics& diagnostics) {
             if (time.maxTime <= time.initTime)
               diagnostics.error(element, "maxTime is not after initTime; nothing would be computed");

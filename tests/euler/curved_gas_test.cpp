@@ -21,6 +21,10 @@ ColdCurve murnaghanCurve() {
           .compressibility = 3.9e-11,
           .pressureThere = 5e9};
 }
+/// The explosive of Uintah's riemann_grun.ups, A = 1.3338e9 Pa, B = 7.027e5 Pa/K.
+ColdCurve linearCurve() {
+  return {.kind = ColdCurve::Kind::linear, .density = 1823.3, .a = 1.3338e9, .pressureThere = 101325 - 7.027e5 * 317.4};
+}
 template <class Law>
 Gas gasOf(const Law& law) {
   return {.gamma = 1.4, .specificHeat = 716, .law = std::make_shared<const Gas::Law>(law)};
@@ -28,6 +32,7 @@ Gas gasOf(const Law& law) {
 Gas jwl() { return gasOf(CurvedGas(jwlCurve(), 0.45, 716)); }
 Gas jwlc() { return gasOf(CurvedGas(jwlcCurve(), 0, 716)); }
 Gas murnaghan() { return gasOf(CurvedGas(murnaghanCurve(), 0, 716)); }
+Gas gruneisen() { return gasOf(CurvedGas(linearCurve(), 7.027e5 / (1823.3 * 716), 716)); }
 Water::Numbers waterNumbers() { return {.volume = 1.00008e-3}; }
 Gas water() { return gasOf(Water(waterNumbers())); }
 /// JWL without its exponentials.
@@ -42,6 +47,7 @@ std::vector<Case> allLaws() {
   return {{"JWL", jwl(), {1, 300, 1835, 2500}},
           {"JWLC", jwlc(), {0.3, 500, 1160, 1900}},
           {"Murnaghan", murnaghan(), {1000, 1159, 1161, 1800}},
+          {"Gruneisen", gruneisen(), {1700, 1823, 2000}},
           {"water", water(), {990, 1000, 1010}},
           {"ideal", idealByLaw(), {1e-3, 1, 10}}};
 }
@@ -77,7 +83,7 @@ double tubeError(const Gas& gas, const TubeState& left, const TubeState& right, 
 }  // namespace
 
 TEST(ColdCurve, StoresTheWorkOfItsPressure) {
-  for (const ColdCurve& curve : {jwlCurve(), jwlcCurve(), murnaghanCurve()})
+  for (const ColdCurve& curve : {jwlCurve(), jwlcCurve(), murnaghanCurve(), linearCurve()})
     for (const double rho : {0.3 * curve.density, 0.99 * curve.density, 1.01 * curve.density, 1.7 * curve.density}) {
       const double step = 1e-4 * rho;
       const auto slope = [&](auto&& of) { return (of(rho + step) - of(rho - step)) / (2 * step); };
@@ -96,6 +102,8 @@ TEST(GasLaws, HaveThePressuresOfUintahsScenes) {
   anfo.pressureThere = 101325;
   EXPECT_DOUBLE_EQ(anfo.pressure(1160), 101325);
   EXPECT_NEAR(anfo.pressure(1300) / ((std::pow(1300.0 / 1160, 7.4) - 1) / (7.4 * 3.9e-10)), 1, 1e-3);
+  EXPECT_NEAR(gruneisen().lastAt(1823.3, 317.4), 101325, 1e-6);
+  EXPECT_NEAR(gruneisen().lastAt(1823.17534017, 317.4), 10132.5, 1);
   const Gas cold = water();
   EXPECT_NEAR(cold.lastAt(995.749014615, 300), 101325, 0.5);  // 1e-10 of the density are .2 Pa
   EXPECT_NEAR(cold.densityAt(101325, 300), 995.749014615, 1e-6);
@@ -161,7 +169,8 @@ TEST(GasLaws, ConvergeToExactShockTubes) {
   // Products at the pressure of a detonation against thin ones, and condensed ones against one another.
   for (const auto& [name, gas, left, hot, right, cold] :
        {Tube{"JWL", jwl(), 1835, 3000, 200, 300}, Tube{"JWLC", jwlc(), 1400, 300, 100, 300},
-        Tube{"Murnaghan", murnaghan(), 1400, 300, 1170, 300}, Tube{"water", water(), 1010, 300, 1000, 310}}) {
+        Tube{"Murnaghan", murnaghan(), 1400, 300, 1170, 300}, Tube{"Gruneisen", gruneisen(), 2100, 500, 1800, 300},
+        Tube{"water", water(), 1010, 300, 1000, 310}}) {
     const TubeState high = stateAt(gas, left, hot), low = stateAt(gas, right, cold);
     const double coarse = tubeError(gas, high, low, 100), fine = tubeError(gas, high, low, 400);
     EXPECT_LT(fine, 0.006) << name;

@@ -129,9 +129,6 @@ TEST(IceMixture, RefusesASlowExchange) {
 }
 
 TEST(IceMixture, RefusesWhatItHasNot) {
-  EXPECT_EQ(problemOf(changedScene(tube, "<ICE><advection type=\"SecondOrder\"/>",
-                                   "<ICE><advection type=\"SecondOrder\"/><ImplicitSolver/>")),
-            "is not available with several gases: remove it, or run with --set CFD/ICE/explicit=true");
   EXPECT_EQ(problemOf(changedScene(tube, "<specific_heat>1.5</specific_heat>",
                                    "<specific_heat>1.5</specific_heat><dynamicViscosityModels><Model "
                                    "name=\"Sutherland\"><a>1</a><b>1</b></Model></dynamicViscosityModels>")),

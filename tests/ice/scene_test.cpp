@@ -141,7 +141,8 @@ TEST(IceScene, RefusesSolids) {
 
 TEST(IceScene, RefusesOtherEquationsOfState) {
   EXPECT_EQ(problemOf(changedScene(sod, "<EOS type=\"ideal_gas\"/>", "<EOS type=\"TST\"><a>1</a></EOS>")),
-            "attribute 'type': found 'TST', expected 'ideal_gas', 'stiffened_gas', 'JWL', 'JWLC', 'Murnaghan' or "
+            "attribute 'type': found 'TST', expected 'ideal_gas', 'stiffened_gas', 'JWL', 'JWLC', 'Murnaghan', "
+            "'Gruneisen' or "
             "'Thomsen_Hartka_water'");
 }
 
@@ -224,9 +225,10 @@ TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
 }
 
 TEST(IceScene, RefusesModels) {
-  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"DDT0\"/></Models>\n  <CFD>")),
-            "the type 'DDT0' is not available, but PassiveScalar, Test, Simple_Burn, Steady_Burn, DDT1 are; remove the "
-            "model");
+  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"DDT1\"/></Models>\n  <CFD>")),
+            "the type 'DDT1' is not available, but PassiveScalar, Test, Simple_Burn, Steady_Burn, LightTime, "
+            "BinaryProperties "
+            "are; remove the model");
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {

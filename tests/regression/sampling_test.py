@@ -110,6 +110,18 @@ class Sampling(ModuleTest):
         heads = {file.name: file.read_text().splitlines()[2] for file in folder.iterdir()}
         self.assertEqual(heads, {"c.mass_0": "# X  Y  Z  average  nCells", "c.mass_1": "# X  Y  Z  sum"})
 
+    def test_planes_of_several_levels_are_those_of_the_coarsest_cells(self):
+        tags = module("planeAverage", "<planeOrientation>YZ</planeOrientation>",
+                      ('label="c.density" weighting="nCells"', "c.totalEnergy"))
+        archive = self.run_in("levels", self.scene(tags, ROOT / "ups/euler/blast_levels.ups"), "--set",
+                              "Time/max_Timesteps=20")
+        means = np.array(numbers((archive / "planeAverage/t00020/L-0/c.density_0").read_text()))
+        np.testing.assert_allclose(means[:, 0], (np.arange(64) + .5) * 1.2 / 64, rtol=1e-12)
+        self.assertEqual(set(means[:, 4]), {64})
+        mass = float((archive / "TotalMass.dat").read_text().split()[-1])
+        self.assertAlmostEqual(means[:, 3].mean() * 1.2 * 1.2 / mass, 1, delta=1e-12)
+        self.assertGreater(np.ptp(means[:, 3]), 1e-3)
+
     def test_vorticity_is_that_of_the_velocity(self):
         archive = self.run_in("whole", self.scene(VORTICITY, save='<save label="vorticity"/>'), *SMALL)
         state = tushar.open(archive)[-1]

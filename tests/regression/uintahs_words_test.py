@@ -56,6 +56,8 @@ RUN = {
     "a side without conditions": (BILLET, "</BoundaryConditions>", '<Face side="y+"/></BoundaryConditions>'),
     "a component in capitals": (DISCS, 'type="mpm"', 'type="MPM"'),
     "no title": (DISCS, "Two discs collide", ""),
+    "a first step after a restart": (BILLET, "</Time>",
+                                     "<override_restart_delt>1e-3</override_restart_delt></Time>"),
     "no greatest step": (BILLET, "</Time>",
                          "<delt_max>0</delt_max><override_restart_delt>0</override_restart_delt></Time>"),
     "a density of a body": (DISCS, "<geom_object>", '<geom_object name="one"><density>1</density>', 1),

@@ -15,7 +15,8 @@ bool isPossible(const std::vector<Settings>& gases, const std::vector<Held>& hel
   return canBe<D>(alike, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1);
 }
 
-/// Throws NumericalError for the first cell of the patch with an impossible state, if there is one.
+}  // namespace
+
 template <int D, class Held, class T>
 void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Held>& held,
                          const StateViews<D, T>& state) {
@@ -25,15 +26,7 @@ void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases,
   });
 }
 
-template <class T, int D, class Held>
-MixtureViews<D, T> viewsOf(const StateViews<D, T>& all, const std::vector<Held>& held) {
-  MixtureViews<D, T> views{all, {}, {}};
-  for (const Held& one : held) {
-    views.masses.push_back(one.mass);
-    views.shares.push_back(one.share);
-  }
-  return views;
-}
+namespace {
 
 template <int D, class Shape, int K>
 void advanceMixture(const Patch& patch, const std::vector<Settings>& gases, const OldState<D>& old,
@@ -118,6 +111,10 @@ void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, do
 }
 
 #define TUSHAR_MIXTURE(D)                                                                                         \
+  template void refuseBrokenMixture(const Patch&, const std::vector<Settings>&, const std::vector<OldGas>&,       \
+                                    const StateViews<D, const double>&);                                          \
+  template void refuseBrokenMixture(const Patch&, const std::vector<Settings>&, const std::vector<NewGas>&,       \
+                                    const StateViews<D, double>&);                                                \
   template AdvanceMixture<D> chooseAdvanceMixture<D>(const Method&, std::size_t);                                 \
   template void closeShares<D>(const Patch&, const std::vector<Settings>&, const std::vector<CellView<double>>&); \
   template void mendNewMixture<D>(const Patch&, const std::vector<Settings>&, const std::vector<Box>&,            \

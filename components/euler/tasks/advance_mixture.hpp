@@ -41,12 +41,28 @@ Mixture<K> mixtureOf(const std::vector<Settings>& gases) {
   return mixture;
 }
 
-/// One step of several gases: like Advance for the mixture, but with limited slopes of the mass and the volume fraction
-/// of each gas instead of those of the density. Shares go with the velocity of the contact at faces, so that where
-/// velocity and pressure are uniform they stay so. Slopes of three gases need not add up; they are scaled until the
-/// shares at a face add up to 1, and the densities of the gases stay as they are. Source: G. Allaire, S. Clerc & S.
-/// Kokh, J. Comput. Phys. 181 (2002) 577; E. Johnsen & T. Colonius, J. Comput. Phys. 219 (2006) 715, of shares with
-/// HLLC.
+/// Throws NumericalError for the first cell of the patch with an impossible state, if there is one; `held` has the
+/// shares of each gas.
+template <int D, class Held, class T>
+void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Held>& held,
+                         const StateViews<D, T>& state);
+
+/// The views of the state of all gases together, and of each.
+template <class T, int D, class Held>
+MixtureViews<D, T> viewsOf(const StateViews<D, T>& all, const std::vector<Held>& held) {
+  MixtureViews<D, T> views{all, {}, {}};
+  for (const Held& one : held) {
+    views.masses.push_back(one.mass);
+    views.shares.push_back(one.share);
+  }
+  return views;
+}
+
+/// One step of several gases: that of Advance, of all together, with limited slopes of the mass and the share of each
+/// in place of the density's. Shares go with the velocity of the contact at faces, so that where velocity and pressure
+/// are uniform they stay so. Slopes of three gases need not add up; they are scaled until the shares at a face add up
+/// to 1, and the densities of the gases stay as they are. Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181
+/// (2002) 577; E. Johnsen & T. Colonius, J. Comput. Phys. 219 (2006) 715, of shares with HLLC.
 template <int D>
 using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>& gases, const OldState<D>& old,
                                 const std::vector<OldGas>& oldGases, double time, double dt, const NewState<D>& fresh,

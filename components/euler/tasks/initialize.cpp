@@ -35,6 +35,7 @@ const GasObject* objectAt(const Settings& settings, const Vec3& point) {
 
 template <int D>
 void checkObjects(const Level& level, const Settings& settings) {
+  if (settings.objectsMayBeEmpty) return;
   std::vector<InputProblem> problems;
   for (const GasObject& object : settings.objects) {
     const input::Box3 bounds = object.shape->bounds();

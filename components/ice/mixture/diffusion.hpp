@@ -5,10 +5,12 @@
 
 namespace tushar::ice {
 
-/// Diffusion of several gases: each has its viscosity and conductivity, and a cell has their mean, weighted by shares.
+/// Diffusion of several gases: each has its viscosity and conductivity, and a cell has their mean, weighted by shares
+/// or, with BinaryProperties, by masses.
 struct MixtureDiffusion {
   std::vector<euler::Diffusion> of;  ///< each gas
   double smagorinsky = 0;            ///< C of eddies smaller than cells
+  bool byMasses = false;
 
   bool acts() const {
     return smagorinsky > 0 || std::any_of(of.begin(), of.end(), [](const euler::Diffusion& one) { return one.acts(); });
@@ -25,8 +27,9 @@ auto diffusingMixture(const Gases& gases, const MixtureDiffusion& how, const eul
     double capacity = 0;
     for (std::size_t k = 0; k < gases.size(); ++k) {
       capacity += held[k].mass[cell] * gases[k].gas.specificHeat;
-      one.how.viscosity += held[k].share[cell] * how.of[k].viscosity;
-      one.how.conductivity += held[k].share[cell] * how.of[k].conductivity;
+      const double weight = how.byMasses ? held[k].mass[cell] / mixed.density : held[k].share[cell];
+      one.how.viscosity += weight * how.of[k].viscosity;
+      one.how.conductivity += weight * how.of[k].conductivity;
     }
     one.w[euler::kTemperature] = temperatureAt<D>(gases, state, held, cell);
     for (int d = 0; d < D; ++d) one.w[euler::kVelocity(d)] = state.momentum[cell][d] / mixed.density;
@@ -49,15 +52,16 @@ void addMixtureDiffusion(const Patch& patch, const Gases& gases, const MixtureDi
   euler::diffuse<D>(patch, diffuser, dt, diffusingMixture<D>(gases, how, state, held), momentum, totalEnergy, rims);
 }
 
-/// dt = cfl over the largest combined rate of crossing cells and of diffusion.
+/// dt = cfl over the largest combined rate of crossing cells, together with a fraction of the speed of sound, and of
+/// diffusion.
 template <int D>
 void limitMixtureDiffusion(const Patch& patch, const Gases& gases, const MixtureDiffusion& how, double cfl,
-                           const euler::OldState<D>& state, const std::vector<euler::OldGas>& held, double time,
-                           Minimum& dt) {
+                           double soundSpeedKnob, const euler::OldState<D>& state,
+                           const std::vector<euler::OldGas>& held, double time, Minimum& dt) {
   const euler::GhostRules<D> rules = euler::diffusionRules<D>(patch.level(), gases.front().gas, time);
   euler::Diffuser<D> diffuser(patch.level(), patch.cells(), rules, how.smagorinsky);
   const double greatest =
-      euler::greatestDiffusionRate<D>(patch, diffuser, 1, diffusingMixture<D>(gases, how, state, held));
+      euler::greatestDiffusionRate<D>(patch, diffuser, soundSpeedKnob, diffusingMixture<D>(gases, how, state, held));
   if (greatest > 0) dt.add(cfl / greatest, "diffusion");
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/ice/mixture/programmed_burn.hpp"
 #include "components/ice/mixture/tasks.hpp"
 
 namespace tushar::ice {
@@ -27,6 +28,35 @@ void transferMass(const Patch& patch, const Gases&, const Transfer& one, double 
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     move(held[one.from].mass, held[one.to].mass, cell);
     move(held[one.from].share, held[one.to].share, cell);
+  });
+}
+
+/// A gas that becomes another one by a programmed burn.
+struct BurningGas {
+  std::size_t from = 0, to = 0;
+  ProgrammedBurn burn;
+};
+
+/// Turns as much of a gas into another one, with its volume, as its programmed burn has reached, and adds its heat.
+/// Mass and momentum are kept, energy changes by the heat.
+template <int D>
+void burnByProgram(const Patch& patch, const Gases&, const BurningGas& one, double time, CellView<double> totalEnergy,
+                   const std::vector<euler::ChangedGas>& held) {
+  const Level& level = patch.level();
+  const euler::ChangedGas &from = held[one.from], &to = held[one.to];
+  double volume = 1;
+  for (int axis = 0; axis < 3; ++axis) volume *= level.cellWidth(axis);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const double mass = from.mass[cell];
+    if (!(mass > 0) || !one.burn.takesCell(from.share[cell] + to.share[cell])) return;
+    const Vec3 point = level.expandPoint<D>(level.cellCentre<D>(cell));
+    const double reached = one.burn.reached(point, time, std::cbrt(volume)) * (mass + to.mass[cell]);
+    const double burned = std::clamp(reached - to.mass[cell], 0.0, mass), share = burned / mass * from.share[cell];
+    from.mass[cell] = burned < mass ? mass - burned : 0;
+    to.mass[cell] += burned;
+    from.share[cell] = burned < mass ? from.share[cell] - share : 0;
+    to.share[cell] += share;
+    totalEnergy[cell] += burned * one.burn.heat;
   });
 }
 

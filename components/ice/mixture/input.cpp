@@ -17,6 +17,9 @@ namespace {
 /// Uintah's momentum exchange coefficients from this value on mean a common velocity.
 constexpr double oneForAll = 1e9;
 
+/// Uintah's name of the mass fraction of BinaryProperties.
+constexpr std::string_view fractionLabel = "scalar-f";
+
 void checkSubstance(const GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
   const auto kind = material.state.kind;
   if (kind != EquationOfState::Kind::ideal && kind != EquationOfState::Kind::stiffened)
@@ -78,11 +81,11 @@ void checkMaterial(const Element& condition, int solids, Diagnostics& diagnostic
                     fmt::format("found '{}', expected all: several gases have one velocity and one pressure", id));
 }
 
-void checkSide(const Element& face, const Element& condition, int solids, Diagnostics& diagnostics) {
+void checkSide(const Element& face, const Element& condition, int solids, bool isBinary, Diagnostics& diagnostics) {
   const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
   const bool isGiven = var == nameOf(BoundaryKind::dirichlet);
-  const bool saysWhat =
-      label == euler::boundary::density.name || (label == euler::boundary::temperature.name && !isWall(face));
+  const bool saysWhat = label == euler::boundary::density.name || (isBinary && label == fractionLabel) ||
+                        (label == euler::boundary::temperature.name && !isWall(face));
   if (var == euler::boundary::waves.name)
     diagnostics.error(condition.whereOf("var"), condition.path(),
                       "LODI is not available with several gases: give Neumann, or a Pressure");
@@ -90,30 +93,34 @@ void checkSide(const Element& face, const Element& condition, int solids, Diagno
     diagnostics.error(condition,
                       "Dirichlet is not available with several gases: the gas that flows in has the composition of the "
                       "adjacent cells; give a Velocity or a Pressure, or Neumann");
-  else if (var != nameOf(BoundaryKind::neumann))
+  else if (var != nameOf(BoundaryKind::neumann) && !isBinary)
     checkMaterial(condition, solids, diagnostics);
 }
 
 /// Checks that sides have conditions for all gases together: velocity and pressure, temperatures of walls, but no
 /// composition.
-void checkSides(const Element& root, int solids, Diagnostics& diagnostics) {
+void checkSides(const Element& root, int solids, bool isBinary, Diagnostics& diagnostics) {
   const auto group = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   for (const Element& face : group ? group->children("Face") : std::vector<Element>())
     for (const Element& condition : face.children("BCType")) {
       const int material = input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
-      if (material < 0 || material >= solids) checkSide(face, condition, solids, diagnostics);
+      if (material < 0 || material >= solids) checkSide(face, condition, solids, isBinary, diagnostics);
     }
 }
 
+/// Checks that models name two of the gases.
 void checkExchangesOfMass(const GasScene& scene, Diagnostics& diagnostics) {
   std::vector<std::string> names;
   for (const euler::Settings& gas : scene.mixture) names.push_back(gas.name);
-  for (const MassExchange& one : scene.massExchanges) {
-    for (const std::string& name : {one.from, one.to})
+  const auto check = [&](const Location& where, const std::string& path, const std::string& from,
+                         const std::string& to) {
+    for (const std::string& name : {from, to})
       if (const std::string problem = input::choiceProblem(name, names); !problem.empty())
-        diagnostics.error(one.where, "Models/Model/Test", problem);
-    if (one.from == one.to) diagnostics.error(one.where, "Models/Model/Test", "a gas cannot become itself");
-  }
+        diagnostics.error(where, path, problem);
+    if (from == to) diagnostics.error(where, path, "a gas cannot become itself");
+  };
+  for (const MassExchange& one : scene.massExchanges) check(one.where, "Models/Model/Test", one.from, one.to);
+  for (const ProgrammedBurn& one : scene.programs) check(one.where, "Models/Model/LightTime", one.from, one.to);
 }
 
 }  // namespace
@@ -124,18 +131,19 @@ void checkMixture(const std::vector<GasMaterial>& materials, const Element& root
   std::set<std::string> names;
   for (std::size_t k = 0; k < materials.size(); ++k) {
     checkSubstance(materials[k], elements[k], diagnostics);
-    if (!names.insert(scene.mixture[k].name).second)
+    if (!scene.binary && !names.insert(scene.mixture[k].name).second)
       diagnostics.error(elements[k], fmt::format("the name '{}' is given twice", scene.mixture[k].name));
   }
-  if (scene.implicit)
+  if (scene.implicit && solids > 0)
     diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "is not available with several gases: remove it, or run with --set CFD/ICE/explicit=true");
+                      "is not available with several gases beside bodies: remove it, or run with --set "
+                      "CFD/ICE/explicit=true");
   if (!scene.scalars.empty())
     diagnostics.error(scene.scalars.front().where, "Models/Model",
                       "is not available with several gases; remove it, or keep one gas");
-  checkExchange(scene, root, solids, diagnostics);
+  if (!scene.binary) checkExchange(scene, root, solids, diagnostics);
   checkExchangesOfMass(scene, diagnostics);
-  checkSides(root, solids, diagnostics);
+  checkSides(root, solids, scene.binary.has_value(), diagnostics);
 }
 
 }  // namespace tushar::ice

@@ -24,6 +24,10 @@ namespace c {
 inline constexpr CellLabel<double> ownDensity{"c.ownDensity", "kg/m^3",
                                               "mass of a gas per volume of that gas; 0 where there is none"};
 
+/// Of BinaryProperties.
+inline constexpr CellLabel<double> massFraction{"c.massFraction", "1",
+                                                "mass of the second of two gases over that of both"};
+
 }  // namespace c
 
 }  // namespace tushar::ice

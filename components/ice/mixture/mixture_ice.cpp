@@ -8,17 +8,26 @@ namespace tushar::ice {
 
 namespace {
 
-/// The mass exchanges of a scene, with the numbers of the gases.
+/// The index of a gas.
+std::size_t indexOf(const GasScene& scene, const std::string& name) {
+  const auto isIt = [&](const euler::Settings& gas) { return gas.name == name; };
+  return static_cast<std::size_t>(std::find_if(scene.mixture.begin(), scene.mixture.end(), isIt) -
+                                  scene.mixture.begin());
+}
+
+/// The mass exchanges of a scene.
 std::vector<Transfer> transfersOf(const GasScene& scene) {
-  const auto numberOf = [&](const std::string& name) {
-    const auto isIt = [&](const euler::Settings& gas) { return gas.name == name; };
-    return static_cast<std::size_t>(std::find_if(scene.mixture.begin(), scene.mixture.end(), isIt) -
-                                    scene.mixture.begin());
-  };
   std::vector<Transfer> transfers;
   for (const MassExchange& one : scene.massExchanges)
-    transfers.push_back({numberOf(one.from), numberOf(one.to), one.rate, one.startTime});
+    transfers.push_back({indexOf(scene, one.from), indexOf(scene, one.to), one.rate, one.startTime});
   return transfers;
+}
+
+std::vector<BurningGas> burningOf(const GasScene& scene) {
+  std::vector<BurningGas> burning;
+  for (const ProgrammedBurn& one : scene.programs)
+    burning.push_back({indexOf(scene, one.from), indexOf(scene, one.to), one});
+  return burning;
 }
 
 }  // namespace
@@ -30,11 +39,14 @@ MixtureIce<D>::MixtureIce(const GasScene& scene, bool hasLevels)
       gravity_(scene.gravity),
       push_(scene.push),
       gases_(scene.mixture),
-      diffusion_{scene.diffusions, scene.varying.smagorinsky},
+      diffusion_{scene.diffusions, scene.varying.smagorinsky, scene.binary.has_value()},
       transfers_(transfersOf(scene)),
+      burning_(burningOf(scene)),
       heat_(scene.exchange.value_or(Exchange()).heatCoefficients()),
       heating_(scene.heating),
-      hasLevels_(hasLevels) {
+      hasLevels_(hasLevels),
+      binary_(scene.gas.name),
+      isBinary_(scene.binary.has_value()) {
   for (const euler::Settings& gas : gases_) totals_.push_back(std::make_shared<const GasTotal>(gas.name));
 }
 
@@ -48,10 +60,15 @@ template <int D>
 void MixtureIce<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   tasks.acrossMaterials("ice::limitMixtureStep", euler::limitMixtureStep<D>, gases_, with(cfl_),
                         withoutMaterial(all<euler::OldState<D>>(0)), all<euler::OldGas>(0), computes(delT));
+  scheduleStepsOfDiffusion(tasks, 1);
+}
+
+template <int D>
+void MixtureIce<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
   if (diffusion_.acts())
     tasks.acrossMaterials("ice::limitMixtureDiffusion", limitMixtureDiffusion<D>, gases_, with(diffusion_), with(cfl_),
-                          withoutMaterial(all<euler::OldState<D>>(1)), all<euler::OldGas>(1), startTime(),
-                          computes(delT));
+                          with(soundSpeedKnob), withoutMaterial(all<euler::OldState<D>>(1)), all<euler::OldGas>(1),
+                          startTime(), computes(delT));
 }
 
 template <int D>
@@ -63,9 +80,21 @@ void MixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
                         withoutMaterial(all<euler::RimFluxes<D>>(false)), all<euler::GasRims>());
   if (hasLevels_)
     tasks.acrossMaterials("ice::closeShares", euler::closeShares<D>, gases_, modifies(euler::c::gasShare));
+  scheduleSources(tasks);
+  if (!gravity_.isZero(0))
+    tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(gravity_), requiresNew(euler::c::density),
+                   requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
+  scheduleHeat(tasks);
+}
+
+template <int D>
+void MixtureIce<D>::scheduleSources(TaskList& tasks) const {
   for (const Transfer& one : transfers_)
     tasks.acrossMaterials("ice::transferMass", transferMass<D>, gases_, with(one), startTime(), requiresOld(delT),
                           all<euler::ChangedGas>());
+  for (const BurningGas& one : burning_)
+    tasks.acrossMaterials("ice::burnByProgram", burnByProgram<D>, gases_, with(one), startTime(),
+                          withoutMaterial(modifies(euler::c::totalEnergy)), all<euler::ChangedGas>());
   if (diffusion_.acts())
     tasks.acrossMaterials("ice::addMixtureDiffusion", addMixtureDiffusion<D>, gases_, with(diffusion_),
                           withoutMaterial(all<euler::OldState<D>>(1)), all<euler::OldGas>(1), startTime(),
@@ -75,9 +104,10 @@ void MixtureIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
   if (!push_.isZero(0))
     tasks.perPatch("euler::addForce", euler::addForce<D>, with(push_), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
-  if (!gravity_.isZero(0))
-    tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(gravity_), requiresNew(euler::c::density),
-                   requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
+}
+
+template <int D>
+void MixtureIce<D>::scheduleHeat(TaskList& tasks) const {
   if (heat_.act() || heating_.acts())
     tasks.acrossMaterials("ice::exchangeHeat", exchangeHeat<D>, gases_, with(heat_), with(heating_), startTime(),
                           requiresOld(delT), withoutMaterial(requiresNew(euler::c::density)),
@@ -114,6 +144,10 @@ void MixtureIce<D>::scheduleDiagnostics(TaskList& tasks) const {
                         withoutMaterial(computes(c::temperature)));
   tasks.acrossMaterials("ice::computeSoundSpeed", computeMixedSoundSpeed<D>, gases_, state, each,
                         withoutMaterial(computes(c::soundSpeed)));
+  if (isBinary_)
+    tasks.acrossMaterials("ice::computeMassFraction", computeMassFraction<D>, gases_,
+                          withoutMaterial(requiresOld(euler::c::density)), each,
+                          withoutMaterial(computes(c::massFraction)));
   tasks.acrossMaterials("ice::computeOwnDensity", computeOwnDensity<D>, gases_, each, computes(c::ownDensity));
   tasks.perPatch("ice::computeSpecificVolume", computeSpecificVolume<D>, requiresOld(euler::c::density),
                  computes(c::specificVolume));
@@ -121,7 +155,17 @@ void MixtureIce<D>::scheduleDiagnostics(TaskList& tasks) const {
 
 template <int D>
 std::vector<std::string> MixtureIce<D>::foreignLabels() const {
-  return uintahsLabels;
+  std::vector<std::string> labels = uintahsLabels;
+  if (isBinary_) labels.insert(labels.end(), {"scalar-f_src", "scalar-diffCoef", "sum_scalar-f"});
+  return labels;
+}
+
+template <int D>
+std::vector<std::string> MixtureIce<D>::gasNames() const {
+  std::vector<std::string> names;
+  for (const euler::Settings& gas : gases_) names.push_back(gas.name);
+  if (isBinary_) names.push_back(binary_);
+  return names;
 }
 
 template <int D>
@@ -129,6 +173,8 @@ simulation::OtherNames MixtureIce<D>::otherNames() const {
   simulation::OtherNames names{{"rho_CC", std::string(euler::c::gasMass.name)},
                                {"rho_micro_CC", std::string(c::ownDensity.name)},
                                {"vol_frac_CC", std::string(euler::c::gasShare.name)}};
+  if (isBinary_)  // one gas to Uintah
+    names = {{"scalar-f", std::string(c::massFraction.name)}, {"sum_scalar_f", "TotalMass-B"}};
   names.insert(names.end(), uintahsNames.begin(), uintahsNames.end());
   return names;
 }

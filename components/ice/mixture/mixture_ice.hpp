@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/euler/euler.hpp"
+#include "components/ice/face_flow.hpp"
 #include "components/ice/gas_input.hpp"
 #include "components/ice/mixture/diffusion.hpp"
 #include "components/ice/mixture/exchange_heat.hpp"
@@ -26,10 +27,21 @@ class MixtureIce : public Component, public reference::GasSolution {
   std::vector<std::string> foreignLabels() const override;
   simulation::OtherNames otherNames() const override;
   std::vector<simulation::Criterion> criteria() const override { return euler::criteria<D>(); }
+  std::vector<std::string> gasNames() const override;
   std::vector<reference::GasLaw> gases() const override;
   void scheduleMeasureError(TaskList& tasks, const reference::GasReference& exact,
                             const reference::Clock& clock) const override;
   std::vector<reference::MeasuredPlace> measuredPlaces() const override { return {reference::MeasuredPlace::cell}; }
+
+ protected:
+  double cfl() const { return cfl_; }
+  const Gases& held() const { return gases_; }
+  /// What changes gases besides their flow, after it: one becomes another, viscosity, conduction, forces, heat.
+  void scheduleSources(TaskList& tasks) const;
+  /// The limit of diffusion on the time step, together with this fraction of the speed of sound.
+  void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
+  /// Heat between gases, after all else.
+  void scheduleHeat(TaskList& tasks) const;
 
  private:
   euler::Method method_;
@@ -38,14 +50,36 @@ class MixtureIce : public Component, public reference::GasSolution {
   Gases gases_;
   MixtureDiffusion diffusion_;
   std::vector<Transfer> transfers_;
+  std::vector<BurningGas> burning_;
   HeatCoefficients heat_;
   Heating heating_;
   bool hasLevels_;
+  std::string binary_;     ///< with BinaryProperties, the name of the gas of the scene
+  bool isBinary_ = false;  ///< whether the gases are one of the scene
   std::vector<std::shared_ptr<const GasTotal>> totals_;
+};
+
+/// The same in implicit steps.
+template <int D>
+class ImplicitMixtureIce : public MixtureIce<D> {
+ public:
+  explicit ImplicitMixtureIce(const GasScene& scene);
+
+  void scheduleInitialize(TaskList& tasks) const override;
+  void scheduleComputeStableTimeStep(TaskList& tasks) const override;
+  void scheduleTimeAdvance(TaskList& tasks) const override;
+  bool mayRepeatStep() const override { return true; }
+  std::string whyOneLevel() const override { return pressureOnOneLevel; }
+
+ private:
+  IceSettings acting_;
 };
 
 extern template class MixtureIce<1>;
 extern template class MixtureIce<2>;
 extern template class MixtureIce<3>;
+extern template class ImplicitMixtureIce<1>;
+extern template class ImplicitMixtureIce<2>;
+extern template class ImplicitMixtureIce<3>;
 
 }  // namespace tushar::ice

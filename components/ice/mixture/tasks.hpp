@@ -133,6 +133,12 @@ void computeOwnDensity(const Patch& patch, const Gases&, const std::vector<euler
     });
 }
 
+template <int D>
+void computeMassFraction(const Patch& patch, const Gases&, CellView<const double> density,
+                         const std::vector<euler::OldGas>& held, CellView<double> fraction) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { fraction[cell] = held[1].mass[cell] / density[cell]; });
+}
+
 /// Mass of one gas in the patch [kg].
 template <int D>
 void sumGas(const Patch& patch, const Gases&, std::size_t gas, const std::vector<euler::OldGas>& held, Sum& mass) {

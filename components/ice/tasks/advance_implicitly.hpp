@@ -6,21 +6,25 @@
 namespace tushar::ice {
 
 /// The update of the cells in a step, block by block, once the pressure at its end is known.
-template <int D>
+template <int D, int K = 1>
 class ImplicitStep {
  public:
   /// Space for blocks no larger than `largest`.
   ImplicitStep(const Level& level, const euler::Settings& method, const IceSettings& settings,
+               const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {}) requires(K == 1)
+      : ImplicitStep(level, method.gas, method.method, settings, rules, largest, dt, std::move(isFlat)) {}
+  /// The same for these laws, which outlive this.
+  ImplicitStep(const Level& level, const LawsOf<K>& gas, const euler::Method& method, const IceSettings& settings,
                const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {})
       : level_(level),
         dt_(dt),
-        flow_(level, method, settings, rules, largest, dt, std::move(isFlat)),
+        flow_(level, gas, method, settings, rules, largest, dt, std::move(isFlat)),
         after_(flow_.old()),
         middle_(flow_.old()),
         flux_(flow_.old()) {}
 
   /// Loads the cells of `block`, whose pressures change by `change` [Pa].
-  void hold(const Box& block, const euler::StateViews<D, const double>& before, const CellView<const double>& change) {
+  void hold(const Box& block, const euler::ViewsOf<D, K, const double>& before, const CellView<const double>& change) {
     flow_.hold(block, before);
     change_ = &change;
     flow_.fillWithChange(change, after_);
@@ -47,13 +51,14 @@ class ImplicitStep {
       const double u = velocity(face, axis);
       const bool isFromBelow = u >= 0;
       const Index<D> from = isFromBelow ? face - Index<D>::unit(axis) : face;
-      const euler::State<D> w = atFace(from, axis, isFromBelow ? 1 : -1);
+      const euler::State<D, K> w = atFace(from, axis, isFromBelow ? 1 : -1);
       const double push = pressure(face, axis), mass = u * w[euler::kDensity];
-      euler::State<D> flux;
+      euler::State<D, K> flux;
       flux[euler::kDensity] = mass;
       for (int k = 0; k < D; ++k) flux[euler::kVelocity(k)] = mass * w[euler::kVelocity(k)];
       flux[euler::kVelocity(axis)] += push;
       flux[euler::kPressure<D>] = u * (euler::conserved<D>(flow_.gas(), w)[euler::kPressure<D>] + push);
+      for (std::size_t k = D + 2; k < flux.size(); ++k) flux[k] = u * w[k];
       if (share != 1)
         for (double& number : flux) number *= share;
       euler::store<D>(flux_.at(face), 0, flux);
@@ -61,7 +66,7 @@ class ImplicitStep {
     });
     return most;
   }
-  euler::Rows<D>& flux() { return flux_; }
+  euler::Rows<D, K>& flux() { return flux_; }
 
   /// Adds gravity at both faces of each cell of a block across an axis, and its work on the flow through them, so that
   /// stratified gas remains at rest.
@@ -83,6 +88,14 @@ class ImplicitStep {
   }
 
  private:
+  /// (gamma + 1) / 2 at a face; of several gases the mean of both sides.
+  double shockSlope(const Index<D>& face, int axis) const {
+    if constexpr (K == 1) return flow_.gas().shockSlope();
+    const auto of = [&](const Index<D>& cell) {
+      return euler::lawIn<D>(flow_.gas(), flow_.old().state(cell)).shockSlope();
+    };
+    return 0.5 * (of(face - Index<D>::unit(axis)) + of(face));
+  }
   double velocity(const Index<D>& face, int axis) const {
     return flow_.unchanged(face, axis) -
            flow_.loss(face, axis) * (changeIn(face) - changeIn(face - Index<D>::unit(axis)));
@@ -99,7 +112,7 @@ class ImplicitStep {
     const Index<D> below = face - Index<D>::unit(axis);
     const double together = flow_.old().number(below, v) - flow_.old().number(face, v);
     const double rho = flow_.density(face, axis);
-    const double viscous = together > 0 ? flow_.gas().shockSlope() * rho * together * together : 0;
+    const double viscous = together > 0 ? shockSlope(face, axis) * rho * together * together : 0;
     // Where a velocity is given without a pressure, as at a wall, p' is that of the cell, half a cell away.
     const double weight = flow_.isFree(face, axis) ? 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis] : 0;
     return 0.5 * (after_.number(below, p) + after_.number(face, p)) + viscous + (face[axis] == 0 ? -weight : weight);
@@ -111,18 +124,23 @@ class ImplicitStep {
     if (flow_.isOpen(face, axis)) return 2 * openPressure(face, axis) - after_.number(cell, p);
     return after_.number(side == 0 ? cell - Index<D>::unit(axis) : face, p);
   }
-  /// rho, v, p of a cell at the face above (1) or below it (-1), half a step later.
-  euler::State<D> atFace(const Index<D>& cell, int axis, int side) const {
-    euler::State<D> w = middle_.state(cell);
-    if (!flow_.hasSlopes() || !flow_.isOnGrid(cell)) return w;
-    for (std::size_t k = 0; k < w.size(); ++k) w[k] += 0.5 * side * flow_.slope(cell, axis, k);
-    const bool fine = w[euler::kDensity] > 0 && flow_.gas().heat(w[euler::kDensity], w[euler::kPressure<D>]) > 0;
-    return fine ? w : flow_.old().state(cell);
+  /// The state of a cell at the face above (1) or below it (-1), half a step later. Of several gases, its density is
+  /// always the sum of the masses: where gas flows in with the state of the adjacent cell, a difference would grow.
+  euler::State<D, K> atFace(const Index<D>& cell, int axis, int side) const {
+    euler::State<D, K> w = middle_.state(cell);
+    const bool isSloped = flow_.hasSlopes() && flow_.isOnGrid(cell);
+    for (std::size_t k = 0; isSloped && k < w.size(); ++k) w[k] += 0.5 * side * flow_.slope(cell, axis, k);
+    const bool fine = closeState<D, K>(w) && w[euler::kDensity] > 0 &&
+                      euler::lawIn<D>(flow_.gas(), w).heat(w[euler::kDensity], w[euler::kPressure<D>]) > 0;
+    if (fine || !isSloped) return w;
+    w = flow_.old().state(cell);
+    closeState<D, K>(w);
+    return w;
   }
   /// The change of a cell due to flow, pressure and gravity in half a step.
   void goHalfway(const Index<D>& cell) {
     if (flow_.isFlat(cell)) return;
-    const euler::State<D> w = flow_.old().state(cell);
+    const euler::State<D, K> w = flow_.old().state(cell);
     const auto middle = middle_.at(cell);
     for (int d = 0; d < D; ++d) {
       const double ratio = 0.5 * dt_ * level_.inverseSpacing(d);
@@ -134,10 +152,38 @@ class ImplicitStep {
 
   const Level& level_;
   double dt_;
-  FaceFlow<D> flow_;
+  FaceFlow<D, K> flow_;
   const CellView<const double>* change_ = nullptr;
-  euler::Rows<D> after_, middle_, flux_;
+  euler::Rows<D, K> after_, middle_, flux_;
 };
+
+/// Advances the cells of a block by a step; returns the greatest part of a cell that flows through a face.
+template <int D, int K>
+double advanceBlockImplicitly(const Level& level, const Box& block, const euler::ViewsOf<D, K, const double>& before,
+                              double dt, const CellView<const double>& change, ImplicitStep<D, K>& step,
+                              const euler::ViewsOf<D, K, double>& fresh, const euler::FaceMasses<D>& masses) {
+  double most = 0;
+  step.hold(block, before, change);
+  const auto sweep = [&]<int Axis>() {
+    Box faces = block;
+    ++faces.upper[Axis];
+    most = std::max(most, step.computeFluxes(faces, Axis));
+    euler::addFluxes<D, Axis>(dt / level.spacing(Axis), block, before, step.flux(), fresh);
+    step.addGravity(block, Axis, fresh);
+    masses.keep(block, Axis, step.flux());
+  };
+  sweep.template operator()<0>();
+  if constexpr (D > 1) sweep.template operator()<1>();
+  if constexpr (D > 2) sweep.template operator()<2>();
+  return most;
+}
+
+/// Throws NumericalError if gas would cross more than a cell.
+inline void refuseCrossing(double most, double dt) {
+  if (!(most <= 1))
+    throw NumericalError(fmt::format("gas would cross {:.3g} cells in a step of {:.3g} s", most, dt),
+                         "a smaller CFD/cfl", "c.velocity");
+}
 
 /// One step on a patch, in which pressures change by `change`, p' - p [Pa]: U' = U - dt sum_d (F_{d,i+1/2} -
 /// F_{d,i-1/2}) / h_d with F = u_f (rho, rho v, E + p_f) + (0, p_f n, 0). Mass, momentum and total energy are kept
@@ -154,24 +200,11 @@ void advanceImplicitly(const Patch& patch, const euler::Settings& method, const 
   double most = 0;
   bool fine = true;
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
-    step.hold(block, before, change);
-    const auto sweep = [&]<int Axis>() {
-      Box faces = block;
-      ++faces.upper[Axis];
-      most = std::max(most, step.computeFluxes(faces, Axis));
-      euler::addFluxes<D, Axis>(dt / level.spacing(Axis), block, before, step.flux(), fresh);
-      step.addGravity(block, Axis, fresh);
-      masses.keep(block, Axis, step.flux());
-    };
-    sweep.template operator()<0>();
-    if constexpr (D > 1) sweep.template operator()<1>();
-    if constexpr (D > 2) sweep.template operator()<2>();
+    most = std::max(most, advanceBlockImplicitly<D, 1>(level, block, before, dt, change, step, fresh, masses));
     fine &= euler::canBe<D>(method.gas, block, fresh);
   });
   if (!fine) euler::refuseBroken<D, double>(patch, method.gas, fresh, &before);
-  if (!(most <= 1))
-    throw NumericalError(fmt::format("gas would cross {:.3g} cells in a step of {:.3g} s", most, dt),
-                         "a smaller CFD/cfl", "c.velocity");
+  refuseCrossing(most, dt);
 }
 
 }  // namespace tushar::ice

@@ -13,24 +13,17 @@ void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<cons
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { pressure[cell] = euler::pressureIn(gas, state, cell); });
 }
 
-/// dt = cfl / s, s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2, r = sum_d (|v_d| + k c) / h_d + 2 nu / h_d²: the rate at
-/// which gas crosses a cell, with its acceleration a_d = |g_d - (dp/dx_d) / rho|, so that gas at rest does not cross
-/// cells within the step. |v_d| is the greatest of the cell and of what sides give at its faces. p is the pressure that
-/// the last step ended with: the pressure of the gas also has what conduction brought in, which sound evens out before
-/// it moves anything. k is Uintah's `knob_for_speedSound`, nu the greatest diffusivity. Throws NumericalError where a
-/// density, or p + p_inf, is not positive. Source: N. Kwatra & al., J. Comput. Phys. 228 (2009) 4146, section 3.3.
-template <int D>
-void limitImplicitStep(const Patch& patch, const euler::Settings& method, const IceSettings& settings,
-                       const euler::OldState<D>& before, double time, CellView<const double> pressure, Minimum& dt) {
+/// s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2, r = sum_d (|v_d| + k c) / h_d + 2 nu / h_d²: the rate at which gas
+/// crosses a cell, with its acceleration a_d = |g_d - (dp/dx_d) / rho|, so that gas at rest does not cross cells within
+/// the step. |v_d| is the greatest of the cell and of what sides give at its faces. `pushing` has the pressure that the
+/// last step ended with: the pressure of the gas also has what conduction brought in, which sound evens out before it
+/// moves anything. k is Uintah's `knob_for_speedSound`, `diffusivity(rho)` nu [m²/s]. Returns the greatest s of the
+/// patch, 1/s. Source: N. Kwatra & al., J. Comput. Phys. 228 (2009) 4146, section 3.3.
+template <int D, int K, class Diffusivity>
+double greatestImplicitRate(const Patch& patch, const GasBefore<D, K>& gas, const euler::Rows<D, K>& pushing,
+                            double soundSpeedKnob, Diffusivity&& diffusivity) {
   const Level& level = patch.level();
-  euler::refuseBroken<D, const double>(patch, method.gas, before, nullptr);
   const double second = 1;
-  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, method.gas, time);
-  const Box cells = patch.cells().grown(1, D);
-  GasBefore<D> gas(level, method.gas, settings.gravity, rules, cells.size());
-  gas.hold(cells, before);
-  euler::Rows<D> pushing = gas.old();
-  gas.fillWithPressure(pressure, pushing);
   const auto acceleration = [&](const Index<D>& face, int axis) {
     const std::size_t p = euler::kPressure<D>;
     const double gained = gas.mobility(face, axis, second);
@@ -46,17 +39,34 @@ void limitImplicitStep(const Patch& patch, const euler::Settings& method, const 
   };
   double greatest = 0;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const euler::State<D> w = gas.old().state(cell);
-    const double rho = w[euler::kDensity];
-    const double sound = settings.soundSpeedKnob * std::sqrt(method.gas.soundSpeedSquared(rho, w[euler::kPressure<D>]));
+    const double sound = soundSpeedKnob * gas.soundSpeed(cell), nu = diffusivity(gas.old().number(cell, 0));
     double rate = 0, rates = 0;
     for (int d = 0; d < D; ++d) {
       const double perWidth = level.inverseSpacing(d);
       rate += (speed(cell, d) + sound) * perWidth;
-      if (settings.diffusion.acts()) rate += 2 * settings.diffusion.greatest(method.gas, rho) * perWidth * perWidth;
+      rate += 2 * nu * perWidth * perWidth;
       rates += perWidth * std::max(acceleration(cell, d), acceleration(cell + Index<D>::unit(d), d));
     }
     greatest = std::max(greatest, 0.5 * (rate + std::sqrt(rate * rate + 4 * rates)));
+  });
+  return greatest;
+}
+
+/// dt = cfl / s, with the rate of greatestImplicitRate, nu the greatest diffusivity. Throws NumericalError where a
+/// density, or p + p_inf, is not positive.
+template <int D>
+void limitImplicitStep(const Patch& patch, const euler::Settings& method, const IceSettings& settings,
+                       const euler::OldState<D>& before, double time, CellView<const double> pressure, Minimum& dt) {
+  const Level& level = patch.level();
+  euler::refuseBroken<D, const double>(patch, method.gas, before, nullptr);
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, method.gas, time);
+  const Box cells = patch.cells().grown(1, D);
+  GasBefore<D> gas(level, method.gas, settings.gravity, rules, cells.size());
+  gas.hold(cells, before);
+  euler::Rows<D> pushing = gas.old();
+  gas.fillWithPressure(pressure, pushing);
+  const double greatest = greatestImplicitRate<D, 1>(patch, gas, pushing, settings.soundSpeedKnob, [&](double density) {
+    return settings.diffusion.acts() ? settings.diffusion.greatest(method.gas, density) : 0.0;
   });
   if (greatest > 0) dt.add(method.cfl / greatest, "CFL");
 }

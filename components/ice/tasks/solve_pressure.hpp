@@ -54,10 +54,9 @@ numerics::CellEquation<D> equationWith(const Index<D>& cell, double weight) {
   return equation;
 }
 
-/// Adds weight (d - d_n) to the left-hand side, where d_n is the change in the cell `next`, which is 0 outside the
-/// grid.
-template <int D>
-void couple(const FaceFlow<D>& flow, const Index<D>& next, double weight, numerics::Balance<D>& left) {
+/// Adds weight (d - d_n) to the left-hand side, where d_n is the change in the cell `next`, which is 0 beyond the grid.
+template <int D, int K>
+void couple(const FaceFlow<D, K>& flow, const Index<D>& next, double weight, numerics::Balance<D>& left) {
   left.weights[0] += weight;
   if (!flow.isOnGrid(next)) return;
   left.cells[left.count] = next;
@@ -65,8 +64,8 @@ void couple(const FaceFlow<D>& flow, const Index<D>& next, double weight, numeri
 }
 
 /// p_n - p [Pa] across a face, before the step.
-template <int D>
-double riseAcross(const FaceFlow<D>& flow, const Index<D>& cell, const CellFace<D>& face) {
+template <int D, int K>
+double riseAcross(const FaceFlow<D, K>& flow, const Index<D>& cell, const CellFace<D>& face) {
   return flow.old().number(face.next, euler::kPressure<D>) - flow.old().number(cell, euler::kPressure<D>);
 }
 
@@ -92,15 +91,24 @@ numerics::CellEquation<D> pressureEquation(const Level& level, const FaceFlow<D>
   return equation;
 }
 
-/// The equation in a gas with its own equation of state, from dp/dt + v . grad p = -rho c² div v, over rho c²:
+/// 1 / (rho c²) of a cell, 1/Pa.
+template <int D, int K>
+double softnessIn(const FaceFlow<D, K>& flow, const Index<D>& cell) {
+  const euler::State<D, K> w = flow.old().state(cell);
+  return 1 / (w[euler::kDensity] *
+              euler::lawIn<D>(flow.gas(), w).soundSpeedSquared(w[euler::kDensity], w[euler::kPressure<D>]));
+}
+
+/// The equation in a gas with its own equation of state, and in several gases, from dp/dt + v . grad p = -rho c² div v,
+/// over rho c²:
 ///
 ///   d / (rho c²) - dt div(loss_f (d_R - d_L)) = -dt div u_f - dt v . grad p / (rho c²),
 ///
 /// also symmetric and positive definite.
-template <int D>
-numerics::CellEquation<D> equationByLaw(const Level& level, const FaceFlow<D>& flow, const Index<D>& cell, double dt) {
-  const double rho = flow.old().number(cell, euler::kDensity);
-  const double softness = 1 / (rho * flow.gas().soundSpeedSquared(rho, flow.old().number(cell, euler::kPressure<D>)));
+template <int D, int K>
+numerics::CellEquation<D> equationByLaw(const Level& level, const FaceFlow<D, K>& flow, const Index<D>& cell,
+                                        double dt) {
+  const double softness = softnessIn(flow, cell);
   numerics::CellEquation<D> equation = equationWith(cell, softness);
   forEachFaceOf<D>(level, cell, dt, [&](const CellFace<D>& face) {
     const double velocity = flow.old().number(cell, euler::kVelocity(face.axis));
@@ -111,15 +119,26 @@ numerics::CellEquation<D> equationByLaw(const Level& level, const FaceFlow<D>& f
   return equation;
 }
 
+/// p + p_inf of a cell, Pa.
+template <int D, int K>
+double stiffPressureIn(const FaceFlow<D, K>& flow, const Index<D>& cell) {
+  const euler::State<D, K> w = flow.old().state(cell);
+  if constexpr (K == 1)
+    return w[euler::kPressure<D>] + flow.gas().pInfinity;
+  else
+    return euler::lawIn<D>(flow.gas(), w).heat(w[euler::kDensity], w[euler::kPressure<D>]);
+}
+
 /// Solves for the change of pressure in the step in all cells [Pa] where isEmpty(p, cell) is false, from the state
 /// that the flow of each patch holds, and computes the pressure at the end. The last step's pressure is the first
-/// guess. The residual is how far the gas would miss that pressure, so the tolerance is relative to the greatest
-/// pressure where that is less than the right-hand side. Throws NumericalError if the solver gives up.
-template <int D, class IsEmpty, class EquationOf>
+/// guess. The residual is how far the gas would miss that pressure, in the unit of the equation, so the tolerance is
+/// relative to the greatest pressure in that unit, `scaleOf(p, cell)`, where that is more than the right-hand side.
+/// Throws NumericalError if the solver gives up.
+template <int D, int K, class IsEmpty, class EquationOf, class ScaleOf>
 void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, const IceSettings& settings,
-                    const std::vector<FaceFlow<D>>& flows, const std::vector<CellView<const double>>& guess,
+                    const std::vector<FaceFlow<D, K>>& flows, const std::vector<CellView<const double>>& guess,
                     const std::vector<PressureViews>& fresh, const SolveTotals& totals, IsEmpty&& isEmpty,
-                    EquationOf&& equationOf) {
+                    EquationOf&& equationOf, ScaleOf&& scaleOf) {
   const auto old = [&](std::size_t p, const Index<D>& cell) {
     return flows[p].old().number(cell, euler::kPressure<D>);
   };
@@ -130,7 +149,7 @@ void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, 
     const CellView<double>& change = changes.emplace_back(fresh[p].change);
     forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
       change[cell] = isEmpty(p, cell) ? 0 : guess[p][cell] - old(p, cell);
-      if (!isEmpty(p, cell)) greatest = std::max(greatest, std::abs(old(p, cell) + flows[p].gas().pInfinity));
+      if (!isEmpty(p, cell)) greatest = std::max(greatest, std::abs(scaleOf(p, cell)));
     });
     first.emplace_back(change.values(), change.stored(), change.box());
   }
@@ -146,6 +165,16 @@ void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, 
                [&](const Index<D>& cell) { fresh[p].atEnd[cell] = old(p, cell) + changes[p][cell]; });
   totals.iterations.add(outcome.krylovIterations);
   solvers::addTimes(outcome, totals.assembly, totals.preconditioner, totals.solution);
+}
+
+/// The same for equations in Pa.
+template <int D, int K, class IsEmpty, class EquationOf>
+void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, const IceSettings& settings,
+                    const std::vector<FaceFlow<D, K>>& flows, const std::vector<CellView<const double>>& guess,
+                    const std::vector<PressureViews>& fresh, const SolveTotals& totals, IsEmpty&& isEmpty,
+                    EquationOf&& equationOf) {
+  solveForChange<D>(patches, ranks, settings, flows, guess, fresh, totals, isEmpty, equationOf,
+                    [&](std::size_t p, const Index<D>& cell) { return stiffPressureIn(flows[p], cell); });
 }
 
 /// Solves for the change of pressure in the step [Pa], from the state before it, and computes the pressure at the end.
@@ -165,6 +194,9 @@ void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, c
       [&](std::size_t p, const Index<D>& cell) {
         return method.gas.law ? equationByLaw<D>(level, flows[p], cell, dt)
                               : pressureEquation<D>(level, flows[p], cell, dt);
+      },
+      [&](std::size_t p, const Index<D>& cell) {
+        return stiffPressureIn(flows[p], cell) * (method.gas.law ? softnessIn(flows[p], cell) : 1.0);
       });
 }
 

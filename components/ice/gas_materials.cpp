@@ -1,0 +1,187 @@
+#include "components/ice/gas_materials.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "components/euler/labels.hpp"
+#include "components/ice/mixture/input.hpp"
+
+namespace tushar::ice {
+
+using input::Diagnostics;
+using input::Element;
+
+namespace {
+
+/// Notes a given pressure that differs from the one that follows; as in Uintah, it is ignored.
+void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
+  if (!body.pressure) return;
+  if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;
+  const double given = (*body.pressure)(Vec3::Zero());
+  const double density = body.density(Vec3::Zero());
+  const double pressure = gas.pressureOf(density, gas.lastAt(density, body.temperature(Vec3::Zero())));
+  if (std::abs(given - pressure) > 1e-3 * pressure)
+    diagnostics.note(*element.child("pressure"),
+                     fmt::format("does nothing: density and temperature give {:g} Pa", pressure));
+}
+
+/// The Dirichlet condition of a face for the gas, if it has one; the pressure is shared with material 0.
+std::optional<Element> dirichletOf(const Element& face, const grid::BoundaryVariable& label, int gas) {
+  const bool isShared = label.name == euler::boundary::pressure.name;
+  for (const Element& condition : face.children("BCType")) {
+    const int material = materialOf(condition);
+    if (condition.attribute("label") == label.name && condition.attribute("var") == nameOf(BoundaryKind::dirichlet) &&
+        (material < 0 || material == gas || (isShared && material == 0)))
+      return condition;
+  }
+  return {};
+}
+
+/// Checks that density, pressure and temperature agree at faces with all three, as two determine the third.
+void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagnostics) {
+  const auto sides = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
+  if (!sides) return;
+  const auto valueOf = [](const Element& condition) -> std::optional<double> {
+    const auto text = condition.child("value");
+    return text ? input::parse<double>(text->text()).value : std::nullopt;
+  };
+  for (const Element& face : sides->children("Face")) {
+    const auto density = dirichletOf(face, euler::boundary::density, gas.material),
+               pressure = dirichletOf(face, euler::boundary::pressure, gas.material),
+               temperature = dirichletOf(face, euler::boundary::temperature, gas.material);
+    if (!density || !pressure || !temperature) continue;
+    const auto rho = valueOf(*density), p = valueOf(*pressure), t = valueOf(*temperature);
+    if (!rho || !p || !t) {
+      diagnostics.error(*temperature, "Density and Pressure already give a temperature; keep two of the three");
+      continue;
+    }
+    const double fitting = *p / (gas.gasConstant() * *rho);
+    if (std::abs(*t - fitting) <= 1e-3 * fitting) continue;
+    if (std::abs(*t - fitting) <= 1e-2 * fitting)  // rounded, or changed a little in one of them
+      diagnostics.note(*temperature, fmt::format("does nothing: Density and Pressure give {:g} K", fitting));
+    else
+      diagnostics.error(*temperature,
+                        fmt::format("found {:g} K, but the Density, at {}, and the Pressure, at {}, give {:g} K; keep "
+                                    "two of the three",
+                                    *t, density->where().text(), pressure->where().text(), fitting));
+  }
+}
+
+/// Reads a gas and its state at the start into the settings that it shares with others.
+void readMaterial(const GasMaterial& material, const Element& element, euler::Settings& settings,
+                  Diagnostics& diagnostics) {
+  settings.name = material.name;
+  if (material.state.hasGamma() && !(material.gamma > 1))
+    diagnostics.error(*element.child("gamma"),
+                      input::violation(element.child("gamma")->text(), input::greaterThan(1), "1"));
+  euler::Gas& gas = settings.gas;
+  gas.gamma = material.gamma;
+  gas.specificHeat = material.specificHeat;
+  gas.pInfinity = material.state.pInfinity;
+  gas.law = material.state.law(material.specificHeat);
+  const auto tags = element.children("geom_object");
+  for (std::size_t k = 0; k < material.bodies.size(); ++k) {
+    const GasBody& body = material.bodies[k];
+    settings.objects.push_back({.where = body.where,
+                                .shape = body.shape,
+                                .density = body.density,
+                                .pressure = {},
+                                .velocity = body.velocity,
+                                .temperature = body.temperature,
+                                .share = body.share});
+    if (k < tags.size()) noteOtherPressure(body, gas, tags[k], diagnostics);
+  }
+}
+
+/// Checks that a single gas fills its regions.
+void checkShares(const GasMaterial& material, Diagnostics& diagnostics) {
+  for (const GasBody& body : material.bodies)
+    if (body.share && !(body.share->isConstant() && (*body.share)(Vec3::Zero()) == 1))
+      diagnostics.error(body.share->where(), "MaterialProperties/ICE/material/geom_object/volumeFraction",
+                        fmt::format("found '{}', expected 1: the gas fills the region", body.share->text()));
+}
+
+/// The diffusion of a gas, with the eddies of the scene.
+euler::VaryingDiffusion varyingOf(const GasMaterial& material, const GasScene& scene) {
+  euler::VaryingDiffusion varying = material.varying;
+  varying.uniform = {material.viscosity, material.conductivity};
+  varying.smagorinsky = scene.varying.smagorinsky;
+  return varying;
+}
+
+void readOneGas(const GasMaterial& material, const Element& element, GasScene& scene, Diagnostics& diagnostics) {
+  scene.specificHeat = material.specificHeat;
+  scene.viscosity = material.viscosity;
+  scene.conductivity = material.conductivity;
+  scene.varying = varyingOf(material, scene);
+  readMaterial(material, element, scene.gas, diagnostics);
+  checkShares(material, diagnostics);
+  if (scene.implicit && scene.gas.gas.isBarotropic())
+    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
+                      "is not available with JWLC or Murnaghan, whose pressure does not depend on the energy: remove "
+                      "it, or run with --set CFD/ICE/explicit=true");
+}
+
+void readGases(const std::vector<GasMaterial>& materials, const Element& root, GasScene& scene,
+               Diagnostics& diagnostics) {
+  const auto elements = root.child("MaterialProperties")->child("ICE")->children("material");
+  for (std::size_t k = 0; k < materials.size(); ++k) {
+    euler::Settings settings = scene.gas;
+    settings.where = elements[k].where();
+    settings.gas.material += static_cast<int>(k);
+    readMaterial(materials[k], elements[k], settings, diagnostics);
+    if (settings.name.empty()) settings.name = fmt::format("gas{}", k);
+    scene.mixture.push_back(settings);
+    scene.diffusions.push_back({materials[k].viscosity, materials[k].conductivity});
+  }
+  checkMixture(materials, root, scene, scene.gas.gas.material, diagnostics);
+}
+
+/// Reads one gas of the scene that is a mixture of two.
+void readBinary(const GasMaterial& material, const Element& root, GasScene& scene, Diagnostics& diagnostics) {
+  const Element element = *root.child("MaterialProperties")->child("ICE")->child("material");
+  const BinaryProperties& binary = *scene.binary;
+  if (!binary.material.empty() && binary.material != material.name)
+    diagnostics.error(
+        binary.where, "Models/Model",
+        fmt::format("material: found '{}', expected '{}', the name of the gas", binary.material, material.name));
+  if (material.state.kind != EquationOfState::Kind::ideal)
+    diagnostics.error(*element.child("EOS"), "with BinaryProperties the gas is of type ideal_gas");
+  euler::Settings common = scene.gas;
+  common.where = element.where();
+  readMaterial(material, element, common, diagnostics);
+  checkShares(material, diagnostics);
+  scene.gas.name = material.name;
+  scene.mixture = binary.gases(common);
+  scene.diffusions = binary.diffusions();
+  constexpr double atOnce = 1e30;  // W/(m³ K)
+  scene.exchange = Exchange{.where = binary.where, .momentum = {}, .heat = {atOnce}};
+  checkMixture({material}, root, scene, scene.gas.gas.material, diagnostics);
+}
+
+}  // namespace
+
+int materialOf(const Element& condition) {
+  return input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
+}
+
+void readMaterials(const std::vector<GasMaterial>& materials, const Element& root, int solids, GasScene& scene,
+                   Diagnostics& diagnostics) {
+  if (solids > 0 && !scene.programs.empty())
+    diagnostics.error(scene.programs.front().where, "Models/Model",
+                      "LightTime is not available beside bodies; remove it");
+  if (scene.binary && (materials.size() > 1 || solids > 0))
+    return diagnostics.error(scene.binary->where, "Models/Model",
+                             "BinaryProperties is not available beside bodies or a second gas: give each gas a "
+                             "<material>");
+  if (scene.binary) return readBinary(materials.front(), root, scene, diagnostics);
+  if (materials.size() > 1) return readGases(materials, root, scene, diagnostics);
+  if (!scene.massExchanges.empty() || !scene.programs.empty())
+    diagnostics.error(scene.programs.empty() ? scene.massExchanges.front().where : scene.programs.front().where,
+                      "Models/Model", "there is one gas, which cannot become another");
+  readOneGas(materials.front(), *root.child("MaterialProperties")->child("ICE")->child("material"), scene, diagnostics);
+  checkInflows(root, scene.gas.gas, diagnostics);
+}
+
+}  // namespace tushar::ice

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "components/euler/diffusion.hpp"
+#include "components/euler/settings.hpp"
+#include "core/input/schema.hpp"
+
+// Uintah's BinaryProperties: one gas whose properties are those of a mixture of two.
+
+namespace tushar::ice {
+
+/// A region with a mass fraction of the second gas at the start.
+struct FractionRegion {
+  Location where;  ///< in the scene
+  std::shared_ptr<const input::GeometryPiece> shape;
+  double fraction = 0;
+};
+
+/// One of the two gases.
+struct BinaryGas {
+  double density = 0;       ///< at the start, kg/m³
+  double specificHeat = 0;  ///< c_v, J/(kg K)
+  double gasConstant = 0;   ///< R, J/(kg K)
+  double viscosity = 0;     ///< Pa s
+  double conductivity = 0;  ///< W/(m K)
+};
+
+/// `<Model type="BinaryProperties">`: two ideal gases A and B at one temperature. With the mass fraction f of B, c_v
+/// and R are 1 - f times those of A plus f times those of B, and the density at the start is 1 / ((1 - f) / rho_A + f /
+/// rho_B).
+struct BinaryProperties {
+  Location where;        ///< in the scene
+  std::string material;  ///< the gas that has these properties
+  BinaryGas a, b;
+  std::vector<FractionRegion> regions;  ///< where they overlap, the last one counts; elsewhere is A alone
+
+  /// The two as gases of a mixture: where `common`, the gas of the scene, has velocity and temperature at the start.
+  std::vector<euler::Settings> gases(const euler::Settings& common) const;
+  std::vector<euler::Diffusion> diffusions() const {
+    return {{a.viscosity, a.conductivity}, {b.viscosity, b.conductivity}};
+  }
+};
+
+/// Reads the tag with the name of the model.
+BinaryProperties readBinaryProperties(const input::Element& tag, input::Diagnostics& diagnostics);
+/// Its manual.
+void describeBinaryProperties(std::ostream& out, int indent);
+
+}  // namespace tushar::ice

@@ -1,0 +1,135 @@
+#pragma once
+
+#include "components/ice/mixture/tasks.hpp"
+#include "components/ice/tasks/advance_implicitly.hpp"
+#include "components/ice/tasks/limit_implicit_step.hpp"
+#include "components/ice/tasks/solve_pressure.hpp"
+
+// Implicit steps of several gases: those of one, with the law of each cell.
+
+namespace tushar::ice {
+
+namespace c {
+
+/// The law of the gases of a cell before a step, for the solve.
+inline constexpr CellLabel<double> softness{"c.softness", "1", "sum of z / (gamma - 1) of several gases"};
+inline constexpr CellLabel<double> stiffness{"c.stiffness", "J/m^3",
+                                             "sum of z gamma p_inf / (gamma - 1) of several gases"};
+
+}  // namespace c
+
+/// The share of a gas.
+struct NewShare {
+  CellView<const double> share;
+
+  static NewShare from(auto& take) { return {.share = take(requiresNew(euler::c::gasShare))}; }
+};
+
+/// The pressure with which the first step starts [Pa]: that of the gases.
+template <int D>
+void initializeMixedPressure(const Patch& patch, const Gases& gases, CellView<const double> density,
+                             CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
+                             const std::vector<NewShare>& held, CellView<double> pressure) {
+  const euler::StateViews<D, const double> state{density, momentum, totalEnergy};
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    pressure[cell] = euler::mixedAt(gases, held, cell)
+                         .pressure(density[cell], euler::internalEnergyIn<D, const double>(state, cell));
+  });
+}
+
+template <int D>
+void computeLaw(const Patch& patch, const Gases& gases, const std::vector<euler::OldGas>& held,
+                CellView<double> softness, CellView<double> stiffness) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const euler::MixedGas law = euler::mixedAt(gases, held, cell);
+    softness[cell] = law.softness;
+    stiffness[cell] = law.stiffness;
+  });
+}
+
+/// What the solve reads of several gases: their state together, with two ghosts, and their law.
+template <int D>
+struct LawfulState : euler::OldState<D> {
+  CellView<const double> softness, stiffness;
+
+  static LawfulState from(auto& take) {
+    return {{euler::OldState<D>::from(take, 2)}, take(requiresNew(c::softness, 2)), take(requiresNew(c::stiffness, 2))};
+  }
+  /// As two gases whose shares are G and S themselves, by lawsOfShares.
+  euler::MixtureViews<D, const double> views() const {
+    return {*this, {this->density, this->density}, {softness, stiffness}};
+  }
+};
+inline constexpr euler::Mixture<2> lawsOfShares{.softness = {1, 0}, .stiffness = {0, 1}};
+
+/// Like solvePressure, for several gases; `gas` is the first, whose method and conditions at sides hold for all.
+template <int D>
+void solveMixedPressure(const RankPatches& patches, const mpi::Communicator& ranks, const euler::Settings& gas,
+                        const IceSettings& settings, double time, double dt, const std::vector<LawfulState<D>>& before,
+                        const std::vector<CellView<const double>>& guess, const std::vector<PressureViews>& fresh,
+                        const SolveTotals& totals) {
+  const Level& level = patches.front()->level();
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, gas.gas, time);
+  std::vector<FaceFlow<D, 2>> flows;
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const Box cells = patches[p]->cells();
+    flows.emplace_back(level, lawsOfShares, gas.method, settings, rules, cells, dt).hold(cells, before[p].views());
+  }
+  solveForChange<D>(
+      patches, ranks, settings, flows, guess, fresh, totals, [](std::size_t, const Index<D>&) { return false; },
+      [&](std::size_t p, const Index<D>& cell) { return equationByLaw<D>(level, flows[p], cell, dt); },
+      [&](std::size_t p, const Index<D>& cell) {
+        return stiffPressureIn(flows[p], cell) * softnessIn(flows[p], cell);
+      });
+}
+
+/// Calls `use(laws)` with the laws of two or three gases.
+template <class Use>
+void withLaws(const Gases& gases, Use&& use) {
+  if (gases.size() == 2) return use(euler::mixtureOf<2>(gases));
+  use(euler::mixtureOf<3>(gases));
+}
+
+/// Like advanceImplicitly, for several gases: masses flow with u_f, and shares are carried by it.
+template <int D>
+void advanceMixtureImplicitly(const Patch& patch, const Gases& gases, const IceSettings& settings,
+                              const euler::OldState<D>& before, const std::vector<euler::OldGas>& oldGases, double time,
+                              double dt, CellView<const double> change, const euler::NewState<D>& fresh,
+                              const std::vector<euler::NewGas>& newGases) {
+  const Level& level = patch.level();
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, gases.front().gas, time);
+  const auto old = euler::viewsOf<const double, D>(before, oldGases);
+  const auto after = euler::viewsOf<double, D>(fresh, newGases);
+  double most = 0;
+  withLaws(gases, [&]<int K>(const euler::Mixture<K>& laws) {
+    ImplicitStep<D, K> step(level, laws, gases.front().method, settings, rules, euler::largestBlock<D>(patch.cells()),
+                            dt);
+    euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
+      most = std::max(most, advanceBlockImplicitly<D, K>(level, block, old, dt, change, step, after, {}));
+    });
+  });
+  euler::refuseBrokenMixture<D, euler::NewGas, double>(patch, gases, newGases, fresh);
+  refuseCrossing(most, dt);
+}
+
+/// Like limitImplicitStep, for several gases; what diffuses has a limit of its own.
+template <int D>
+void limitImplicitMixture(const Patch& patch, const Gases& gases, double cfl, const IceSettings& settings,
+                          const euler::OldState<D>& before, const std::vector<euler::OldGas>& held, double time,
+                          CellView<const double> pressure, Minimum& dt) {
+  const Level& level = patch.level();
+  euler::refuseBrokenMixture<D, euler::OldGas, const double>(patch, gases, held, before);
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, gases.front().gas, time);
+  const Box cells = patch.cells().grown(1, D);
+  double greatest = 0;
+  withLaws(gases, [&]<int K>(const euler::Mixture<K>& laws) {
+    GasBefore<D, K> gas(level, laws, settings.gravity, rules, cells.size());
+    gas.hold(cells, euler::viewsOf<const double, D>(before, held));
+    euler::Rows<D, K> pushing = gas.old();
+    gas.fillWithPressure(pressure, pushing);
+    greatest = greatestImplicitRate<D, K>(patch, gas, pushing, settings.soundSpeedKnob, [](double) { return 0.0; });
+  });
+  if (greatest > 0) dt.add(cfl / greatest, "CFL");
+}
+
+}  // namespace tushar::ice
