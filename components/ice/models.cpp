@@ -18,8 +18,8 @@ using input::Schema;
 namespace {
 
 /// The attribute `type` of a <Model>.
-const std::vector<std::string> modelTypes{"PassiveScalar", "Test",      "Simple_Burn",
-                                          "Steady_Burn",   "LightTime", "BinaryProperties"};
+const std::vector<std::string> modelTypes{"PassiveScalar", "Test",      "Simple_Burn",     "Steady_Burn",
+                                          "DDT1",          "LightTime", "BinaryProperties"};
 
 const Schema<ScalarRegion>& startSchema() {
   static const Schema<ScalarRegion> schema = [] {
@@ -204,15 +204,16 @@ const Schema<ModelsSection>& modelsSchema() {
                 for (const Element& model : section.children("Model")) readModel(model, models, diagnostics);
               },
               {"Model"},
-              "type=\"PassiveScalar\": a number per mass that the gas carries along; type=\"Test\": one material "
-              "becomes another one; type=\"Simple_Burn\", type=\"Steady_Burn\": a body burns; "
-              "type=\"LightTime\": a gas burns by a program; type=\"BinaryProperties\": the gas is two gases at one "
-              "temperature",
+              "type=\"PassiveScalar\": a quantity per mass that is transported with the gas; type=\"Test\": one "
+              "material is converted into another one; type=\"Simple_Burn\", type=\"Steady_Burn\", type=\"DDT1\": a "
+              "body burns; type=\"LightTime\": a gas detonates at given times; type=\"BinaryProperties\": the gas "
+              "consists of two gases at one temperature",
               [](std::ostream& out, int indent) {
                 passiveScalarSchema().describe(out, indent);
                 massExchangeSchema().describe(out, indent);
                 simpleBurnSchema().describe(out, indent);
                 steadyBurnSchema().describe(out, indent);
+                ddtSchema().describe(out, indent);
                 programmedBurnSchema().describe(out, indent);
                 describeBinaryProperties(out, indent);
               })
