@@ -261,10 +261,8 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
 std::string whyExplicit(const std::vector<GasMaterial>& materials, const GasScene& scene) {
   if (!scene.burns.empty()) return "with a body that burns";
   if (materials.size() > 1) return "with several gases beside bodies";
-  const auto kind = materials.front().state.kind;
-  if (kind != EquationOfState::Kind::ideal && kind != EquationOfState::Kind::stiffened)
-    return "beside bodies in a gas that is neither ideal nor stiffened";
-  return "";
+  const GasMaterial& gas = materials.front();
+  return gas.state.law(gas.specificHeat) ? "beside bodies in a gas that is neither ideal nor stiffened" : "";
 }
 
 /// Takes the settings of implicit steps, or notes why steps are explicit.
@@ -277,13 +275,6 @@ void takeImplicitSteps(const IceSection& ice, const std::vector<GasMaterial>& ma
   else
     diagnostics.note(*root.child("CFD")->child("ICE")->child("ImplicitSolver"),
                      fmt::format("does nothing: {} steps are explicit, so that sound limits them", why));
-}
-
-/// Refuses what a gas can have only without bodies.
-void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
-  const Element tag = *root.child("CFD")->child("ICE");
-  const char* sentence = "is not available beside bodies: remove it, or keep only the gas";
-  if (ice.push) diagnostics.error(*tag.child("fixedPressureGradient"), sentence);
 }
 
 /// Sorts the models of a scene. Exchanges of mass from a body to a gas are a way to burn.
@@ -362,7 +353,9 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
     scene.exchange = properties.exchange->coefficients;
     scene.exchange->heatByMasses = properties.exchange->model.value_or(CoefficientSection()).heat != "constant";
   }
-  if (solids > 0) refuseBesideBodies(root, cfd.ice, diagnostics);
+  if (solids > 0 && cfd.ice.push)
+    diagnostics.error(*root.child("CFD")->child("ICE")->child("fixedPressureGradient"),
+                      "is not available beside bodies: remove it, or keep only the gas");
   if (materials.size() > 1) {
     readGases(materials, root, scene, diagnostics);
     return scene;
