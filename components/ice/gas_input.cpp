@@ -127,10 +127,8 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
 std::string whyExplicit(const std::vector<GasMaterial>& materials, const GasScene& scene) {
   if (!scene.burns.empty()) return "with a body that burns";
   if (materials.size() > 1) return "with several gases beside bodies";
-  const auto kind = materials.front().state.kind;
-  if (kind != EquationOfState::Kind::ideal && kind != EquationOfState::Kind::stiffened)
-    return "beside bodies in a gas that is neither ideal nor stiffened";
-  return "";
+  const GasMaterial& gas = materials.front();
+  return gas.state.law(gas.specificHeat) ? "beside bodies in a gas that is neither ideal nor stiffened" : "";
 }
 
 /// Takes the settings of implicit steps, or notes why steps are explicit.
