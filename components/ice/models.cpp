@@ -186,8 +186,9 @@ const Schema<ModelsSection>& modelsSchema() {
                 for (const Element& model : section.children("Model")) readModel(model, models, diagnostics);
               },
               {"Model"},
-              "type=\"PassiveScalar\": a number per mass that the gas carries along; type=\"Test\": one material "
-              "becomes another one; type=\"Simple_Burn\", type=\"Steady_Burn\", type=\"DDT1\": a body burns",
+              "type=\"PassiveScalar\": a quantity per mass that is transported with the gas; type=\"Test\": one "
+              "material is converted into another one; type=\"Simple_Burn\", type=\"Steady_Burn\", type=\"DDT1\": a "
+              "body burns",
               [](std::ostream& out, int indent) {
                 passiveScalarSchema().describe(out, indent);
                 massExchangeSchema().describe(out, indent);
