@@ -121,7 +121,7 @@ struct Ddt {
   static constexpr double surfaceOfCracks = 500;
 };
 
-/// A body that turns into a gas.
+/// A body that is converted into a gas.
 struct BurnModel {
   Location where;                  ///< in the scene
   std::string from, to;            ///< the materials
@@ -132,7 +132,7 @@ struct BurnModel {
 
   /// Deflagration in cracks, too; null for other models.
   const Ddt* ddt() const { return std::get_if<Ddt>(&law); }
-  /// Whether surfaces burn, rather than the whole.
+  /// Whether surfaces burn, rather than the whole body.
   bool burnsAtSurface() const { return !std::holds_alternative<Decay>(law); }
   /// Rate of a burning surface, kg/(m² s).
   double rate(const AtSurface& at) const {

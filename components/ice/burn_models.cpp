@@ -30,18 +30,19 @@ void addSteadyBurn(Schema<Section>& tags, const char* pressure) {
                 input::positive())
       .required("CondPhaseHeat", of(&SteadyBurn::solidHeat), "J/kg", "heat of the reaction in the solid",
                 input::nonNegative())
-      .required("GasPhaseHeat", of(&SteadyBurn::gasHeat), "J/kg", "heat of that in the gas", input::nonNegative())
+      .required("GasPhaseHeat", of(&SteadyBurn::gasHeat), "J/kg", "heat of the reaction in the gas",
+                input::nonNegative())
       .required("HeatConductGasPh", of(&SteadyBurn::gasConductivity), "W/(m K)", "thermal conductivity of the gas",
                 input::positive())
-      .required("HeatConductCondPh", of(&SteadyBurn::solidConductivity), "W/(m K)", "that of the solid",
+      .required("HeatConductCondPh", of(&SteadyBurn::solidConductivity), "W/(m K)", "thermal conductivity of the solid",
                 input::positive())
       .required("SpecificHeatBoth", of(&SteadyBurn::specificHeat), "J/(kg K)", "of solid and gas, for the rate",
                 input::positive())
       .required("MoleWeightGasPh", of(&SteadyBurn::molarMass), "kg/mol", "molar mass of the gas", input::positive())
-      .required(pressure, &Section::thresholdPressure, "Pa", "a surface burns where the gas has more pressure",
-                input::nonNegative())
-      .required("IgnitionTemp", &Section::ignitionTemperature, "K", "and where something beside it is hotter",
-                input::nonNegative())
+      .required(pressure, &Section::thresholdPressure, "Pa",
+                "a surface burns where the pressure of the gas is higher than this", input::nonNegative())
+      .required("IgnitionTemp", &Section::ignitionTemperature, "K",
+                "and where the gas or a body at it is hotter than this", input::nonNegative())
       .ignored("BoundaryParticles", "surfaces are where the gas has walls");
 }
 

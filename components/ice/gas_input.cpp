@@ -143,7 +143,7 @@ void takeImplicitSteps(const IceSection& ice, const std::vector<GasMaterial>& ma
                      fmt::format("does nothing: {} steps are explicit, so that sound limits them", why));
 }
 
-/// Refuses what a gas can have only without bodies.
+/// Refuses features of a gas that are not available with bodies.
 void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   const Element tag = *root.child("CFD")->child("ICE");
   const char* sentence = "is not available with bodies: remove it, or keep only the gas";

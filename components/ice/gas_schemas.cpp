@@ -272,7 +272,8 @@ const Schema<ExchangeSection>& exchangeSchema() {
     input::refuseSwitch(tags, "do_convective_heat_transfer", "walls are adiabatic");
     for (const char* tag : {"convective_fluid", "convective_solid"})
       tags.ignored(tag, "belongs to do_convective_heat_transfer");
-    tags.section("CoefficientModel", &ExchangeSection::model, coefficientModelSchema(), "what coefficients depend on");
+    tags.section("CoefficientModel", &ExchangeSection::model, coefficientModelSchema(),
+                 "what the coefficients depend on");
     tags.section("Model", &ExchangeSection::exchangeModel, exchangeModelSchema(), "how materials exchange momentum");
     return tags;
   }();

@@ -110,7 +110,7 @@ void checkBurning(const ice::GasScene& scene, const Element& root, Diagnostics& 
                       "only one body of a scene can burn; remove the other burn models");
   const Element gas = *root.child("CFD")->child("ICE");
   if (scene.thinWalls.value_or(false))
-    diagnostics.error(*gas.child("thin_walls"), "is not available with a body that burns: remove it");
+    diagnostics.error(*gas.child("thin_walls"), "is not available with a burning body: remove it");
 }
 
 /// The index of a material among those of its kind; reports a name that is not among them.
@@ -139,7 +139,7 @@ void checkCracks(const Element& body, bool areRigid, const ice::BurnModel& model
                       "is not available with rmpmice, whose bodies have no stress; use mpmice");
 }
 
-/// The body that burns, if one does.
+/// The burning body, if there is one.
 std::optional<Burning> burningOf(const ice::GasScene& scene, bool areRigid, const Element& root,
                                  Diagnostics& diagnostics) {
   if (scene.burns.empty()) return {};
@@ -159,7 +159,8 @@ std::optional<Burning> burningOf(const ice::GasScene& scene, bool areRigid, cons
   burning.body = placeOf(model.from, bodies, gases, "body", "gas", refuse("fromMaterial"));
   burning.gas = placeOf(model.to, gases, bodies, "gas", "body", refuse("toMaterial"));
   if (burning.body < materials.size() && !materials[burning.body].child("specific_heat"))
-    diagnostics.error(materials[burning.body], "missing tag <specific_heat>: it burns, and gives its heat to the gas");
+    diagnostics.error(materials[burning.body],
+                      "missing tag <specific_heat>: the body burns, and its heat is added to the gas");
   if (burning.body < materials.size() && model.ddt())
     checkCracks(materials[burning.body], areRigid, model, diagnostics);
   return burning;
@@ -215,7 +216,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
                       "is not available with bodies; remove it, or keep only the gas");
   if (!scene.massExchanges.empty())
     diagnostics.error(scene.massExchanges.front().where, "Models/Model",
-                      "is not available beside bodies; take it out, or keep only the gas");
+                      "is not available with bodies; remove it, or keep only the gas");
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};

@@ -108,7 +108,7 @@ template <int D>
 inline constexpr CellLabel<Vec<D>> recoil{"c.recoil", "Pa",
                                           "of new gas on walls at the lower faces; negative where the gas is above"};
 inline constexpr CellLabel<double> burnRateWithin{
-    "c.burnRateWithin", "kg/(m^3 s)", "mass that burns in a cell with a rest of a body, over the cell's volume"};
+    "c.burnRateWithin", "kg/(m^3 s)", "mass that burns in a cell with a remnant of a body, per cell volume"};
 /// Of one with cracks.
 inline constexpr CellLabel<double> bodyPressure{"c.bodyPressure", "Pa", "mean pressure of the body that burns"};
 inline constexpr CellLabel<double> crackRadius{"c.crackRadius", "m", "radius of its widest cracks"};
@@ -117,7 +117,7 @@ inline constexpr CellLabel<double> burnMode{"c.burnMode", "1",
 inline constexpr CellLabel<double> burnPressure{"c.burnPressure", "Pa", "pressure at which it burns"};
 inline constexpr CellLabel<double> waited{"c.waited", "s", "time since a flame is beside the cell"};
 inline constexpr CellLabel<double> inductionTime{"c.inductionTime", "s", "time after which the cell burns"};
-inline constexpr CellLabel<double> burntShare{"c.burntShare", "1", "share of c.reactantMass that burns in the step"};
+inline constexpr CellLabel<double> burntShare{"c.burntShare", "1", "fraction of c.reactantMass that burns in the step"};
 inline constexpr CellLabel<double> burntSinceStart{"c.burntSinceStart", "kg/m^3", "mass that burned in the cell"};
 inline constexpr CellLabel<double> gasDensity{"c.gasDensity", "kg/m^3",
                                               "mass per volume of the gas; 0 where there is none"};

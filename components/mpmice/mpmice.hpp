@@ -46,7 +46,7 @@ class GasAround : public mpm::solid::Surroundings {
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
   bool burns() const { return settings_.burning.has_value(); }
   bool hasCracks() const { return burns() && settings_.burning->model.ddt(); }
-  /// Whether what burns has strain energy, which the gas gets.
+  /// Whether the burning body has strain energy, which is added to the gas.
   bool keepsStrain(const Materials& materials) const;
   void scheduleBurning(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const;
   void scheduleBoxes(TaskList& tasks, const Materials& materials) const;

@@ -209,8 +209,8 @@ void acceptUintahsTags(Schema<Material>& tags) {
     tags.ignored(tag, "it has an effect only in <damage_model type=\"johnson_cook\">, as in Uintah");
   for (const char* tag : {"ThresholdTemp", "ThresholdPressure", "Enthalpy", "BurnCoeff", "refPressure"})
     noteTag(tags, tag, "a <Model> in <Models> says how the material burns, as in Uintah");
-  requireSwitch(tags, "is_active", "every material exists from the start");
-  refuseSwitch(tags, "activation_time", "every material exists from the start");
+  requireSwitch(tags, "is_active", "all materials exist from the start");
+  refuseSwitch(tags, "activation_time", "all materials exist from the start");
 }
 
 const Schema<Material>& materialSchema() {

@@ -80,7 +80,7 @@ struct KnownModes {
   }
 };
 
-/// What burns at the lower faces of cells.
+/// The mass that burns at the lower faces of cells.
 template <int D>
 struct NewBurning {
   CellView<Vec<D>> rate, blowing, recoil;

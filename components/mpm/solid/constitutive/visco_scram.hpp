@@ -231,7 +231,7 @@ struct ViscoScram {
     refuseSwitch(tags, "randomize_parameters", "all particles have the given moduli");
     for (const char* tag : {"useMurnahanEOS", "useMurnaghanEOS", "useBirchMurnaghanEOS", "useJWLEOS", "useJWLCEOS",
                             "gamma", "P0", "bulkPrime", "A", "B", "C", "R1", "R2", "om", "Cv", "rho0"})
-      tags.ignored(tag, "only Uintah's coupled fluid reads it");
+      tags.ignored(tag, "only the fluid coupling of Uintah uses it");
     return tags;
   }
   static void addElements(input::Schema<ViscoScram>& tags) {

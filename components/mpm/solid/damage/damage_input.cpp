@@ -36,7 +36,7 @@ const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
         .required("D3", &Self::d3, "1", "factor of the triaxiality")
         .required("D4", &Self::d4, "1", "factor of the logarithm of the rate")
         .required("D5", &Self::d5, "1", "factor of the temperature")
-        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller damage counts as 0",
+        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller values of damage are treated as 0",
                input::nonNegative())
         .ignored("D0", "Uintah does not read it either")
         .ignored("Dc", "Uintah does not read it either");
