@@ -51,7 +51,7 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   return names;
 }
 
-/// The words in the order for CLI11, the last first; the word after --petsc is left unchanged.
+/// The words in the order for CLI11, the last first; the word after --petsc is not changed.
 std::vector<std::string> backwards(const std::vector<std::string>& given) {
   std::vector<std::string> words;
   for (const std::string& word : given)
@@ -84,12 +84,12 @@ void declareWorkers(CLI::App& app, Arguments& arguments) {
          "number of threads; by default one per available core, fewer for a small grid")
       ->check(CLI::Range(1, 1024));
   app.add_option("--writers", arguments.run.writers,
-                 "number of ranks that write outputs and checkpoints; by default one on each node. It does not affect "
-                 "the files")
+                 "number of ranks that write outputs and checkpoints; by default one on each node. The files do not "
+                 "depend on it")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--behind", arguments.run.behind,
-                 "MB of an output that a writer may keep in memory while the run continues; by default the size of a "
-                 "rank's part, at least 16. 0: the run waits until the output is written")
+                 "largest part of an output, in MB, that a writer may keep in memory while the run continues; by "
+                 "default the average part of a rank, at least 16. 0: the run waits until the output is written")
       ->check(CLI::Range(0, 1'000'000));
 }
 
@@ -122,12 +122,12 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->allow_extra_args(false);
   app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
   app.add_option("--petsc", arguments.petsc,
-                 "options for PETSc, in one word: --petsc \"-ksp_monitor -ksp_type gmres\"");
+                 "options for PETSc, as one quoted argument: --petsc \"-ksp_monitor -ksp_type gmres\"");
   app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
   app.add_flag("--check,--validate", arguments.check,
-               "check the scene and compute its initial state; run and write nothing");
+               "check the scene and compute its initial state, without running or writing anything");
   app.add_option("--dry-run", arguments.dryRun,
-                 "compile the tasks of one of this many ranks, and print their cost; run nothing")
+                 "compile the tasks of one rank out of N and print their cost, without running anything")
       ->check(CLI::Range(1, 10'000'000));
   app.add_flag("--schedule", arguments.schedule,
                "print the tasks in order, what they read and write, and which are left out");
@@ -137,7 +137,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--schema", arguments.schema, "print a schema of all scenes for editors: rng (RELAX NG) or xsd")
       ->check(CLI::IsMember({"rng", "xsd"}));
   app.add_option("--completion", arguments.completion,
-                 "print a script by which a shell completes the words after sus: source <(sus --completion bash)")
+                 "print a script that lets a shell complete the arguments of sus: source <(sus --completion bash)")
       ->check(CLI::IsMember({"bash"}));
   app.add_option("--paths", arguments.paths, "print the paths of a scene that --set may change")->group("");
   app.add_flag("-V,--version", arguments.version, "version, commit, compiler and libraries");
@@ -150,7 +150,7 @@ std::string sentenceOf(const CLI::App* app, const CLI::Error& error) {
   return withNumber(text.substr(0, line)) + (line == std::string::npos ? "" : text.substr(line));
 }
 
-/// `--check --json SCENE`: the word after --json is the scene where there is no other.
+/// `--check --json SCENE`: the word after --json is the scene if there is no other.
 void settleJson(const CLI::App& app, Arguments& arguments) {
   arguments.asksForJson = app.count("--json") > 0;
   if (arguments.check && arguments.scene.empty()) std::swap(arguments.scene, arguments.run.jsonPath);

@@ -16,7 +16,7 @@ struct Arguments {
   std::string scene, describe, graph, petsc, trace, schema, completion, paths;
   std::vector<std::string> overrides,
       words;                             ///< values of --set; all words of the command line, with the program's name
-  std::vector<std::string> modules;      ///< files of the user's own
+  std::vector<std::string> modules;      ///< files of the user
   std::vector<std::string> optionNames;  ///< all that are shown, with two dashes
   bool check = false, list = false, restart = false, schedule = false, version = false;
   bool asksForJson = false;                  ///< --json was given; its file may be missing
@@ -30,7 +30,7 @@ struct Arguments {
   bool isQuestion() const {
     return version || list || !(describe.empty() && schema.empty() && completion.empty() && paths.empty());
   }
-  /// Whether the problems of a scene that is only checked are printed as JSON, and nothing else.
+  /// Whether the only output is the problems of a checked scene, as JSON.
   bool showsJson() const { return check && asksForJson && (run.jsonPath.empty() || run.jsonPath == "-"); }
 };
 

@@ -5,8 +5,8 @@
 
 namespace tushar {
 
-/// A script for bash that completes the words after sus: options, scenes, folders of runs, the `manuals` of --describe
-/// and, after --set, the paths of the scene on the command line.
+/// A script with which bash completes the arguments of sus: options, scenes, folders of runs, the `manuals` for
+/// --describe and, after --set, the paths of tags in the scene.
 std::string bashCompletion(const std::vector<std::string>& options, const std::vector<std::string>& manuals);
 
 }  // namespace tushar

@@ -61,15 +61,15 @@ ExitCode describe(const std::string& name, const simulation::Catalogue& known) {
 void printSchema(const std::string& language, const simulation::Catalogue& known) {
   const input::TagForm scene = scene::sceneForm(known);
   const std::string comment = fmt::format(
-      " Scenes of sus {}; made by: sus --schema {}. It does not describe: limits of values, how tags depend on each "
-      "other,\n     what labels and materials there are. sus --check SCENE checks all of that.",
+      " Scenes of sus {}; made by: sus --schema {}. It does not describe the limits of values, how tags depend on each "
+      "other,\n     or which labels and materials exist. sus --check SCENE checks all of that.",
       TUSHAR_VERSION, language);
   if (language == "rng") return input::writeRelaxNg(std::cout, scene, comment + " ");
-  input::writeXmlSchema(
-      std::cout, scene,
-      comment +
-          "\n     Nor can XSD 1.0 describe: which tags must be given, and how often, as they come in any order;\n     "
-          "and what depends on a type, a name, or the component: a tag may hold what any of them may. ");
+  input::writeXmlSchema(std::cout, scene,
+                        comment +
+                            "\n     XSD 1.0 cannot describe either which tags are required, and how often, since they "
+                            "may have any order,\n     or what depends on a type, a name, or the component: a tag may "
+                            "contain whatever any of them allows. ");
 }
 
 /// A scene, or the folder of a run.

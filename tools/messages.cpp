@@ -43,7 +43,7 @@ std::vector<Family> readFamilies(std::string_view toml) {
   return families;
 }
 
-/// How many letters of the words occur in a message, in their order; 0 where they do not.
+/// Number of letters of the words that occur in a message in this order; 0 if they do not.
 std::size_t lettersIn(const std::string& message, std::string_view words) {
   std::size_t letters = 0, at = 0;
   while (true) {

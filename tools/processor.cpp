@@ -8,8 +8,8 @@
 
 #define TUSHAR_ANY_PROCESSOR [[gnu::target("arch=x86-64")]]
 #define TUSHAR_TEXT(words) #words
-/// `name`, if the compiler used these instructions, for which it then defines the macro as 1, and the processor lacks
-/// them; otherwise what follows.
+/// `name` if the compiler used these instructions (it then defines the macro as 1) and the processor lacks them;
+/// otherwise the value that follows.
 #define TUSHAR_IF_MISSING(macro, name) TUSHAR_TEXT(macro)[0] == '1' && !__builtin_cpu_supports(name) ? name:
 
 namespace {
@@ -51,8 +51,8 @@ TUSHAR_ANY_PROCESSOR void checkProcessor() {
   if (missing == nullptr) return;
   say("sus: this processor lacks instructions (");
   say(missing);
-  say(") for which sus was compiled; build it on this machine, or with -DTUSHAR_NATIVE=OFF -DTUSHAR_PROCESSOR=x86-64 "
-      "for any [T709]\n");
+  say(") for which sus was compiled; build it on this machine, or for any machine with -DTUSHAR_NATIVE=OFF "
+      "-DTUSHAR_PROCESSOR=x86-64 [T709]\n");
   _exit(1);
 }
 

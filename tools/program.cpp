@@ -31,7 +31,7 @@ namespace tushar {
 
 namespace {
 
-/// The start time of the process: the current time, less the processor time used.
+/// The start time of the process: the current time minus the processor time used.
 std::chrono::steady_clock::time_point processStart() {
   const double used = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   return std::chrono::steady_clock::now() -
@@ -52,7 +52,7 @@ void checkWritable(const std::string& path) {
 
 void warn(const std::string& sentence) { fmt::print(stderr, "sus: {}\n", withNumber(sentence)); }
 
-/// Finds the checkpoint from which to continue; the first rank reports damaged ones found on the way.
+/// Finds the checkpoint from which to continue; the first rank reports damaged ones that it finds.
 simulation::Restart findRestart(const Arguments& arguments, const mpi::Communicator& ranks) {
   const simulation::Restart restart = scene::findRestart(arguments.scene, arguments.checkpoint, ranks);
   if (!ranks.isFirst() || restart.notes.empty()) return restart;
@@ -174,7 +174,7 @@ ExitCode refuse(const std::string& sentence) {
   return ExitCode::badCommandLine;
 }
 
-/// `session` is opened where a scene is run.
+/// `session` is opened if a scene is run.
 ExitCode dispatch(const Arguments& arguments, const OpenCatalogue& open,
                   std::chrono::steady_clock::time_point startedAt, std::optional<mpi::Session>& session) {
   if ((arguments.isQuestion() || arguments.scene.empty()) && launchedRank() > 0)
@@ -209,7 +209,7 @@ struct Failure {
   std::vector<InputProblem> problems;  ///< of the scene
 };
 
-/// The first of them, and how many more there are: a generated scene may have the same mistake in thousands of
+/// The first problems, and the number of further ones: a generated scene may have the same mistake in thousands of
 /// materials.
 std::string listOf(const std::vector<InputProblem>& problems) {
   constexpr std::size_t most = 100;
@@ -237,16 +237,16 @@ Failure failureOf(const std::exception_ptr& thrown) {
   }
 }
 
-/// Memory that tasks release stays with the process for the next step; otherwise the system would clear the same pages
-/// in every step.
+/// Keeps memory that tasks release in the process for the next step; otherwise the system would clear the same pages in
+/// every step.
 void keepMemory() {
   constexpr int mebibyte = 1 << 20;
   mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
   mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
 }
 
-/// The C library reserves 64 MB of addresses for each thread that takes memory, of which those of MPI and the one that
-/// writes outputs would use next to nothing: where addresses are limited, the state would lack them.
+/// The C library reserves 64 MB of address space for each thread that allocates memory. The threads of MPI and the one
+/// that writes outputs would use almost none of it; if address space is limited, it would be missing for the state.
 void shareMemory(int threads) { mallopt(M_ARENA_MAX, threads); }
 
 /// Reports a failure once for all ranks, and ends them.

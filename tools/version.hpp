@@ -8,7 +8,7 @@ namespace tushar {
 
 /// The commit that was configured, in 12 digits; `unknown` outside a clone.
 extern const char* const buildCommit;
-/// The flags of the compiler, for all of the program.
+/// The compiler flags of the whole program.
 extern const char* const buildFlags;
 
 /// Version, commit, compiler and libraries except PETSc, which is loaded only for a solve; nothing about a run.

@@ -54,7 +54,7 @@ const input::Schema<FluxSettings>& fluxSchema() {
   return schema;
 }
 
-/// The velocity along the axis at a side of a cell at which the grid ends.
+/// The velocity along the axis, at a side of a cell that is also a side of the grid.
 template <int D>
 double velocityAtEnd(const Level& level, int d, int side, int material, const Vec<D>& inside) {
   if (level.isSymmetry(d, side, material)) return 0;
@@ -133,7 +133,7 @@ class ControlVolFluxes : public Analysis {
   CellLabel<double> density_{densityName, "kg/m^3", "density"};
   CellLabel<Vec<D>> velocity_{velocityName, "m/s", "velocity"};
   int material_;
-  std::deque<std::string> names_;  ///< their addresses must not change, as labels refer to them
+  std::deque<std::string> names_;  ///< their addresses must not change, because labels refer to them
   std::deque<ReductionLabel<BoxFlow>> labels_;
   SampleTimes times_;
   SampleFiles files_;

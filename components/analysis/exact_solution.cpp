@@ -51,7 +51,7 @@ struct ExactSolutionSettings {
 const Schema<ExactSolutionSettings>& exactSolutionSchema() {
   static const Schema<ExactSolutionSettings> schema =
       Schema<ExactSolutionSettings>("Module",
-                                    "Errors of a variable against a formula, at the centres of cells or at nodes.")
+                                    "Errors of a variable relative to a formula, at the centres of cells or at nodes.")
           .requiredAttribute("name", &ExactSolutionSettings::name, "1", "exactSolution")
           .required("label", &ExactSolutionSettings::label, "1",
                     "a cell (c.) or node (g.) variable that belongs to no material")
@@ -64,13 +64,13 @@ const Schema<ExactSolutionSettings>& exactSolutionSchema() {
   return schema;
 }
 
-/// A variable that can be measured, and whether diagnostics compute it from the state.
+/// A variable that can be compared, and whether diagnostics compute it from the state.
 struct Measurable {
   Label label;
   bool derived;
 };
 
-/// The variables of cells and nodes, vectors or scalars, that a component has without a material, by name.
+/// The cell and node variables of a component, vectors or scalars, that belong to no material, by name.
 std::map<std::string, Measurable> measurables(const Component& component, bool vectors) {
   TaskList state, derived;
   component.scheduleInitialize(state);
@@ -100,12 +100,12 @@ Measurable findMeasurable(const Component& component, const ExactSolutionSetting
   std::vector<std::string> names;
   for (const auto& entry : found) names.push_back(entry.first);
   const std::string none =
-      fmt::format("this component has no {} cell or node variable without a material; remove the module",
+      fmt::format("this component has no cell or node variable {} without a material; remove the module",
                   settings.component ? "vector" : "scalar");
   throw InputError({{where, "DataAnalysis/Module/label", names.empty() ? none : input::choiceProblem(name, names)}});
 }
 
-/// Errors of a number, or of a component of a vector along an axis of the scene.
+/// Errors of a scalar, or of a component of a vector along an axis of the scene.
 template <Centring C, int D, class T>
 void measure(const Patch& patch, const ExactSolutionSettings& settings, const double* time,
              data::GridView<C, const T> field, Norm& error) {
@@ -134,7 +134,7 @@ class ExactSolution : public Analysis {
         derived_(measured.derived),
         label_(labelOf(measured.label)),
         error_name_(settings_.label.substr(0, 2) + settings_.field() + " error"),
-        error_(error_name_, measured.label.unit, "error against the formula") {}
+        error_(error_name_, measured.label.unit, "error relative to the formula") {}
 
   void schedule(TaskList& tasks) const override {
     std::visit([&](const auto& label) { add(tasks, label); }, label_);
@@ -191,7 +191,7 @@ class ExactSolution : public Analysis {
 
 AnalysisKind exactSolutionKind() {
   return simulation::moduleMadeBy(
-      "exactSolution", "errors of a variable against a formula in x, y, z, t", exactSolutionSchema(),
+      "exactSolution", "errors of a variable relative to a formula in x, y, z, t", exactSolutionSchema(),
       [](const ExactSolutionSettings& settings, const Element& module, const Component& component, const Level& level) {
         const Location where = (module.child("label") ? *module.child("label") : module).where();
         return simulation::analysisByDimension<ExactSolution>(level, settings,

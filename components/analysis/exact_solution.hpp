@@ -4,8 +4,8 @@
 
 namespace tushar::analysis {
 
-/// `exactSolution`: errors of a scalar cell or node variable without a material, of the state or of the diagnostics,
-/// against a formula in x, y, z and t.
+/// `exactSolution`: errors of a scalar cell or node variable (of the state or the diagnostics) that belongs to no
+/// material, relative to a formula in x, y, z and t.
 simulation::AnalysisKind exactSolutionKind();
 
 }  // namespace tushar::analysis

@@ -16,7 +16,7 @@ using input::Schema;
 
 namespace {
 
-constexpr double slack = 1e-9;  ///< fraction of a cell within which a point counts as on a face
+constexpr double slack = 1e-9;  ///< fraction of a cell within which a point is considered to be on a face
 
 Schema<Extent> extentSchema(const std::string& tag, const std::string& sentence) {
   return Schema<Extent>(tag, sentence)
@@ -37,7 +37,7 @@ std::string problemOfName(const std::string& name) {
   const bool isPath = name.empty() || name.starts_with('.') || name.find('/') != std::string::npos;
   if (isPath) return fmt::format("found '{}', expected the name of a folder, without '/' or leading dots", name);
   if (taken.contains(name) || output::stepOf(name) || name.find('.') != std::string::npos)
-    return fmt::format("found '{}', which the archive may use for something else; choose another name", name);
+    return fmt::format("found '{}', a name that the archive may use itself; choose another name", name);
   return {};
 }
 
@@ -65,20 +65,20 @@ std::string problemOf(const Extent& extent, int axes, const Level& level) {
     if (from < to) ++along;
   }
   if (along == axes) return {};
-  return axes == 1 ? "a line goes along one axis: startingPt and endingPt differ in one coordinate"
-                   : "a plane goes along two axes: startingPt and endingPt differ in two coordinates";
+  return axes == 1 ? "a line is parallel to one axis: startingPt and endingPt must differ in exactly one coordinate"
+                   : "a plane is parallel to two axes: startingPt and endingPt must differ in exactly two coordinates";
 }
 
 }  // namespace
 
 const Schema<ExtentList>& linesSchema() {
   static const Schema<Extent> line =
-      extentSchema("line", "A line along an axis.")
+      extentSchema("line", "A line parallel to an axis.")
           .value("stepSize", &Extent::step, 0, "m",
                  "spacing of the cells that are written, rounded up to whole cells; 0: every cell",
                  input::nonNegative());
   static const Schema<ExtentList> schema = Schema<ExtentList>("lines", "The lines that are sampled.")
-                                               .list("line", &ExtentList::list, line, "a line along an axis", 1);
+                                               .list("line", &ExtentList::list, line, "a line parallel to an axis", 1);
   return schema;
 }
 

@@ -30,12 +30,12 @@ struct ExtentList {
 const input::Schema<ExtentList>& linesSchema();
 const input::Schema<ExtentList>& planesSchema();
 
-/// Throws InputError for lines (`axes` = 1) or planes (2) without cells of the grid or along other axes, and for names
-/// that cannot be folders of the archive.
+/// Throws InputError for lines (`axes` = 1) or planes (2) that contain no cells of the grid or are not parallel to
+/// axes, and for names that cannot be folders of the archive.
 void checkExtents(const std::vector<Extent>& extents, int axes, const grid::Level& level);
 
-/// The cells through which it goes, as a box; the upper ones if it lies between cells. Nodes are those at the lower
-/// corners of these cells. `level`: the finest; the cells are of one `coarser` by so many.
+/// The cells that it crosses, as a box; the upper ones if it lies between cells. Nodes are those at the lower corners
+/// of these cells. `level`: the finest; the cells are of one `coarser` by so many.
 grid::Box cellsOf(const Extent& extent, const grid::Level& level, int coarser = 0);
 
 /// Cells of a level, 0 the coarsest.
@@ -49,7 +49,8 @@ struct ExtentSettings : Sampling {
   ExtentList extents;
 };
 
-/// A module that samples variables in extents; it gets one part of the state for each. Throws what checkExtents throws.
+/// A module that samples variables in extents; it receives one part of the state for each extent. Throws what
+/// checkExtents throws.
 class ExtentModule : public SamplingModule {
  public:
   ExtentModule(const ExtentSettings& settings, int axes, const grid::Level& level);
@@ -65,7 +66,7 @@ class ExtentModule : public SamplingModule {
   const grid::Level* level_;
 };
 
-/// The axis (0 for x, 1 for y, 2 for z) along which a line goes.
+/// The axis (0 for x, 1 for y, 2 for z) to which a line is parallel.
 int axisOf(const Extent& line);
 
 /// The index of a cell along x, y, z; 0 along the axes that the grid leaves out.

@@ -42,8 +42,9 @@ void checkGas(const std::string& material, const Component& component, const inp
   const std::vector<std::string> gases = component.gasNames();
   if (gases.size() == 1 && bodiesOf(component) == 0) return;
   if (material.empty() || std::find(gases.begin(), gases.end(), material) != gases.end()) return;
-  const std::string problem = gases.empty() ? "here, the velocity in cells belongs to no material; remove <material>"
-                                            : input::choiceProblem(material, gases);
+  const std::string problem = gases.empty()
+                                  ? "in this component, the velocity in cells belongs to no material; remove <material>"
+                                  : input::choiceProblem(material, gases);
   const auto tag = module.child("material");
   throw InputError({{(tag ? *tag : module).where(), "DataAnalysis/Module/material", problem}});
 }

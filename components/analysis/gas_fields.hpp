@@ -15,7 +15,7 @@ namespace tushar::analysis {
 /// is no such variable.
 std::optional<bool> isDerived(const simulation::Component& component, std::string_view label);
 
-/// The number of materials before the gas of a component, which is the number of the gas in the scene.
+/// The number of materials before the gas of a component, which is the index of the gas in the scene.
 int bodiesOf(const simulation::Component& component);
 
 /// Throws InputError if the <material> of a module is not a gas of the component. No <material> is correct, and as in

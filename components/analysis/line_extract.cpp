@@ -58,7 +58,7 @@ class LineExtract : public ExtentModule {
     }
   }
 
-  /// Writes the cells of a box, whose first cell is entry `before` of the part.
+  /// Writes the cells of a box whose first cell is entry `before` of the part.
   void write(std::size_t line, const Snapshot& part, const std::vector<Found>& columns, const LevelBox& box,
              std::size_t before, const std::filesystem::path& folder) {
     const bool isOfNodes = columns.front().field->centring == output::Centring::node;

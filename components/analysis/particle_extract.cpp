@@ -47,7 +47,7 @@ const Schema<Variables>& variablesSchema() {
       Schema<Variable>("analyze", "A particle variable.")
           .location(&Variable::where, "label")
           .requiredAttribute("label", &Variable::label, "1", "its name, such as p.velocity")
-          .ignoredAttribute("matl", "<material> of the module holds for all variables");
+          .ignoredAttribute("matl", "<material> of the module applies to all variables");
   static const Schema<Variables> schema = Schema<Variables>("Variables", "The variables that are written.")
                                               .list("analyze", &Variables::list, variable, "a particle variable", 1);
   return schema;

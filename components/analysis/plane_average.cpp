@@ -38,7 +38,7 @@ const input::Schema<AverageSettings>& averageSchema() {
   static const input::Schema<Weight> weight =
       input::Schema<Weight>("weight", "The variable whose sum divides those of weighting=\"mass\".")
           .location(&Weight::where, "label")
-          .requiredAttribute("label", &Weight::label, "1", "a variable of cells, such as c.density");
+          .requiredAttribute("label", &Weight::label, "1", "a cell variable, such as c.density");
   static const input::Schema<AverageSettings> schema =
       samplingSchema<AverageSettings>(
           "planeAverage",
@@ -132,9 +132,10 @@ class PlaneAverage : public SamplingModule {
   }
 
   const Level* level_;
-  int across_ = -1;  ///< kernel axis perpendicular to the planes; -1: the grid leaves it out, and there is one plane
-  std::map<std::string, Weighting> weightings_;  ///< by place of the variable in the scene
-  std::string weight_;                           ///< place of the variable of <weight>
+  int across_ =
+      -1;  ///< kernel axis perpendicular to the planes; -1 if the grid does not use it, so that there is one plane
+  std::map<std::string, Weighting> weightings_;  ///< ordered by the position of the variable in the scene
+  std::string weight_;                           ///< position of the variable of <weight>
 };
 
 }  // namespace

@@ -25,7 +25,7 @@ Schema<Analyzed> variableSchema() {
       .location(&Analyzed::where, "label")
       .location(&Analyzed::whereOfMaterial, "matl")
       .requiredAttribute("label", &Analyzed::label, "1", "its name, such as press_CC or c.pressure")
-      .attributeValue("matl", &Analyzed::material, "", "1", "number of its material; that of the module")
+      .attributeValue("matl", &Analyzed::material, "", "1", "index of its material; by default that of the module")
       .ignoredAttribute("level", "the module samples the whole grid")
       .check([](const Analyzed&, const Element& given, Diagnostics& diagnostics) {
         input::noteAttribute(given, "level", "the module samples the whole grid", diagnostics);

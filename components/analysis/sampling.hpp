@@ -44,7 +44,7 @@ const input::Schema<AnalyzedList>& analyzedSchema();
 const input::Schema<AnalyzedList>& weightedSchema();
 void checkTimes(const Times& times, const input::Element& module, input::Diagnostics& diagnostics);
 
-/// Adds the tags of times.
+/// Adds the tags for the sampling times.
 template <class Settings>
 void addTimes(input::Schema<Settings>& schema) {
   double Settings::*const frequency = &Times::frequency;
@@ -76,15 +76,15 @@ input::Schema<Settings> samplingSchema(const std::string& name, const std::strin
   return schema.requiredSection("Variables", variables, list, "the variables to sample");
 }
 
-/// When samples are due: after the first step in the time from `start` to `stop`, and then after each that passes a
-/// multiple of 1/frequency from `start` on. The initial state is none. What is due depends on the state and on that
-/// before alone, so that a run that goes on from a checkpoint samples the same ones.
+/// When samples are due: after the first step between `start` and `stop`, and then after each step that passes a time
+/// start + k / frequency. The initial state is none. What is due depends on the state and on that before alone, so that
+/// a run that goes on from a checkpoint samples the same ones.
 class SampleTimes {
  public:
   SampleTimes(double frequency, double start, double stop) : frequency_(frequency), start_(start), stop_(stop) {}
   explicit SampleTimes(const Times& times) : SampleTimes(times.frequency, times.start, times.stop) {}
 
-  /// Sets the time of the state and the time since the start of the first run [s].
+  /// Sets the time of the state, and the time since the start of the first run [s].
   void pass(double time, double sinceStart);
   bool isDue() const { return due_; }
 
@@ -94,11 +94,11 @@ class SampleTimes {
   bool due_ = false;
 };
 
-/// The lines of a file before a time [s], and its comments: the part that stays valid if a run is repeated from that
+/// The lines of a file before a time [s], and its comments: the part that remains valid if a run is repeated from that
 /// time on. The time is in a column, counted from 0. An incomplete last line, left by a kill, is dropped.
 std::string linesBefore(const std::string& text, double time, int column = 0);
 
-/// Text files that get a line for each sample. If an earlier run has left one, the lines that are now repeated are
+/// Text files to which each sample adds a line. If an earlier run has left one, the lines that are now repeated are
 /// removed from it.
 class SampleFiles {
  public:
@@ -132,7 +132,7 @@ class SamplingModule : public simulation::Analysis {
     const output::FieldBlock* field;
   };
   std::vector<Found> findAll(const output::Snapshot& snapshot) const;
-  /// The name of a variable in paths: its name in the scene and the number of the material, without characters that
+  /// The name of a variable in paths: its name in the scene and the index of the material, without characters that
   /// paths cannot contain.
   static std::string nameOf(const simulation::SampledVariable& variable);
   /// One for each variable.
@@ -147,7 +147,7 @@ class SamplingModule : public simulation::Analysis {
 /// The name of a component of a variable in file headers: `v`, `v.x` of a vector, `v(0,1)` of a tensor.
 std::string nameOfComponent(const std::string& name, int component, int components);
 
-/// A number of an array, whatever its type.
+/// An element of an array of any numeric type.
 double numberAt(const output::Array& array, std::size_t place);
 
 }  // namespace tushar::analysis

@@ -74,7 +74,7 @@ void checkSettings(const SliceSettings& settings, const Element& module, Diagnos
   for (const Word& label : settings.labels)
     if (!label.text.starts_with("c.") && !label.text.starts_with("g."))
       diagnostics.error(label.where, module.path() + "/label",
-                        fmt::format("found '{}', expected a variable of cells (c.) or nodes (g.)", label.text));
+                        fmt::format("found '{}', expected a cell variable (c.) or a node variable (g.)", label.text));
   if (settings.interval > 0 && settings.stepInterval > 0)
     diagnostics.error(module, "gives both outputInterval and outputTimestepInterval; keep one");
   if (settings.interval <= 0 && settings.stepInterval <= 0)
@@ -114,11 +114,11 @@ std::string problemOf(const Plane& plane, const Level& level) {
   for (int d = 0; d < level.dimension(); ++d) {
     isUsed = isUsed || level.axis(d) == plane.axis;
     if (level.cells().extent(d) < 2)
-      return fmt::format("a slice needs more than one cell along {}, which the grid uses", nameOf(level.axis(d)));
+      return fmt::format("a slice needs a grid with more than one cell along {}", nameOf(level.axis(d)));
   }
-  if (!isUsed) return fmt::format("the grid has no cells side by side along {}; name another axis", nameOf(plane.axis));
+  if (!isUsed) return fmt::format("the grid has only one cell along {}; choose another axis", nameOf(plane.axis));
   if (plane.at >= lower && plane.at <= upper) return {};
-  return fmt::format("found {} = {:g} m, expected a place on the grid, from {:g} to {:g} m", nameOf(plane.axis),
+  return fmt::format("found {} = {:g} m, expected a position on the grid, from {:g} to {:g} m", nameOf(plane.axis),
                      plane.at, lower, upper);
 }
 
@@ -169,7 +169,7 @@ class Slice : public Analysis {
       archives_[k]->write(parts[k]);
     }
   }
-  /// Updates the lists of each plane's archive, as a restart removes outputs that are not listed.
+  /// Updates the lists of each plane's archive, because a restart removes outputs that are not listed.
   void flush() override {
     for (const auto& archive : archives_)
       if (archive) archive->flush();

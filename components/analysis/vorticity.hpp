@@ -9,10 +9,10 @@ namespace tushar::analysis {
 /// modules; Uintah's `vorticity`.
 simulation::AnalysisKind vorticityKind();
 
-/// It always has three components, of which some are 0 if the grid leaves out axes.
+/// It always has three components; some of them are 0 if the grid does not use all axes.
 inline constexpr CellLabel<Vec3> vorticityLabel{"c.vorticity", "1/s", "vorticity, the curl of the velocity"};
 
-/// curl v by differences over the two neighbours of a cell, over one at a side of the grid. The velocity has a layer of
+/// curl v by central differences, or by one-sided differences at a side of the grid. The velocity has a layer of
 /// ghosts; along the axes that the grid leaves out nothing varies, and it has no component.
 template <int D>
 void computeVorticity(const Patch& patch, CellView<const Vec<D>> velocity, CellView<Vec3> vorticity);

@@ -12,7 +12,7 @@ constexpr int kReach = 2;  ///< number of cells to each side on which a cell's f
 
 double noSlope(double, double) { return 0; }
 
-/// u in a cell that may be beyond the grid along axis `d`: there, the value that flows in or out.
+/// u in a cell that may be outside the grid along axis `d`, where it is the value that flows in or out.
 template <int D>
 double valueAt(const Patch& patch, const BoundarySides<double>& sides, CellView<const double> u, Index<D> cell, int d) {
   if (patch.cellsWithin(kReach).contains(cell)) return u[cell];
@@ -42,7 +42,7 @@ double fluxThrough(const Patch& patch, const Settings& settings, const BoundaryS
   return faceFlux(row, slopeOf(settings.limiter), settings.viscosity * patch.level().inverseSpacing(d));
 }
 
-/// Keeps half of the fluxes through the rim in one of the two stages.
+/// Stores half of the fluxes through the rim, in one of the two stages.
 template <int D>
 void keepHalf(const Patch& patch, const Settings& settings, const BoundarySides<double>& sides,
               CellView<const double> u, RimFlux<double> flux) {
@@ -179,7 +179,7 @@ const input::Schema<Settings>& schema() {
 
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind = simulation::kindWithSection<Burgers>(
-      "burgers", "Burgers' equation by finite volumes", schema(), {boundary::velocity, grid::symmetric});
+      "burgers", "Burgers' equation, solved with finite volumes", schema(), {boundary::velocity, grid::symmetric});
   kind.takesLevels = true;
   kind.takesPartsOfSides = true;
   return kind;

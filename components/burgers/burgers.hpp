@@ -27,7 +27,7 @@ struct Settings {
   input::Expression velocity{0.0};  ///< u at the start, m/s
 };
 
-/// Slopes by number: 0 none, first order; 1 minmod; 2 van Leer; 3 monotonised central.
+/// Slopes by index: 0 none, first order; 1 minmod; 2 van Leer; 3 monotonised central.
 Slope slopeOf(int limiter);
 
 /// Burgers' equation, du/dt + sum_d d(u²/2)/dx_d = nu div grad u, by finite volumes in D dimensions.

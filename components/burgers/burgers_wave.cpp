@@ -23,7 +23,7 @@ BurgersWave::BurgersWave(BurgersProblem problem) : problem_(std::move(problem)) 
   if (!(problem_.viscosity >= 0 && problem_.upper > problem_.lower))
     throw std::invalid_argument(
         fmt::format("A wave of Burgers' equation needs a viscosity of at least 0 and an interval that is not empty, "
-                    "not {} and [{}, {}].",
+                    "but has {} and [{}, {}].",
                     problem_.viscosity, problem_.lower, problem_.upper));
   step_ = (problem_.upper - problem_.lower) / kSteps;
   least_ = greatest_ = problem_.velocity(problem_.lower);
@@ -56,7 +56,7 @@ double BurgersWave::profile(double y) const {
   return problem_.velocity(std::clamp(y, problem_.lower, problem_.upper));
 }
 
-/// U at any node, also beyond the table.
+/// U at any node, also outside the table.
 double BurgersWave::integralAt(long node) const {
   if (problem_.periodic) {
     const long turns = node >= 0 ? node / kSteps : -((kSteps - 1 - node) / kSteps);

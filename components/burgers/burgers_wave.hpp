@@ -11,11 +11,11 @@ namespace tushar::burgers {
 struct BurgersProblem {
   std::function<double(double)> velocity;  ///< u at t = 0, m/s, over x in m; bounded
   double viscosity = 0;                    ///< nu, m²/s
-  double lower = 0, upper = 1;             ///< where the profile begins and ends, m
-  bool periodic = false;  ///< whether it repeats beyond its ends; otherwise it keeps its end values there
+  double lower = 0, upper = 1;             ///< beginning and end of the profile, m
+  bool periodic = false;                   ///< whether it is periodic; otherwise it is constant beyond its ends
 };
 
-/// The exact solution of Burgers' equation in one dimension, shocks included.
+/// The exact solution of Burgers' equation in one dimension, including shocks.
 ///
 /// With U the integral of the profile, u = dPhi/dx of
 ///   Phi = min over y of U(y) + (x-y)²/2t                                                       nu = 0
@@ -60,7 +60,7 @@ class BurgersWave {
   std::vector<double> integrals_;    ///< U at the places of the table, m²/s
 };
 
-/// `burgersWave`: errors of the component burgers, in one dimension, against the exact solution of the scene.
+/// `burgersWave`: errors of the component burgers, in one dimension, relative to the exact solution of the scene.
 simulation::AnalysisKind waveKind();
 
 }  // namespace tushar::burgers

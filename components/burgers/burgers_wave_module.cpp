@@ -12,7 +12,7 @@ namespace {
 
 inline constexpr ReductionLabel<Norm> waveError{"CellError.u", "m/s", "error of the mean u of cells"};
 
-/// The exact solution for the task, set before it runs.
+/// The exact solution for the task, which is set before the task runs.
 struct Exact {
   BurgersWave wave;
   double time = 0;
@@ -90,8 +90,8 @@ std::unique_ptr<simulation::Analysis> makeModule(const Component& component, con
 }  // namespace
 
 simulation::AnalysisKind waveKind() {
-  return simulation::plainModule("burgersWave", "errors against the exact solution of Burgers' equation",
-                                 "Errors of the component burgers against the exact solution that follows from "
+  return simulation::plainModule("burgersWave", "compares a run with the exact solution of Burgers' equation",
+                                 "Errors of the component burgers relative to the exact solution that follows from "
                                  "<Burgers>, in one dimension.",
                                  makeModule);
 }

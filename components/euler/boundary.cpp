@@ -6,7 +6,7 @@ namespace tushar::euler {
 
 namespace {
 
-/// Adds to a rule what density, pressure and temperature prescribe for a gas with a law of its own.
+/// Adds to a rule the values that density, pressure and temperature prescribe for a gas with its own law.
 template <int D>
 void prescribeByLaw(const Place& place, const Gas& gas, std::optional<double> density,
                     const std::optional<double>& pressure, GhostRule<D>& rule) {
@@ -117,7 +117,7 @@ bool hasFormulas(const Level& level, int axis, int side) {
          std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return hasSome(part.conditions); });
 }
 
-/// Throws NumericalError if formulas give an impossible state beside a cell.
+/// Throws NumericalError if formulas give an impossible state next to a cell.
 void checkGiven(const Place& place, const Gas& gas, std::uint64_t cell) {
   const auto require = [&](bool isFine, const grid::BoundaryVariable& label, const std::string& found) {
     if (isFine) return;
@@ -163,16 +163,16 @@ GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, MakeRule 
   return rules;
 }
 
-/// The cell, along an axis of `cells` cells, from which a cell beyond its ends is made.
+/// The cell, along an axis of `cells` cells, from which a cell beyond its ends is computed.
 int sourceOf(int cell, int cells, bool mirrored) {
   const int inside = cell < 0 ? (mirrored ? -1 - cell : 0) : (mirrored ? 2 * cells - 1 - cell : cells - 1);
   return std::clamp(inside, 0, cells - 1);
 }
 
-/// The distance, in cells, of a cell from the end of an axis of `cells` cells beyond which it lies.
+/// The distance, in cells, of a cell outside an axis of `cells` cells from the end of this axis.
 int depthOf(int cell, int cells) { return cell < 0 ? -cell : cell - cells + 1; }
 
-/// The cell of the grid from which a cell beyond its sides is made, along the axes before `axis`.
+/// The cell of the grid from which a cell outside it is computed, along the axes before `axis`.
 template <int D>
 Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, int axis) {
   for (int d = 0; d < axis; ++d) {
@@ -183,7 +183,7 @@ Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, i
   return cell;
 }
 
-/// Weakens the incoming wave of a state as a side that lets waves out does over `cells` cells, at constant entropy.
+/// Weakens the incoming wave of a state at constant entropy, to let waves out; the wave decays over `cells` cells.
 template <int D, std::size_t N>
 void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
   const Relaxation& side = rule.relaxes;
@@ -195,7 +195,7 @@ void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
   w[kPressure<D>] -= half;
 }
 
-/// The state of a cell `cells` cells beyond a side, by a rule and the state of the cell from which it is made.
+/// The state of a cell `cells` cells beyond a side, by a rule and the state of the cell from which it is computed.
 template <int D, std::size_t N>
 std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array<double, N> w) {
   for (std::size_t k = 0; k < rule.factor.size(); ++k) w[k] = rule.factor[k] * w[k] + rule.value[k];
@@ -208,7 +208,7 @@ std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array
   return w;
 }
 
-/// Fills the cells of a box beyond a side by rules that differ from cell to cell.
+/// Fills the cells of a box beyond a side with rules that differ from cell to cell.
 template <int D, int K>
 void fillByPlace(const Level& level, const GhostRules<D>& rules, const Box& beyond, int axis, int side,
                  Rows<D, K>& rows) {

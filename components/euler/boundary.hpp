@@ -11,11 +11,11 @@
 
 namespace tushar::euler {
 
-/// A side that lets waves out, and slowly takes the gas to a pressure far away: the incoming characteristic, p - rho c
-/// u_n with n outwards, changes at the rate -K (p - p_far), K = sigma (1 - M²) c / L, L the length of the grid across
-/// the side; so beyond it that is less by (p - p_far) sigma (1 + M) h / L.
-/// Source: T. Poinsot & S. K. Lele, J. Comput. Phys. 101 (1992) 104; D. H. Rudy & J. C. Strikwerda, J. Comput. Phys. 36
-/// (1980) 55, for K.
+/// A side that lets waves out, and slowly relaxes the pressure to a far-field value: the incoming characteristic, p -
+/// rho c u_n with n outwards, changes at the rate -K (p - p_far), K = sigma (1 - M²) c / L, where L is the length of
+/// the grid across the side. So beyond the side the characteristic is less by (p - p_far) sigma (1 + M) h / L. Source:
+/// T. Poinsot & S. K. Lele, J. Comput. Phys. 101 (1992) 104; D. H. Rudy & J. C. Strikwerda, J. Comput. Phys. 36 (1980)
+/// 55, for K.
 struct Relaxation {
   double farPressure = 0;  ///< Pa; 0: none
   double sigma = 0;
@@ -23,8 +23,8 @@ struct Relaxation {
   int axis = 0, outwards = 0;
 
   bool acts() const { return farPressure > 0; }
-  /// The loss of the incoming characteristic of a state across the side, Pa, at an outward velocity u_n [m/s], over
-  /// `crossings` times the time in which sound crosses a cell.
+  /// The loss [Pa] of the incoming characteristic at a side, with the outward velocity u_n [m/s], during `crossings`
+  /// times the time in which sound crosses a cell.
   double loss(double pressure, double speed, double sound, double crossings = 1) const {
     const double mach = std::clamp(speed / sound, -1.0, 1.0);
     const double share = sigma * thickness * std::max(1 + mach, crossings * (1 - mach * mach));
@@ -39,7 +39,7 @@ struct GhostRule {
   State<D> factor, value;
   double densityOfPressure = 0;  ///< if above 0, rho is this times p + p_inf, kg/(m³ Pa)
   double pInfinity = 0;          ///< Pa
-  double temperature = 0;        ///< if above 0, the temperature of a gas with a law of its own, K
+  double temperature = 0;        ///< if above 0, the temperature of a gas with its own law, K
   const Gas* gas = nullptr;      ///< that gas
   Relaxation relaxes = {};       ///< relaxation at a side that lets waves out
 };
@@ -77,7 +77,7 @@ std::optional<T> givenAt(const Place& place, const Gas& gas, const BoundaryLabel
 /// The same for the pressure, which all materials share: Uintah's scenes give it for material 0.
 std::optional<double> pressureAt(const Place& place, const Gas& gas);
 
-/// Whether there is a wall: Symmetric, or with a Velocity alone that lies in the side.
+/// Whether there is a wall: Symmetric, or with only a Velocity that is tangential to the side.
 template <int D>
 bool isWall(const Place& place, const Gas& gas);
 
@@ -90,17 +90,17 @@ bool isWall(const Place& place, const Gas& gas);
 template <int D>
 GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time = 0);
 
-/// The same for differences across the sides, of velocities and, instead of densities, temperatures: given values hold
-/// at the side itself, and the others are mirrored. Formulas count in the middle of each face.
+/// The same for differences across the sides, of velocities and temperatures (which replace the densities): given
+/// values apply at the side itself, and the others are mirrored. Formulas count in the middle of each face.
 template <int D>
 GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time = 0);
 
-/// The rule for a cell beyond a side, or inside next to it: that of the part to which the face belongs.
+/// The rule for a cell beyond a side, or for the adjacent cell inside: that of the part to which the face belongs.
 template <int D>
 GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, int side, const Index<D>& cell);
 
-/// Fills the cells of a box that lie beyond the grid; those on the grid must be known, and the ones within reach of
-/// these cells across a side.
+/// Fills the cells of a box that are outside the grid; the cells on the grid must be known, and so must the inner cells
+/// that the conditions at a side use.
 template <int D, int K>
 void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& rows, const Box& box);
 template <int D, int K>

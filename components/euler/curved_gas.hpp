@@ -94,7 +94,7 @@ class CurvedGas {
   double pressure(double rho, double energy) const {
     return cold_.pressure(rho) + (isBarotropic() ? 0.0 : gammaAt(rho) * (energy - cold_.energy(rho)));
   }
-  /// The second number of a state for an internal energy per volume.
+  /// The last number of a state for an internal energy per volume.
   double last(double rho, double energy) const {
     return isBarotropic() ? energy - cold_.energy(rho) : pressure(rho, energy);
   }
@@ -115,7 +115,7 @@ class CurvedGas {
   static double greatestEnergy(double) { return std::numeric_limits<double>::infinity(); }
 
   double temperature(double rho, double energy) const { return (energy - cold_.energy(rho)) / (rho * specificHeat_); }
-  /// The second number of a state for a temperature [K].
+  /// The last number of a state for a temperature [K].
   double lastAt(double rho, double temperature) const {
     const double heat = rho * specificHeat_ * temperature;
     return isBarotropic() ? heat : cold_.pressure(rho) + gammaAt(rho) * heat;
@@ -137,7 +137,7 @@ class CurvedGas {
   double entropy(double rho, double energy) const {
     return std::log(temperature(rho, energy)) + (isLinear() ? gammaAt(rho) : -gamma_ * std::log(rho));
   }
-  /// Approximately p / (rho u²) behind a strong shock, where u is the speed that it gives to gas at rest.
+  /// Approximately p / (rho u²) behind a strong shock, which accelerates gas at rest to the speed u.
   double shockSlope() const {
     return 0.5 * (cold_.kind == ColdCurve::Kind::murnaghan ? cold_.exponent + 1 : gamma_ + 2);
   }

@@ -65,8 +65,7 @@ template <int D>
 std::vector<reference::GasLaw> Euler<D>::gases() const {
   if (settings_.gas.law)
     throw std::invalid_argument(
-        "the exact solution is that of an ideal or a stiffened gas, but the gas of the scene has another equation of "
-        "state");
+        "the exact solution is for an ideal or stiffened gas, but the gas of the scene has another equation of state");
   return {{settings_.gas.gamma, settings_.gas.pInfinity}};
 }
 

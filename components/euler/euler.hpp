@@ -37,15 +37,15 @@ class Euler : public Component, public reference::GasSolution {
 
  protected:
   const Settings& settings() const { return settings_; }
-  /// Whether anything is carried through faces with the mass.
+  /// Whether any quantities are transported with the mass.
   virtual bool keepsFaceMasses() const { return false; }
 
  private:
   Settings settings_;
 };
 
-/// Diagnostics that do not depend on the gas: mass, momentum, energy, kinetic energy, and the least of a density and an
-/// energy.
+/// Diagnostics that do not depend on the type of gas: mass, momentum, energy, kinetic energy, and the smallest density
+/// and energy.
 template <int D>
 void scheduleTotals(TaskList& tasks);
 

@@ -6,7 +6,7 @@
 namespace tushar::euler {
 
 namespace c {
-/// The mass through the lower and through the upper faces of cells, for scalars that the gas carries along.
+/// The mass that flows through the lower and the upper faces of cells, for scalars that are transported with the gas.
 template <int D>
 inline constexpr std::array<CellLabel<Vec<D>>, 2> massFlux{
     {{"c.massFluxBelow", "kg/(m^2 s)", "mass through the lower faces"},
@@ -22,7 +22,7 @@ struct FaceMasses {
     if (!areKept) return {};
     return {.below = take(computes(c::massFlux<D>[0])), .above = take(computes(c::massFlux<D>[1]))};
   }
-  /// Keeps the mass fluxes for the cells of a block across an axis.
+  /// Stores the mass fluxes of the cells of a block across an axis.
   template <int K>
   void keep(const Box& block, int axis, const Rows<D, K>& flux) const {
     if (!below) return;

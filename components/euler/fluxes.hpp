@@ -13,7 +13,7 @@ struct FaceState {
 };
 
 /// F = (m, m v + p n, (E + p) v_n) through a face across `Axis`, m = rho v_n; for several gases, also each mass and
-/// share times v_n.
+/// volume fraction times v_n.
 template <int D, int Axis, int K>
 State<D, K> fluxOf(const FaceState<D, K>& face) {
   const double normal = face.w[kVelocity(Axis)];

@@ -19,12 +19,12 @@ namespace tushar::euler {
 template <int D, int K = 1>
 using State = std::array<double, D + 2 + (K > 1 ? 2 * K : 0)>;
 
-/// Places in a State: density, component `axis` of velocity or momentum, pressure or total energy.
+/// Indices in a State: density, component `axis` of velocity or momentum, pressure or total energy.
 inline constexpr std::size_t kDensity = 0;
 constexpr std::size_t kVelocity(int axis) { return axis + 1; }
 template <int D>
 inline constexpr std::size_t kPressure = D + 1;
-/// Places of the mass and the share of gas k.
+/// Indices of the mass and the volume fraction of gas k.
 template <int D>
 constexpr std::size_t kMass(int k) {
   return D + 2 + k;
@@ -60,14 +60,14 @@ struct StiffenedGas {
   double heat(double, double pressure) const { return pressure + pInfinity; }
 };
 
-/// A gas: a stiffened one, unless it has a law of its own.
+/// A gas: a stiffened gas unless it has its own law.
 struct Gas {
   using Law = std::variant<CurvedGas, Water>;
 
   double gamma = 1.4;                        ///< ratio of specific heats, above 1
   double pInfinity = 0;                      ///< Pa
   double specificHeat = 0;                   ///< c_v, J/(kg K); 0: no temperature is known
-  int material = 0;                          ///< its number in the scene, for conditions at sides of the grid
+  int material = 0;                          ///< its index in the scene, for conditions at sides of the grid
   std::shared_ptr<const Law> law = nullptr;  ///< null for a stiffened gas
 
   /// Calls `use` with the gas as a StiffenedGas, or with its law, so that loops branch on the law only once, at the
@@ -93,7 +93,7 @@ struct Gas {
   double pressureOf(double density, double last) const {
     return withLaw([&](const auto& of) { return of.pressureOf(density, last); });
   }
-  /// A number that must be greater than 0: p + p_inf, the heat, or one with the same sign.
+  /// A quantity that must be greater than 0: p + p_inf, the heat, or a number with the same sign.
   double heat(double density, double last) const {
     return withLaw([&](const auto& of) { return of.heat(density, last); });
   }
@@ -131,7 +131,7 @@ struct Gas {
         },
         *law);
   }
-  /// p / (rho u²) behind a strong shock, where u is the speed that it gives to gas at rest: (gamma + 1) / 2.
+  /// p / (rho u²) behind a strong shock, which accelerates gas at rest to the speed u: (gamma + 1) / 2.
   double shockSlope() const {
     return withLaw([](const auto& of) { return of.shockSlope(); });
   }
@@ -167,7 +167,7 @@ double speedSquared(const std::array<double, N>& w) {
   return sum;
 }
 
-/// rho, rho v, E from rho, v and the last number; G is Gas, one of its laws, or that of a mixture.
+/// rho, rho v, E from rho, v and the last number; G is Gas, one of its laws, or the law of a mixture.
 template <int D, class G>
 State<D, kGases<G>> conserved(const G& gas, const State<D, kGases<G>>& w) {
   State<D, kGases<G>> u = w;

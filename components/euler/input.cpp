@@ -16,7 +16,7 @@ namespace {
 const Schema<GasObject>& objectSchema() {
   static const Schema<GasObject> schema = [] {
     Schema<GasObject> tags("geom_object",
-                           "The gas of a region at the start; where regions overlap, the last one counts.");
+                           "The gas of a region at the start; where regions overlap, the last one applies.");
     tags.allOurs();
     input::addShape(tags, &GasObject::where, &GasObject::shape,
                     "the region: cells whose centre is inside; several shapes form their union")
@@ -70,17 +70,17 @@ const Schema<EulerSection>& schema() {
           .choice("reconstruction", &EulerSection::reconstruction,
                   {{"first_order", Reconstruction::firstOrder}, {"muscl_hancock", Reconstruction::musclHancock}},
                   Reconstruction::musclHancock,
-                  "constant values in cells, or slopes in cells and a half step, which is of second order")
+                  "constant values in cells, or slopes in cells with a half step (second order)")
           .choice("limiter", &EulerSection::limiter,
                   {{"minmod", Limiter::minmod}, {"van_leer", Limiter::vanLeer}, {"mc", Limiter::mc}}, Limiter::vanLeer,
                   "limiter of the slopes, from the most to the least diffusive")
           .value("cfl", &EulerSection::cfl, 0.8, "1", "dt times the largest sum over axes of (|v| + c) / h",
                  input::positive(), input::atMost(1))
           .section("gas", &EulerSection::gas, gasSchema())
-          .list(
-              "geom_object", &EulerSection::objects, objectSchema(),
-              "the gas of a region at the start; where regions overlap, the last one counts; they must cover the grid",
-              1);
+          .list("geom_object", &EulerSection::objects, objectSchema(),
+                "the gas of a region at the start; where regions overlap, the last one applies; the "
+                "regions must cover the grid",
+                1);
   return schema;
 }
 

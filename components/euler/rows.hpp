@@ -25,8 +25,8 @@ inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
                                  : D == 2 ? Index3{{128, 16, 1}}
                                           : Index3{{64, 8, 8}};
 
-/// Cells across a column of work, ghosts included: what moves along it in step with the plane of cells at work stays
-/// in the second-level cache.
+/// Number of cells across a column of work, including ghosts: the planes of the column that are in use fit into the
+/// second-level cache.
 inline constexpr int kColumnCells = 2400;
 
 /// A box as large as the largest block of a box.
@@ -50,20 +50,20 @@ void forEachBlock(const Box& box, const Index3& extents, Visit&& visit) {
     visit(block);
   });
 }
-/// The same, none larger than kBlock.
+/// The same for boxes no larger than kBlock.
 template <int D, class Visit>
 void forEachBlock(const Box& box, Visit&& visit) {
   forEachBlock<D>(box, kBlock<D>, std::forward<Visit>(visit));
 }
 
-/// The extents across z of the columns that tile a box with `reach` cells of ghosts around each: as wide along x as a
-/// block, and along y as kColumnCells allows.
+/// The extents along x and y of the columns along z that tile a box, each with `reach` ghost cells around it: as wide
+/// as a block along x, and as wide as kColumnCells allows along y.
 inline Index3 columnOf(const Box& box, int reach) {
   const int width = std::min(kBlock<3>[0], box.extent(0));
   return {{width, std::clamp(kColumnCells / (width + 2 * reach) - 2 * reach, 1, box.extent(1)), box.extent(2)}};
 }
 
-/// Memory that a vector does not fill: for numbers that are all written before they are read.
+/// Uninitialised memory, for numbers that are all written before they are read.
 template <class T>
 struct Unfilled : std::allocator<T> {
   template <class U>
@@ -89,21 +89,21 @@ class Rows {
   static constexpr std::size_t numbers = std::tuple_size_v<State<D, K>>;
   using Pointers = std::array<double*, numbers>;
 
-  /// Room for boxes of up to `cells` cells or, of three dimensions, so many planes of z of up to `cells` cells each.
-  /// All values are 0 at first, or anything.
+  /// Space for boxes of up to `cells` cells or, in three dimensions, for a number of planes of z with up to `cells`
+  /// cells each. All values are 0 at first, or anything.
   explicit Rows(std::size_t cells, int planes = 0) : Rows(cells, planes, Values(room(cells, planes), 0.0)) {}
   static Rows unfilled(std::size_t cells, int planes = 0) { return {cells, planes, Values(room(cells, planes))}; }
 
-  /// Sets the box that the rows hold.
+  /// Sets the box of cells that the rows contain.
   void hold(const Box& box) {
     box_ = box;
     stride_ = {1, box.extent(0), static_cast<std::ptrdiff_t>(box.extent(0)) * box.extent(1)};
   }
   const Box& box() const { return box_; }
-  /// Distance in memory of neighbours along an axis; not along z where it holds some planes.
+  /// Distance in memory between neighbours along an axis; undefined along z if only some planes are stored.
   std::ptrdiff_t stride(int axis) const { return stride_[axis]; }
 
-  /// Pointers to the numbers of a cell, which are followed by those of the next cell of its row.
+  /// Pointers to the numbers of a cell; those of the next cell of its row follow them in memory.
   Pointers at(const Index<D>& cell) {
     const std::ptrdiff_t offset = offsetOf(cell);
     Pointers pointers;

@@ -44,7 +44,7 @@ struct Settings {
   bool objectsMayBeEmpty = false;  ///< whether objects may contain no cell centre, as parts of what the scene has
   double cfl = 0.8;                ///< dt max(sum_d (|v_d| + c) / h_d)
   Gas gas;
-  std::vector<GasObject> objects;  ///< where they overlap, the last one counts
+  std::vector<GasObject> objects;  ///< where they overlap, the last one applies
   /// Changes the velocity and, for objects that have one, the temperature at the start, at a point with the density
   /// `rho`.
   std::function<void(const Vec3& point, double rho, Vec3& velocity, double& temperature)> disturb = {};

@@ -16,7 +16,7 @@ struct StateViews {
   CellView<T> totalEnergy;
 };
 
-/// The state of several gases: of all together, and of each.
+/// The state of several gases: of the mixture and of each gas.
 template <int D, class T>
 struct MixtureViews : StateViews<D, T> {
   std::vector<CellView<T>> masses, shares;

@@ -34,7 +34,7 @@ struct SpongeLayer {
 struct VaryingDiffusion {
   Diffusion uniform = {};                     ///< used where none of the following applies
   std::optional<Sutherland> sutherland = {};  ///< instead of the uniform viscosity
-  std::vector<SpongeLayer> sponges = {};      ///< instead of both; the last one counts
+  std::vector<SpongeLayer> sponges = {};      ///< instead of both; the last one applies
   double smagorinsky = 0;                     ///< C of eddies: mu + rho (C Delta)² sqrt(2 S : S)
 
   bool varies() const { return sutherland || !sponges.empty() || smagorinsky > 0; }

@@ -23,7 +23,7 @@ struct Settings {
   double specificHeat = 1;              ///< c, J/(kg K)
   double cfl = 0.9;                     ///< fraction of the largest stable time step
   input::Expression temperature{0.0};   ///< at the start, K
-  double refinementTolerance = 0;       ///< error between cells above which they are refined, K; 0: never
+  double refinementTolerance = 0;       ///< interpolation error between cells above which they are refined, K; 0: never
 
   double capacity() const { return density * specificHeat; }  ///< rho c, J/(m³ K)
 };

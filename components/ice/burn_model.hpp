@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -9,14 +10,14 @@
 
 namespace tushar::ice {
 
-/// The conditions on which a surface burns.
+/// The conditions under which a surface burns.
 struct AtSurface {
   double pressure = 0;         ///< of the gas at the surface, Pa
   double bodyTemperature = 0;  ///< of the body below its surface, K
   double bodyDensity = 0;      ///< kg/m³
 };
 
-/// A rate by the pressure alone, as Uintah's Simple_Burn has it.
+/// A rate that depends only on the pressure, as in Uintah's Simple_Burn.
 struct SimpleBurn {
   double coefficient = 0;        ///< kg/(m² s) at the reference pressure
   double referencePressure = 0;  ///< Pa
@@ -28,8 +29,8 @@ struct SimpleBurn {
   }
 };
 
-/// The steady deflagration of a solid with a reaction in it and one in the gas close to it: its surface temperature
-/// T_s and its rate m satisfy
+/// The steady deflagration of a solid, with a reaction in the solid and one in the gas close to it: its surface
+/// temperature T_s and its rate m satisfy
 ///
 ///   m² = A R k_c rho T_s² exp(-E / (R T_s)) / (E c (T_s - T_0 - Q_c / (2 c)))
 ///   T_s = T_0 + Q_c / c + Q_g / c / (1 + x m c / k_g),   x = 2 k_g / (c (sqrt(m² + 4 k_g B (W p)² / (c R²)) - m)).
@@ -78,24 +79,62 @@ struct SteadyBurn {
   }
 };
 
-/// `<Model type="Test">` of a body: a part of all that is left of it becomes gas per time, wherever it is.
+/// `<Model type="Test">` of a body: a fraction of the remaining body per time is converted into gas, everywhere.
 struct Decay {
   double perTime = 0;    ///< 1/s
   double startTime = 0;  ///< s
 };
 
-/// A body that turns into a gas.
+/// The time that a flame takes to cross a cell of explosive: a flame spreads along a surface with the speed F_b (p /
+/// p_0)^F_c, and into the body faster, by the factor 1 / I_c. Source: S. F. Son, B. W. Asay, E. M. Whitney & H. L.
+/// Berghout, Proc. Combust. Inst. 31 (2007) 2063; the dependence on the angle is that of Uintah's DDT1.
+struct Induction {
+  double inwards = 1;   ///< I_c, 1
+  double pressure = 0;  ///< p_0, Pa
+  double speed = 0;     ///< F_b, m/s
+  double exponent = 0;  ///< F_c, 1
+
+  /// Of the time along the surface, if the flame comes at an angle with this cosine to the normal: from I_c to 1.
+  double part(double cosine) const {
+    const double along = 1 - 2 * cosine * cosine;  // sin(2 theta - pi/2)
+    return 0.5 * (1 + inwards) + 0.5 * (1 - inwards) * along;
+  }
+  /// The time along a surface, over a width [m] at a pressure [Pa], s.
+  double time(double width, double at) const { return width / (speed * std::pow(at / pressure, exponent)); }
+};
+
+/// The deflagration of Uintah's DDT1, at surfaces and in cracks; a detonation ends the run. Source: J. R. Peterson & C.
+/// A. Wight, Combust. Flame 159 (2012) 2491.
+struct Ddt {
+  SteadyBurn surface;
+  double detonationPressure = 0;  ///< above it the body detonates, Pa
+  bool burnsCracks = false;
+  std::optional<Induction> induction;
+
+  double rate(const AtSurface& at) const { return surface.rate(at); }
+  /// Whether gas of a pressure, Pa, burns in cracks of a radius, m. Source: H. L. Berghout, S. F. Son, C. B. Skidmore,
+  /// D. J. Idar & B. W. Asay, Thermochim. Acta 384 (2002) 261, after Belyaev: p^2.84 w^2 > 8e8.
+  static bool enterCracks(double pressure, double radius) {
+    return pressure > 0 && std::pow(pressure, 2.84) * radius * radius > 8e8;
+  }
+  /// The surface of cracks over the volume of the body, 1/m, as in Uintah: that of plates of 2 mm.
+  static constexpr double surfaceOfCracks = 500;
+};
+
+/// A body that is converted into a gas.
 struct BurnModel {
   Location where;                  ///< in the scene
   std::string from, to;            ///< the materials
   double ignitionTemperature = 0;  ///< K
   double leastPressure = 0;        ///< below it, nothing burns, Pa
   double heat = 0;                 ///< of the reaction, J/kg
-  std::variant<SimpleBurn, SteadyBurn, Decay> law;
+  std::variant<SimpleBurn, SteadyBurn, Decay, Ddt> law;
 
-  /// Whether surfaces burn, rather than the whole.
+  /// Deflagration in cracks, too; null for other models.
+  const Ddt* ddt() const { return std::get_if<Ddt>(&law); }
+  /// Whether surfaces burn, rather than the whole body.
   bool burnsAtSurface() const { return !std::holds_alternative<Decay>(law); }
-  /// Rate of a surface that is alight, kg/(m² s).
+  /// Rate of a burning surface, kg/(m² s).
   double rate(const AtSurface& at) const {
     return std::visit(
         [&](const auto& model) {
@@ -132,5 +171,20 @@ struct SteadyBurnSection : SteadyBurn {
   }
 };
 const input::Schema<SteadyBurnSection>& steadyBurnSchema();
+
+/// `<DDT1>`.
+struct DdtSection : SteadyBurn, Induction {
+  Location where;
+  std::string from, to, burnt;
+  double ignitionTemperature = 0, thresholdPressure = 0, detonationPressure = 0;
+  bool burnsCracks = false, waits = false;
+
+  BurnModel model() const {
+    Ddt law{SteadyBurn(*this), detonationPressure, burnsCracks, {}};
+    if (waits) law.induction = Induction(*this);
+    return {where, from, to, ignitionTemperature, thresholdPressure, solidHeat + gasHeat, law};
+  }
+};
+const input::Schema<DdtSection>& ddtSchema();
 
 }  // namespace tushar::ice

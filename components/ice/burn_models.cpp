@@ -1,5 +1,7 @@
 #include "components/ice/burn_model.hpp"
 
+#include "core/input/refuse.hpp"
+
 // The models of bodies that burn, as they are written.
 
 namespace tushar::ice {
@@ -12,20 +14,50 @@ template <class Section>
 void addMaterials(Schema<Section>& tags) {
   tags.location(&Section::where)
       .required("fromMaterial", &Section::from, "1", "name of the body that burns")
-      .required("toMaterial", &Section::to, "1", "name of the gas that it becomes");
+      .required("toMaterial", &Section::to, "1", "name of the gas into which it is converted");
+}
+
+/// The numbers of a steady deflagration; `pressure` is the tag of the threshold.
+template <class Section>
+void addSteadyBurn(Schema<Section>& tags, const char* pressure) {
+  const auto of = [](double SteadyBurn::*number) -> double Section::* { return number; };
+  tags.required("IdealGasConst", of(&SteadyBurn::gasConstant), "J/(mol K)", "R", input::positive())
+      .required("PreExpCondPh", of(&SteadyBurn::solidFactor), "1/s", "factor of the reaction in the solid",
+                input::positive())
+      .required("ActEnergyCondPh", of(&SteadyBurn::activationEnergy), "J/mol", "its activation energy",
+                input::positive())
+      .required("PreExpGasPh", of(&SteadyBurn::gasFactor), "m^3/(kg s K^2)", "factor of the reaction in the gas",
+                input::positive())
+      .required("CondPhaseHeat", of(&SteadyBurn::solidHeat), "J/kg", "heat of the reaction in the solid",
+                input::nonNegative())
+      .required("GasPhaseHeat", of(&SteadyBurn::gasHeat), "J/kg", "heat of the reaction in the gas",
+                input::nonNegative())
+      .required("HeatConductGasPh", of(&SteadyBurn::gasConductivity), "W/(m K)", "thermal conductivity of the gas",
+                input::positive())
+      .required("HeatConductCondPh", of(&SteadyBurn::solidConductivity), "W/(m K)", "thermal conductivity of the solid",
+                input::positive())
+      .required("SpecificHeatBoth", of(&SteadyBurn::specificHeat), "J/(kg K)", "of solid and gas, for the rate",
+                input::positive())
+      .required("MoleWeightGasPh", of(&SteadyBurn::molarMass), "kg/mol", "molar mass of the gas", input::positive())
+      .required(pressure, &Section::thresholdPressure, "Pa",
+                "a surface burns where the pressure of the gas is higher than this", input::nonNegative())
+      .required("IgnitionTemp", &Section::ignitionTemperature, "K",
+                "and where the gas or a body at it is hotter than this", input::nonNegative())
+      .ignored("BoundaryParticles", "surfaces are where the gas has walls");
 }
 
 }  // namespace
 
 const Schema<SimpleBurnSection>& simpleBurnSchema() {
   static const Schema<SimpleBurnSection> schema = [] {
-    Schema<SimpleBurnSection> tags("Simple_Burn", "The surface of a body burns at a rate that its pressure gives.");
+    Schema<SimpleBurnSection> tags("Simple_Burn",
+                                   "The surface of a body burns at a rate that depends on the pressure.");
     addMaterials(tags);
-    tags.value("Active", &SimpleBurnSection::isActive, true, "1", "whether it burns at all")
+    tags.value("Active", &SimpleBurnSection::isActive, true, "1", "whether the body burns")
         .required("ThresholdTemp", &SimpleBurnSection::thresholdTemperature, "K",
-                  "a surface burns where something beside it is hotter", input::nonNegative())
+                  "a surface burns where the gas or a body at it is hotter than this", input::nonNegative())
         .required("ThresholdPressure", &SimpleBurnSection::thresholdPressure, "Pa",
-                  "and where the gas has more pressure", input::nonNegative())
+                  "and where the pressure of the gas is higher than this", input::nonNegative())
         .required("Enthalpy", &SimpleBurnSection::enthalpy, "J/kg", "heat of the reaction")
         .required("BurnCoeff", &SimpleBurnSection::coefficient, "kg/(m^2 s)", "rate at <refPressure>",
                   input::nonNegative())
@@ -38,34 +70,55 @@ const Schema<SimpleBurnSection>& simpleBurnSchema() {
 
 const Schema<SteadyBurnSection>& steadyBurnSchema() {
   static const Schema<SteadyBurnSection> schema = [] {
-    using Read = SteadyBurnSection;
-    const auto of = [](double SteadyBurn::*number) -> double Read::* { return number; };
-    Schema<Read> tags("Steady_Burn",
-                      "The surface of a body burns as a steady deflagration (Ward, Son & Brewster 1998).");
+    Schema<SteadyBurnSection> tags("Steady_Burn",
+                                   "The surface of a body burns as a steady deflagration (Ward, Son & Brewster 1998).");
     addMaterials(tags);
-    tags.required("IdealGasConst", of(&SteadyBurn::gasConstant), "J/(mol K)", "R", input::positive())
-        .required("PreExpCondPh", of(&SteadyBurn::solidFactor), "1/s", "factor of the reaction in the solid",
-                  input::positive())
-        .required("ActEnergyCondPh", of(&SteadyBurn::activationEnergy), "J/mol", "its activation energy",
-                  input::positive())
-        .required("PreExpGasPh", of(&SteadyBurn::gasFactor), "m^3/(kg s K^2)", "factor of the reaction in the gas",
-                  input::positive())
-        .required("CondPhaseHeat", of(&SteadyBurn::solidHeat), "J/kg", "heat of the reaction in the solid",
-                  input::nonNegative())
-        .required("GasPhaseHeat", of(&SteadyBurn::gasHeat), "J/kg", "heat of that in the gas", input::nonNegative())
-        .required("HeatConductGasPh", of(&SteadyBurn::gasConductivity), "W/(m K)", "thermal conductivity of the gas",
-                  input::positive())
-        .required("HeatConductCondPh", of(&SteadyBurn::solidConductivity), "W/(m K)", "that of the solid",
-                  input::positive())
-        .required("SpecificHeatBoth", of(&SteadyBurn::specificHeat), "J/(kg K)", "of solid and gas, for the rate",
-                  input::positive())
-        .required("MoleWeightGasPh", of(&SteadyBurn::molarMass), "kg/mol", "molar mass of the gas", input::positive())
-        .required("ThresholdPressure", &Read::thresholdPressure, "Pa",
-                  "a surface burns where the gas has more pressure", input::nonNegative())
-        .required("IgnitionTemp", &Read::ignitionTemperature, "K", "and where something beside it is hotter",
-                  input::nonNegative())
-        .ignored("BoundaryParticles", "surfaces are where the gas has walls");
+    addSteadyBurn(tags, "ThresholdPressure");
     return tags;
+  }();
+  return schema;
+}
+
+namespace {
+
+void addInduction(Schema<DdtSection>& tags) {
+  const auto of = [](double Induction::*number) -> double DdtSection::* { return number; };
+  tags.value("useInductionTime", &DdtSection::waits, false, "1",
+             "a cell burns only after the time that a flame takes to cross it")
+      .value("IgnitionConst", of(&Induction::inwards), 1, "1", "that time into the body, over that along a surface",
+             input::nonNegative())
+      .value("PressureShift", of(&Induction::pressure), 1, "Pa", "p_0 in F_b (p / p_0)^F_c, the speed along a surface",
+             input::positive())
+      .value("PreexpoConst", of(&Induction::speed), 1, "m/s", "F_b", input::positive())
+      .value("ExponentialConst", of(&Induction::exponent), 0, "1", "F_c");
+}
+
+void checkDdt(const DdtSection& read, const input::Element& section, input::Diagnostics& diagnostics) {
+  if (!read.burnt.empty() && read.burnt != read.to)
+    diagnostics.error(*section.child("burnMaterial"), "is not available; what burns becomes <toMaterial>");
+  if (read.waits)
+    for (const char* tag : {"IgnitionConst", "PressureShift", "PreexpoConst", "ExponentialConst"})
+      if (!section.child(tag)) diagnostics.error(section, std::string("missing tag <") + tag + "> in <DDT1>");
+}
+
+}  // namespace
+
+const Schema<DdtSection>& ddtSchema() {
+  static const Schema<DdtSection> schema = [] {
+    Schema<DdtSection> tags("DDT1", "A body deflagrates at its surface and in cracks; a detonation ends the run.");
+    addMaterials(tags);
+    tags.value("burnMaterial", &DdtSection::burnt, "", "1", "only <toMaterial>");
+    addSteadyBurn(tags, "ThresholdPressureSB");
+    tags.required("ThresholdPressureJWL", &DdtSection::detonationPressure, "Pa",
+                  "above this pressure the body would detonate, which ends the run", input::positive());
+    for (const char* tag : {"G", "b", "E0"}) tags.ignored(tag, "belongs to the detonation, which ends the run");
+    addInduction(tags);
+    tags.value("useCrackModel", &DdtSection::burnsCracks, false, "1",
+               "gas burns in cracks that its pressure lets it enter: p^2.84 p.crackRad^2 > 8e8");
+    for (const char* tag : {"Gcrack", "nCrack", "CrackVolThreshold", "rho0"})
+      tags.ignored(tag, "Uintah does not use it either");
+    input::noteTag(tags, "adjust_IO_intervals", "outputs and checkpoints keep their intervals");
+    return tags.check(checkDdt);
   }();
   return schema;
 }

@@ -25,9 +25,10 @@ struct WavesSection {
 
 const Schema<WavesSection>& wavesSchema() {
   static const Schema<WavesSection> schema = [] {
-    Schema<WavesSection> tags(wavesTag, "Sides that let waves out, where Pressure and Velocity have var LODI.");
+    Schema<WavesSection> tags(wavesTag,
+                              "Constants for sides that let waves leave, where Pressure and Velocity have var LODI.");
     tags.required("press_infinity", &WavesSection::farPressure, "Pa",
-                  "the pressure far away, towards which that of the gas relaxes", input::positive())
+                  "far-field pressure, towards which the pressure of the gas relaxes", input::positive())
         .value("sigma", &WavesSection::sigma, 0.27, "1",
                "the pressure relaxes at the rate sigma (1 - M^2) c over the grid's length", input::nonNegative())
         .ignored("material", "there is one gas")

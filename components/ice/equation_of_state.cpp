@@ -16,7 +16,8 @@ const Schema<EquationOfState>& idealSchema() {
   static const Schema<EquationOfState> schema = [] {
     Schema<EquationOfState> tags("EOS", "p = (gamma - 1) c_v rho T.");
     tags.foreignAttribute("type", "ideal_gas");
-    for (const char* tag : {"A", "B", "C", "R1", "R2", "om", "rho0"}) tags.ignored(tag, "belongs to JWL and JWLC");
+    for (const char* tag : {"A", "B", "C", "R1", "R2", "om", "rho0"})
+      tags.ignored(tag, "belongs to the types JWL and JWLC");
     tags.ignored("gas_constant", "it is (gamma - 1) c_v");
     return tags;
   }();
@@ -53,7 +54,7 @@ const Schema<euler::ColdCurve>& jwlSchema() {
 }
 const Schema<euler::ColdCurve>& jwlcSchema() {
   static const Schema<euler::ColdCurve> schema = std::move(
-      jwlTags("JWLC", "p = A exp(-R1 rho0 / rho) + B exp(-R2 rho0 / rho) + C (rho / rho0)^(1 + om), whatever T is.")
+      jwlTags("JWLC", "p = A exp(-R1 rho0 / rho) + B exp(-R2 rho0 / rho) + C (rho / rho0)^(1 + om), at any T.")
           .required("C", &euler::ColdCurve::c, "Pa", "factor of the power of rho", input::nonNegative()));
   return schema;
 }

@@ -16,7 +16,7 @@ namespace tushar::ice {
 struct IceSettings {
   euler::Diffusion diffusion;
   Vec3 gravity = Vec3::Zero();  ///< m/s²
-  double soundSpeedKnob = 0;    ///< fraction of the speed of sound that limits implicit steps; 0: none
+  double soundSpeedKnob = 0;    ///< fraction of the speed of sound that limits implicit steps; 0: no limit
   solvers::LinearSettings solver = {};
 };
 
@@ -120,7 +120,7 @@ class GasBefore {
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     return rule && rule->factor[euler::kPressure<D>] != 0;
   }
-  /// Whether a face lies in a side that lets gas out: without a pressure, and without a velocity across it.
+  /// Whether a face lies in a side through which gas leaves: without a pressure, and without a velocity across it.
   bool isOpen(const Index<D>& face, int axis) const { return isFree(face, axis) && !givenVelocity(face, axis); }
   /// rho_f, kg/m³.
   double density(const Index<D>& face, int axis) const { return mean(old_, face, axis, euler::kDensity); }
@@ -188,7 +188,7 @@ class GasBefore {
 template <int D, int K = 1>
 class FaceFlow : public GasBefore<D, K> {
  public:
-  /// Room for boxes no larger than `largest`.
+  /// Space for boxes no larger than `largest`.
   FaceFlow(const Level& level, const euler::Settings& method, const IceSettings& settings,
            const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {}) requires(K == 1)
       : FaceFlow(level, method.gas, method.method, settings, rules, largest, dt, std::move(isFlat)) {}

@@ -31,7 +31,7 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   if (var == nameOf(BoundaryKind::neumann)) {
     if ((number && *number != 0) || (vector && *vector != Vec3::Zero()))
       diagnostics.error(
-          *text, fmt::format("found '{}', expected 0: a Neumann condition continues {} unchanged beyond the grid",
+          *text, fmt::format("found '{}', expected 0: a Neumann condition continues {} unchanged outside the grid",
                              text->text(), label));
     return;
   }
@@ -45,18 +45,18 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   limit(euler::boundary::temperature, "K");
 }
 
-/// Checks the conditions of the gas, which is material `gas` of the scene, and of further gases after it.
+/// Checks the conditions of the gas, which is material `gas` of the scene, and of the gases that follow it.
 void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const int material = materialOf(condition);
     if (material >= gas + gases)
       diagnostics.error(condition.whereOf("id"), condition.path(),
-                        gases == 1 ? fmt::format("there is no material {}: the gas is number {}", material, gas)
-                                   : fmt::format("there is no material {}: the gases are numbers {} to {}", material,
+                        gases == 1 ? fmt::format("there is no material {}: the gas has index {}", material, gas)
+                                   : fmt::format("there is no material {}: the gases have indices {} to {}", material,
                                                  gas, gas + gases - 1));
     if (material >= 0 && material < gas && condition.attribute("label") == euler::boundary::density.name)
       diagnostics.note(condition,
-                       fmt::format("does nothing: material {} is a body; the gas is number {}", material, gas));
+                       fmt::format("does nothing: material {} is a body; the gas has index {}", material, gas));
     const bool isShared = condition.attribute("label") == euler::boundary::pressure.name;
     if (material < 0 || material >= gas || isShared) checkCondition(condition, diagnostics);
   }
@@ -74,7 +74,7 @@ void checkBeside(const Element& condition, bool slips, bool relaxes, Diagnostics
     diagnostics.error(condition, "with var LODI for the Pressure, only a Temperature may be given as well");
 }
 
-/// Reports conditions of faces that contradict one another, or that need another one.
+/// Reports conditions of faces that contradict one another, or that require another condition.
 void checkWords(const Element& root, Diagnostics& diagnostics) {
   const auto group = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   for (const Element& face : group ? group->children("Face") : std::vector<Element>()) {
@@ -96,11 +96,11 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
 
 bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }
 
-/// Sections of implicit steps that do nothing here.
+/// Sections of implicit steps that have no effect in Tushar.
 void noteIdle(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   if (const auto solver = root.child(solverTag))
     diagnostics.note(*solver, isImplicit(ice) ? "does nothing: the settings of the solve are in <ImplicitSolver>"
-                                              : "does nothing: steps are explicit, without a system of equations");
+                                              : "does nothing: explicit steps solve no system of equations");
   if (ice.steps && !isImplicit(ice))
     diagnostics.note(*root.child("CFD")->child("ICE")->child("TimeStepControl"),
                      "does nothing: steps follow from <cfl>, and from the sound speed and the diffusion in each cell");
@@ -123,10 +123,30 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
   return read;
 }
 
-/// Refuses what a gas can have only without bodies.
+/// Why a gas beside bodies takes explicit steps though the scene has an <ImplicitSolver>; empty if it does not.
+std::string whyExplicit(const std::vector<GasMaterial>& materials, const GasScene& scene) {
+  if (!scene.burns.empty()) return "with a body that burns";
+  if (materials.size() > 1) return "with several gases beside bodies";
+  const GasMaterial& gas = materials.front();
+  return gas.state.law(gas.specificHeat) ? "beside bodies in a gas that is neither ideal nor stiffened" : "";
+}
+
+/// Takes the settings of implicit steps, or notes why steps are explicit.
+void takeImplicitSteps(const IceSection& ice, const std::vector<GasMaterial>& materials, const Element& root,
+                       int solids, GasScene& scene, Diagnostics& diagnostics) {
+  if (!isImplicit(ice)) return;
+  const std::string why = solids > 0 ? whyExplicit(materials, scene) : "";
+  if (why.empty())
+    scene.implicit = implicitPressureOf(ice);
+  else
+    diagnostics.note(*root.child("CFD")->child("ICE")->child("ImplicitSolver"),
+                     fmt::format("does nothing: {} steps are explicit, so that sound limits them", why));
+}
+
+/// Refuses features of a gas that are not available with bodies.
 void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
   const Element tag = *root.child("CFD")->child("ICE");
-  const char* sentence = "is not available beside bodies: remove it, or keep only the gas";
+  const char* sentence = "is not available with bodies: remove it, or keep only the gas";
   if (ice.push) diagnostics.error(*tag.child("fixedPressureGradient"), sentence);
 }
 
@@ -163,7 +183,7 @@ Vec3 middleOf(const Element& root) {
   return 0.5 * (corner("upper") - corner("lower"));
 }
 
-/// Takes the velocity and the temperature that <customInitialization> gives the gas at the start.
+/// Applies the velocity and the temperature of <customInitialization> to the initial gas.
 void takeDisturbance(const CustomStart& start, const std::vector<GasMaterial>& materials, const Element& root,
                      euler::Settings& gas, Diagnostics& diagnostics) {
   if (const std::string problem = start.problem(materials.size()); !problem.empty())
@@ -199,7 +219,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   takeModels(models, root, solids, scene, diagnostics);
   scene.gravity = constants.gravity;
   scene.referencePressure = constants.referencePressure;
-  if (isImplicit(cfd.ice)) scene.implicit = implicitPressureOf(cfd.ice);
+  takeImplicitSteps(cfd.ice, materials, root, solids, scene, diagnostics);
   if (cfd.ice.push) scene.push = Vec3(cfd.ice.push->x, cfd.ice.push->y, cfd.ice.push->z);
   if (cfd.ice.heating) scene.heating = heatingOf(*cfd.ice.heating, solids, materials.size(), diagnostics);
   if (cfd.ice.eddies) scene.varying.smagorinsky = cfd.ice.eddies->constant;

@@ -22,12 +22,12 @@ struct Exchange {
   Location where;                ///< in the scene
   std::vector<double> momentum;  ///< kg/(m³ s)
   std::vector<double> heat;      ///< W/(m³ K)
-  bool heatByMasses = false;     ///< by HeatCoefficients::byMasses in place of these
+  bool heatByMasses = false;     ///< HeatCoefficients::byMasses replaces these
 
   HeatCoefficients heatCoefficients() const { return {heatByMasses ? std::vector<double>() : heat, heatByMasses}; }
 };
 
-/// `<Model type="Test">`: one gas becomes another one.
+/// `<Model type="Test">`: one gas is converted into another.
 struct MassExchange {
   Location where;  ///< in the scene
   std::string from, to;
@@ -42,7 +42,7 @@ struct ImplicitPressure {
   solvers::LinearSettings solver;
 };
 
-/// A gas as described by the sections of a scene for Uintah's ICE.
+/// A gas as the sections of a scene for Uintah's ICE describe it.
 struct GasScene {
   Location where;                         ///< place of <CFD> in the scene
   euler::Settings gas;                    ///< the method, the gas and its state at the start
@@ -53,12 +53,12 @@ struct GasScene {
   euler::VaryingDiffusion varying = {};   ///< the viscosity, if it is not the same everywhere
   double viscosity = 0;                   ///< Pa s
   double conductivity = 0;                ///< W/(m K)
-  std::optional<bool> thinWalls = {};     ///< whether bodies thinner than a cell hold back the gas
+  std::optional<bool> thinWalls = {};     ///< whether bodies thinner than a cell block the gas
   std::optional<Exchange> exchange = {};  ///< exchange with other materials
   std::optional<ImplicitPressure> implicit = {};
   Heating heating = {};
-  std::vector<ScalarSettings> scalars = {};  ///< that the gas carries along
-  /// Where there are several gases: each of them, with its state at the start; the gas above is the first.
+  std::vector<ScalarSettings> scalars = {};  ///< scalars that are transported with the gas
+  /// If there are several gases: each of them, with its initial state; the gas above is the first.
   std::vector<euler::Settings> mixture = {};
   std::vector<euler::Diffusion> diffusions = {};  ///< diffusion of each of several gases
   std::vector<MassExchange> massExchanges = {};   ///< between them
@@ -84,7 +84,7 @@ std::vector<simulation::SectionForm> gasForms();
 std::vector<std::string> gasSections();
 /// The variables for which the sides of the grid may have conditions.
 std::vector<grid::BoundaryVariable> gasBoundaryLabels();
-/// The words of their conditions; those that oscillate only where conditions may depend on the time.
+/// The types of their conditions; oscillating ones only if conditions may depend on time.
 simulation::ConditionWords gasConditionWords(bool mayDependOnTime);
 /// The manual of the sections.
 void describeGas(std::ostream& out);

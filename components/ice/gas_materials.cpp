@@ -14,7 +14,8 @@ using input::Element;
 
 namespace {
 
-/// Notes a given pressure that differs from the one that follows; as in Uintah, it is ignored.
+/// Notes a given pressure that differs from the one that follows from density and temperature; as in Uintah, it is
+/// ignored.
 void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
   if (!body.pressure) return;
   if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;
@@ -22,8 +23,9 @@ void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element
   const double density = body.density(Vec3::Zero());
   const double pressure = gas.pressureOf(density, gas.lastAt(density, body.temperature(Vec3::Zero())));
   if (std::abs(given - pressure) > 1e-3 * pressure)
-    diagnostics.note(*element.child("pressure"),
-                     fmt::format("does nothing: density and temperature give {:g} Pa", pressure));
+    diagnostics.note(
+        *element.child("pressure"),
+        fmt::format("does nothing: the pressure follows from density and temperature, and is {:g} Pa", pressure));
 }
 
 /// The Dirichlet condition of a face for the gas, if it has one; the pressure is shared with material 0.
@@ -53,13 +55,16 @@ void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagn
     if (!density || !pressure || !temperature) continue;
     const auto rho = valueOf(*density), p = valueOf(*pressure), t = valueOf(*temperature);
     if (!rho || !p || !t) {
-      diagnostics.error(*temperature, "Density and Pressure already give a temperature; keep two of the three");
+      diagnostics.error(*temperature,
+                        "the temperature already follows from Density and Pressure; keep two of the three");
       continue;
     }
     const double fitting = *p / (gas.gasConstant() * *rho);
     if (std::abs(*t - fitting) <= 1e-3 * fitting) continue;
     if (std::abs(*t - fitting) <= 1e-2 * fitting)  // rounded, or changed a little in one of them
-      diagnostics.note(*temperature, fmt::format("does nothing: Density and Pressure give {:g} K", fitting));
+      diagnostics.note(
+          *temperature,
+          fmt::format("does nothing: the temperature follows from Density and Pressure, and is {:g} K", fitting));
     else
       diagnostics.error(*temperature,
                         fmt::format("found {:g} K, but the Density, at {}, and the Pressure, at {}, give {:g} K; keep "
@@ -68,8 +73,14 @@ void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagn
   }
 }
 
-/// Reads a gas and its state at the start into the settings that it shares with others.
-void readMaterial(const GasMaterial& material, const Element& element, euler::Settings& settings,
+/// Whether a volume fraction is a number, and this one.
+bool isShareOf(const GasBody& body, double share) {
+  return body.share && body.share->isConstant() && (*body.share)(Vec3::Zero()) == share;
+}
+
+/// Reads a gas and its state at the start into the settings that it shares with others. `besideBodies`: a region with
+/// none of a single gas is a body's, and what space it leaves has the gas around it.
+void readMaterial(const GasMaterial& material, const Element& element, bool besideBodies, euler::Settings& settings,
                   Diagnostics& diagnostics) {
   settings.name = material.name;
   if (material.state.hasGamma() && !(material.gamma > 1))
@@ -83,6 +94,7 @@ void readMaterial(const GasMaterial& material, const Element& element, euler::Se
   const auto tags = element.children("geom_object");
   for (std::size_t k = 0; k < material.bodies.size(); ++k) {
     const GasBody& body = material.bodies[k];
+    if (besideBodies && isShareOf(body, 0)) continue;
     settings.objects.push_back({.where = body.where,
                                 .shape = body.shape,
                                 .density = body.density,
@@ -94,12 +106,12 @@ void readMaterial(const GasMaterial& material, const Element& element, euler::Se
   }
 }
 
-/// Checks that a single gas fills its regions.
-void checkShares(const GasMaterial& material, Diagnostics& diagnostics) {
+/// Checks that a single gas fills its regions, or leaves them to bodies.
+void checkShares(const GasMaterial& material, bool besideBodies, Diagnostics& diagnostics) {
   for (const GasBody& body : material.bodies)
-    if (body.share && !(body.share->isConstant() && (*body.share)(Vec3::Zero()) == 1))
+    if (body.share && !isShareOf(body, 1) && !(besideBodies && isShareOf(body, 0)))
       diagnostics.error(body.share->where(), "MaterialProperties/ICE/material/geom_object/volumeFraction",
-                        fmt::format("found '{}', expected 1: the gas fills the region", body.share->text()));
+                        fmt::format("found '{}', expected 1: a single gas fills the region", body.share->text()));
 }
 
 /// The diffusion of a gas, with the eddies of the scene.
@@ -115,8 +127,9 @@ void readOneGas(const GasMaterial& material, const Element& element, GasScene& s
   scene.viscosity = material.viscosity;
   scene.conductivity = material.conductivity;
   scene.varying = varyingOf(material, scene);
-  readMaterial(material, element, scene.gas, diagnostics);
-  checkShares(material, diagnostics);
+  const bool besideBodies = scene.gas.gas.material > 0;  // which are numbered before it
+  readMaterial(material, element, besideBodies, scene.gas, diagnostics);
+  checkShares(material, besideBodies, diagnostics);
   if (scene.implicit && scene.gas.gas.isBarotropic())
     diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
                       "is not available with JWLC or Murnaghan, whose pressure does not depend on the energy: remove "
@@ -130,7 +143,7 @@ void readGases(const std::vector<GasMaterial>& materials, const Element& root, G
     euler::Settings settings = scene.gas;
     settings.where = elements[k].where();
     settings.gas.material += static_cast<int>(k);
-    readMaterial(materials[k], elements[k], settings, diagnostics);
+    readMaterial(materials[k], elements[k], false, settings, diagnostics);
     if (settings.name.empty()) settings.name = fmt::format("gas{}", k);
     scene.mixture.push_back(settings);
     scene.diffusions.push_back({materials[k].viscosity, materials[k].conductivity});
@@ -150,8 +163,8 @@ void readBinary(const GasMaterial& material, const Element& root, GasScene& scen
     diagnostics.error(*element.child("EOS"), "with BinaryProperties the gas is of type ideal_gas");
   euler::Settings common = scene.gas;
   common.where = element.where();
-  readMaterial(material, element, common, diagnostics);
-  checkShares(material, diagnostics);
+  readMaterial(material, element, false, common, diagnostics);
+  checkShares(material, false, diagnostics);
   scene.gas.name = material.name;
   scene.mixture = binary.gases(common);
   scene.diffusions = binary.diffusions();

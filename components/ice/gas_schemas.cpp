@@ -19,9 +19,9 @@ const Schema<AdvectionSection>& advectionSchema() {
           .requiredChoiceAttribute(
               "type", &AdvectionSection::reconstruction,
               {{"FirstOrder", euler::Reconstruction::firstOrder}, {"SecondOrder", euler::Reconstruction::musclHancock}},
-              "constant values in cells, or van Leer's slopes in cells and a half step")
-          .ignoredAttribute("useCompatibleFluxes", "all quantities of a cell are carried with its mass")
-          .ignoredAttribute("compatibleFluxes", "all quantities of a cell are carried with its mass");
+              "constant values in cells, or van Leer's slopes with a half step")
+          .ignoredAttribute("useCompatibleFluxes", "all quantities of a cell are transported with its mass")
+          .ignoredAttribute("compatibleFluxes", "all quantities of a cell are transported with its mass");
   return schema;
 }
 
@@ -33,7 +33,8 @@ const Schema<StepSection>& stepSchema() {
                  "acceleration of the gas",
                  input::between(0, 1))
           .ignored("knob_for_diffusion", "viscosity and conduction are explicit, and always limit the steps")
-          .ignored("Scheme_for_delT_calc", "there is one scheme: dt = cfl over the rate at which cells are crossed");
+          .ignored("Scheme_for_delT_calc",
+                   "there is one scheme: dt is cfl divided by the rate at which cells are crossed");
   return schema;
 }
 
@@ -53,7 +54,7 @@ const Schema<HypreSection>& hypreSchema() {
                  {"sparsemsg", cg},
                  {"hybrid", cg},
                  {"jacobi", cg}},
-                cg, "conjugate gradients or GMRES; any other word: conjugate gradients")
+                cg, "conjugate gradients or GMRES; any other name means conjugate gradients")
         .choice("preconditioner", &HypreSection::preconditioner,
                 {{"none", "none"},
                  {"jacobi", "jacobi"},
@@ -62,7 +63,7 @@ const Schema<HypreSection>& hypreSchema() {
                  {"smg", multigrid},
                  {"sparsemsg", multigrid},
                  {"amg", multigrid}},
-                multigrid, "BoomerAMG of hypre for any of its multigrids, the diagonal, or none")
+                multigrid, "BoomerAMG for any multigrid method of hypre, the diagonal, or none")
         .value("tolerance", &HypreSection::tolerance, 1e-10, "1",
                "largest residual, relative to the right-hand side; at least 1e-12", input::positive())
         .value("maxiterations", &HypreSection::maxIterations, 1000, "1",
@@ -78,7 +79,7 @@ const Schema<HypreSection>& hypreSchema() {
 const Schema<ImplicitSection>& implicitSchema() {
   static const Schema<ImplicitSection> schema = [] {
     Schema<ImplicitSection> tags("ImplicitSolver",
-                                 "Steps that the speed of sound does not limit, as the pressure is implicit.");
+                                 "Steps that the speed of sound does not limit, since the pressure is implicit.");
     tags.location(&ImplicitSection::where)
         .section("Parameters", &ImplicitSection::hypre, hypreSchema(),
                  "the settings of the solve, as in Uintah's scenes")
@@ -87,7 +88,7 @@ const Schema<ImplicitSection>& implicitSchema() {
         .ours();
     for (const char* tag : {"max_outer_iterations", "outer_iteration_tolerance", "iters_before_timestep_restart",
                             "iters_before_timestep_recompute"})
-      tags.ignored(tag, "a step has one solve: mass, momentum and energy are conserved whatever the pressure is");
+      tags.ignored(tag, "a step has one solve: mass, momentum and energy are conserved for any pressure");
     return tags;
   }();
   return schema;
@@ -96,7 +97,7 @@ const Schema<ImplicitSection>& implicitSchema() {
 const Schema<PushSection>& pushSchema() {
   static const Schema<PushSection> schema =
       Schema<PushSection>("fixedPressureGradient",
-                          "A uniform force per volume: the fall of pressure per length along each axis.")
+                          "A uniform force per volume, given as the pressure drop per length along each axis.")
           .value("x_dir", &PushSection::x, 0, "N/m^3", "along x")
           .value("y_dir", &PushSection::y, 0, "N/m^3", "along y")
           .value("z_dir", &PushSection::z, 0, "N/m^3", "along z");
@@ -118,11 +119,11 @@ const Schema<EddiesSection>& eddiesSchema() {
 
 const Schema<HeatingSection>& heatingSchema() {
   static const Schema<HeatingSection> schema =
-      Schema<HeatingSection>("ADD_HEAT", "Heat that gases get, everywhere, for a time.")
+      Schema<HeatingSection>("ADD_HEAT", "Heat that is added to gases everywhere, for some time.")
           .location(&HeatingSection::where)
-          .required("add_heat_matls", &HeatingSection::materials, "1", "numbers of the materials; bodies count first")
+          .required("add_heat_matls", &HeatingSection::materials, "1", "indices of the materials; bodies come first")
           .required("add_heat_coeff", &HeatingSection::perMass, "W/kg", "heat per mass and time of each of them")
-          .required("add_heat_t_start", &HeatingSection::start, "s", "steps from this time on add it")
+          .required("add_heat_t_start", &HeatingSection::start, "s", "time from which the heat is added")
           .required("add_heat_t_final", &HeatingSection::end, "s", "until this time");
   return schema;
 }
@@ -135,15 +136,15 @@ const Schema<IceSection>& iceSchema() {
                "steps are explicit, even if there is an <ImplicitSolver>")
         .ours()
         .optional("thin_walls", &IceSection::thinWalls, "1",
-                  "true: bodies thinner than a cell hold back the gas, too, but oblique walls are rougher; false: "
-                  "bodies thinner than 1.25 cells leak")
+                  "true: even bodies thinner than a cell block the gas, but oblique walls are rougher; false: bodies "
+                  "thinner than 1.25 cells leak")
         .ours()
         .section("ImplicitSolver", &IceSection::implicit, implicitSchema(),
                  "the pressure is implicit, so that the speed of sound does not limit the steps; <explicit> switches "
                  "this off")
         .section("TimeStepControl", &IceSection::steps, stepSchema(), "the steps of an <ImplicitSolver>");
     input::noteTag(tags, "max_iteration_equilibration", "the pressure follows from density and energy");
-    input::noteTag(tags, "ClampSpecificVolume", "the specific volume is that of the density");
+    input::noteTag(tags, "ClampSpecificVolume", "the specific volume follows from the density");
     tags.section("customInitialization", &IceSection::start, customStartSchema(), "the state at the start by formulas");
     tags.section("fixedPressureGradient", &IceSection::push, pushSchema(), "a force that drives a flow")
         .section("turbulence", &IceSection::eddies, eddiesSchema(), "viscosity of eddies smaller than cells")
@@ -162,7 +163,7 @@ void readState(GasMaterial& material, const Element& element, Diagnostics& diagn
 const Schema<GasBody>& bodySchema() {
   static const Schema<GasBody> schema = [] {
     Schema<GasBody> tags("geom_object",
-                         "The gas of a region at the start; where regions overlap, the last one counts.");
+                         "The gas of a region at the start; where regions overlap, the last one applies.");
     input::addShape(tags, &GasBody::where, &GasBody::shape,
                     "the region: cells whose centre is inside; several shapes form their union")
         .required("density", &GasBody::density, "kg/m^3", "density at the start", input::positive(),
@@ -200,10 +201,11 @@ const Schema<GasMaterial>& materialSchema() {
         .value("thermal_conductivity", &GasMaterial::conductivity, 0, "W/(m K)", "thermal conductivity",
                input::nonNegative())
         .list("geom_object", &GasMaterial::bodies, bodySchema(),
-              "the gas of a region at the start; where regions overlap, the last one counts; they must cover the grid",
+              "the gas of a region at the start; where regions overlap, the last one applies; regions must cover the "
+              "grid",
               1)
-        .ignored("isSurroundingMatl", "nothing depends on it")
-        .ignored("tiny_rho", "nothing depends on it");
+        .ignored("isSurroundingMatl", "it has no effect")
+        .ignored("tiny_rho", "it has no effect");
     input::refuseSwitch(tags, "includeFlowWork", "the total energy is conserved, including all work");
     input::refuseTag(tags, "SpecificHeatModel", "c_v is the <specific_heat> at all temperatures");
     tags.custom(
@@ -212,7 +214,7 @@ const Schema<GasMaterial>& materialSchema() {
               readViscosityModels(material.varying, element, diagnostics);
             },
             {"dynamicViscosityModels"},
-            "viscosities instead of <dynamic_viscosity>; if several apply, the last one counts",
+            "viscosities instead of <dynamic_viscosity>; if several apply, the last one is used",
             describeViscosityModels)
         .forms({{.tags = {"dynamicViscosityModels"}, .repeats = false}});
     return tags;
@@ -235,10 +237,30 @@ const Schema<CoefficientSection>& coefficientModelSchema() {
     Schema<CoefficientSection> tags("CoefficientModel", "Exchange coefficients that vary.");
     tags.choice("heat", &CoefficientSection::heat, {{"constant", "constant"}, {"linearVariation", "linearVariation"}},
                 "constant",
-                "the numbers of <exchange_coefficients>, or r^2 or 1/r^2, whichever is above 1, r the ratio of the "
-                "masses of both in the cell, from 1e5 to 1e12");
+                "the numbers of <exchange_coefficients>, or the larger of r^2 and 1/r^2, where r is the ratio of both "
+                "masses in the cell, limited to 1e5 to 1e12");
     input::refuseTag(tags, "momentum", "bodies are walls to the gas, and gases share one velocity");
     return tags;
+  }();
+  return schema;
+}
+
+const Schema<ExchangeModelSection>& exchangeModelSchema() {
+  static const Schema<ExchangeModelSection> schema = [] {
+    Schema<ExchangeModelSection> tags("Model", "How bodies and gases exchange momentum and heat.");
+    tags.requiredChoiceAttribute("type", &ExchangeModelSection::type, {{"scalar", "scalar"}, {"slip", "slip"}},
+                                 "by <exchange_coefficients>; slip: likewise, as <useSlipCoeffs> must be false")
+        .value("useSlipCoeffs", &ExchangeModelSection::slips, true, "1",
+               "for slip: false; coefficients from the mean free path of a gas are not available");
+    for (const char* tag :
+         {"fluidMatlIndex", "solidMatlIndex", "momentum_accommodation_coeff", "thermal_accommodation_coeff"})
+      tags.ignored(tag, "belongs to useSlipCoeffs");
+    return tags.check([](const ExchangeModelSection& read, const Element& model, Diagnostics& diagnostics) {
+      if (read.type == "slip" && read.slips)
+        diagnostics.error(model.child("useSlipCoeffs").value_or(model),
+                          "slip by the mean free path is not available: viscous gas sticks to walls; set "
+                          "<useSlipCoeffs> to false, or remove the model");
+    });
   }();
   return schema;
 }
@@ -250,8 +272,9 @@ const Schema<ExchangeSection>& exchangeSchema() {
     input::refuseSwitch(tags, "do_convective_heat_transfer", "walls are adiabatic");
     for (const char* tag : {"convective_fluid", "convective_solid"})
       tags.ignored(tag, "belongs to do_convective_heat_transfer");
-    tags.section("CoefficientModel", &ExchangeSection::model, coefficientModelSchema(), "what coefficients depend on");
-    input::refuseTag(tags, "Model", "bodies are walls to the gas");
+    tags.section("CoefficientModel", &ExchangeSection::model, coefficientModelSchema(),
+                 "what the coefficients depend on");
+    tags.section("Model", &ExchangeSection::exchangeModel, exchangeModelSchema(), "how materials exchange momentum");
     return tags;
   }();
   return schema;
@@ -281,7 +304,7 @@ const Schema<PropertiesSection>& propertiesSchema() {
       Schema<PropertiesSection>("MaterialProperties", "The materials of the scene.")
           .requiredSection("ICE", &PropertiesSection::ice, list)
           .section("exchange_properties", &PropertiesSection::exchange, exchangeSchema())
-          .ignored("MPM", "the solids of a scene that has them");
+          .ignored("MPM", "the solids, if there are any");
   return schema;
 }
 

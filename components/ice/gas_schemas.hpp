@@ -108,9 +108,16 @@ struct CoefficientSection {
   std::string heat = "constant";
 };
 
+/// `MaterialProperties/exchange_properties/Model`.
+struct ExchangeModelSection {
+  std::string type;
+  bool slips = true;  ///< coefficients follow from the mean free path of a gas
+};
+
 struct ExchangeSection {
   Exchange coefficients;
   std::optional<CoefficientSection> model;
+  std::optional<ExchangeModelSection> exchangeModel;
 };
 
 /// `MaterialProperties`.

@@ -5,8 +5,8 @@
 
 namespace tushar::ice {
 
-/// Coefficients of the exchange of heat between the materials of a cell, W/(m³ K): a number for each pair, row by row,
-/// or by the masses of both there.
+/// Coefficients of the heat exchange between the materials of a cell, W/(m³ K): a number for each pair, row by row, or
+/// computed from the masses of both in the cell.
 struct HeatCoefficients {
   std::vector<double> pairs;
   bool byMasses = false;
@@ -14,8 +14,8 @@ struct HeatCoefficients {
   bool act() const {
     return byMasses || std::any_of(pairs.begin(), pairs.end(), [](double h) { return h > 0; });
   }
-  /// That of a pair whose masses are given per volume of the cell [kg/m³]. By masses it is r² or 1/r², r their ratio,
-  /// from 1e5 to 1e12: Uintah's `linearVariation`.
+  /// The coefficient of a pair with these masses per volume of the cell [kg/m³]. By masses it is r² or 1/r², r their
+  /// ratio, from 1e5 to 1e12: Uintah's `linearVariation`.
   double of(std::size_t pair, double massA, double massB) const {
     if (!byMasses) return pairs.empty() ? 0 : pairs[pair];
     const double ratio = massA > massB ? massA / massB : massB / massA;

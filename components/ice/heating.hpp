@@ -8,7 +8,7 @@
 
 namespace tushar::ice {
 
-/// `CFD/ICE/ADD_HEAT`: gases get heat while it lasts.
+/// `CFD/ICE/ADD_HEAT`: gases are heated for some time.
 struct Heating {
   Location where;               ///< in the scene
   std::vector<double> perMass;  ///< of each gas, W/kg
@@ -17,7 +17,7 @@ struct Heating {
   bool acts() const {
     return std::any_of(perMass.begin(), perMass.end(), [](double rate) { return rate != 0; });
   }
-  /// The heat per mass that a gas gets in a step [J/kg]; none if the step starts when there is none.
+  /// The heat per mass that is added to a gas in a step [J/kg]; 0 if the step starts outside the heating period.
   double inStep(std::size_t gas, double time, double dt) const {
     return time >= start && time <= end ? perMass[gas] * dt : 0;
   }

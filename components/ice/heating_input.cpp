@@ -8,8 +8,8 @@ Heating heatingOf(const HeatingSection& read, int solids, std::size_t gases, inp
   Heating heating{read.where, std::vector<double>(gases), read.start, read.end};
   const auto refuse = [&](const std::string& sentence) { diagnostics.error(read.where, "CFD/ICE/ADD_HEAT", sentence); };
   if (read.materials.size() != read.perMass.size())
-    refuse(fmt::format("found {} numbers of materials and {} coefficients, expected as many", read.materials.size(),
-                       read.perMass.size()));
+    refuse(fmt::format("found {} materials and {} coefficients, expected one coefficient for each material",
+                       read.materials.size(), read.perMass.size()));
   else if (read.materials.empty())
     refuse("found no materials, expected at least one");
   if (read.end < read.start)
@@ -19,8 +19,8 @@ Heating heatingOf(const HeatingSection& read, int solids, std::size_t gases, inp
   for (std::size_t k = 0; k < std::min(read.materials.size(), read.perMass.size()); ++k) {
     const int number = read.materials[k], gas = number - solids;
     if (gas < 0 || gas >= static_cast<int>(gases)) {
-      refuse(fmt::format("material {} is not available: heat is for gases, whose numbers are {} to {}", number, solids,
-                         solids + static_cast<int>(gases) - 1));
+      refuse(fmt::format("material {} is not available: only gases can be heated, which have indices {} to {}", number,
+                         solids, solids + static_cast<int>(gases) - 1));
       continue;
     }
     if (isGiven[gas]) refuse(fmt::format("material {} is given twice", number));

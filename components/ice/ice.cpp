@@ -169,7 +169,7 @@ template class Ice<3>;
 
 namespace {
 
-/// The tasks of several gases reach farther than those of one.
+/// The tasks of several gases need more ghosts than those of one.
 int cellsOfBlocks(const input::Element& root) {
   const auto properties = root.child("MaterialProperties");
   const auto gases = properties ? properties->child("ICE") : std::nullopt;
@@ -186,7 +186,7 @@ int cellsOfBlocks(const input::Element& root) {
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind;
   kind.name = "ice";
-  kind.sentence = "a compressible gas with the input of Uintah's ICE, by the method of euler";
+  kind.sentence = "a compressible gas with the input of Uintah's ICE and the method of euler";
   kind.sections = gasSections();
   kind.takesLevels = true;
   kind.takesPartsOfSides = true;

@@ -49,7 +49,7 @@ class Ice : public euler::Euler<D> {
 
  private:
   CarriedScalars scalars_;
-  IceSettings acting_;  ///< contains uniform diffusion only; none if it varies
+  IceSettings acting_;  ///< contains only uniform diffusion; none if it varies
   euler::VaryingDiffusion varying_;
   Vec3 push_;  ///< N/m³
   Heating heating_;

@@ -7,7 +7,7 @@
 #include "components/ice/gas_schemas.hpp"
 #include "core/input/refuse.hpp"
 
-// The section Models: scalars that the gas carries along.
+// The section Models: scalars scalars that are transported with the gas.
 
 namespace tushar::ice {
 
@@ -18,19 +18,19 @@ using input::Schema;
 namespace {
 
 /// The attribute `type` of a <Model>.
-const std::vector<std::string> modelTypes{"PassiveScalar", "Test",      "Simple_Burn",
-                                          "Steady_Burn",   "LightTime", "BinaryProperties"};
+const std::vector<std::string> modelTypes{"PassiveScalar", "Test",      "Simple_Burn",     "Steady_Burn",
+                                          "DDT1",          "LightTime", "BinaryProperties"};
 
 const Schema<ScalarRegion>& startSchema() {
   static const Schema<ScalarRegion> schema = [] {
-    Schema<ScalarRegion> tags("geom_object", "A region at the start; where regions overlap, the last one counts.");
+    Schema<ScalarRegion> tags("geom_object", "A region at the start; where regions overlap, the last one applies.");
     input::addShape(tags, &ScalarRegion::where, &ScalarRegion::shape,
                     "the region: cells whose centre is inside; several shapes form their union")
         .required("scalar", &ScalarRegion::value, "1", "value of the scalar in the region", input::WithoutTime())
         .value("sinusoidalInitialize", &ScalarRegion::isSine, false, "1",
                "instead of <scalar>, the sum over axes of sin(2 pi freq d), where d goes from 0 to 1 across the region")
         .value("freq", &ScalarRegion::waves, Vec3::Zero(), "1", "number of waves along each axis")
-        .value("linearInitialize", &ScalarRegion::isLinear, false, "1", "adds slope . d, with the same d")
+        .value("linearInitialize", &ScalarRegion::isLinear, false, "1", "adds slope · d, with the same d")
         .value("slope", &ScalarRegion::slope, Vec3::Zero(), "1", "rise across the region along each axis")
         .ignored("coeff", "belongs to profiles that a formula can describe")
         .ignoredAttribute("name", "a note for readers");
@@ -44,7 +44,7 @@ const Schema<ScalarRegion>& startSchema() {
 
 const Schema<ScalarRegion>& interiorSchema() {
   static const Schema<ScalarRegion> schema = [] {
-    Schema<ScalarRegion> tags("geom_object", "A region in which a scalar rises in each step.");
+    Schema<ScalarRegion> tags("geom_object", "A region in which a scalar increases in each step.");
     input::addShape(tags, &ScalarRegion::where, &ScalarRegion::shape, "the region: cells whose centre is inside")
         .required("scalar", &ScalarRegion::value, "1", "increase in each step", input::WithoutTime())
         .value("maxScalar", &ScalarRegion::most, std::numeric_limits<double>::max(), "1",
@@ -85,12 +85,12 @@ const Schema<ScalarSection>& scalarSchema() {
   static const Schema<RegionList> start =
       Schema<RegionList>("initialization", "The scalar at the start.")
           .list("geom_object", &RegionList::list, startSchema(),
-                "a region; where regions overlap, the last one counts; they must cover the grid", 1);
+                "a region; where regions overlap, the last one applies; regions must cover the grid", 1);
   static const Schema<RegionList> interior =
-      Schema<RegionList>("interiorSources", "Regions in which the scalar rises.")
+      Schema<RegionList>("interiorSources", "Regions in which the scalar increases.")
           .list("geom_object", &RegionList::list, interiorSchema(), "a region", 1);
   static const Schema<ScalarSection> schema = [] {
-    Schema<ScalarSection> tags("scalar", "A number per mass that the gas carries along.");
+    Schema<ScalarSection> tags("scalar", "A quantity per mass that is transported with the gas.");
     tags.location(&ScalarSection::where)
         .requiredAttribute("name", &ScalarSection::name, "1", "it is saved as scalar-NAME and totalSum_scalar-NAME")
         .section("constants", &ScalarSection::constants, constants)
@@ -106,7 +106,7 @@ const Schema<ScalarSection>& scalarSchema() {
 
 const Schema<PassiveScalarSection>& passiveScalarSchema() {
   static const Schema<PassiveScalarSection> schema =
-      Schema<PassiveScalarSection>("PassiveScalar", "A number per mass that the gas carries along.")
+      Schema<PassiveScalarSection>("PassiveScalar", "A quantity per mass that is transported with the gas.")
           .requiredSection("scalar", &PassiveScalarSection::scalar, scalarSchema())
           .ignored("material", "there is one gas");
   return schema;
@@ -114,19 +114,21 @@ const Schema<PassiveScalarSection>& passiveScalarSchema() {
 
 const Schema<MassExchange>& massExchangeSchema() {
   static const Schema<MassExchange> schema =
-      Schema<MassExchange>("Test", "One material becomes another one.")
+      Schema<MassExchange>("Test", "One material is converted into another one.")
           .location(&MassExchange::where)
+          .foreignAttribute("type", "Test")
           .required("fromMaterial", &MassExchange::from, "1", "the gas or the body that is converted")
-          .required("toMaterial", &MassExchange::to, "1", "the gas that it becomes")
+          .required("toMaterial", &MassExchange::to, "1", "the gas into which it is converted")
           .required("rate", &MassExchange::rate, "1/s", "fraction that is converted per time", input::nonNegative())
           .value("startTime", &MassExchange::startTime, 0, "s", "time at which the conversion begins");
   return schema;
 }
 
+/// Older scenes give the numbers without a <Test> around them.
 void readExchange(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
   const auto given = model.child("Test");
-  if (!given) return diagnostics.error(model, "missing tag <Test> in <Model>");
-  models.massExchanges.push_back(massExchangeSchema().read(*given, diagnostics));
+  if (!given && !model.child("fromMaterial")) return diagnostics.error(model, "missing tag <Test> in <Model>");
+  models.massExchanges.push_back(massExchangeSchema().read(given.value_or(model), diagnostics));
 }
 
 /// Reads a body that burns from the tag with the name of the model.
@@ -162,9 +164,10 @@ void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnos
   if (type == "BinaryProperties") return readBinary(model, models, diagnostics);
   if (type == simpleBurnSchema().name()) return readBurning(model, simpleBurnSchema(), models, diagnostics);
   if (type == steadyBurnSchema().name()) return readBurning(model, steadyBurnSchema(), models, diagnostics);
+  if (type == ddtSchema().name()) return readBurning(model, ddtSchema(), models, diagnostics);
   if (type != "PassiveScalar")
-    return diagnostics.error(model, fmt::format("the type '{}' is not available, but {} are; remove the model", type,
-                                                input::listed(modelTypes)));
+    return diagnostics.error(model, fmt::format("the type '{}' is not available; available are {}; remove the model",
+                                                type, input::listed(modelTypes)));
   const auto given = model.child("PassiveScalar");
   if (!given) return diagnostics.error(model, "missing tag <PassiveScalar> in <Model>");
   const std::size_t before = diagnostics.size();
@@ -194,22 +197,23 @@ double ScalarRegion::at(const Vec3& point) const {
 
 const Schema<ModelsSection>& modelsSchema() {
   static const Schema<ModelsSection> schema =
-      Schema<ModelsSection>("Models", "Quantities that the gas carries along.")
+      Schema<ModelsSection>("Models", "Quantities that are transported with the gas.")
           .custom(
               "Model",
               [](ModelsSection& models, const Element& section, Diagnostics& diagnostics) {
                 for (const Element& model : section.children("Model")) readModel(model, models, diagnostics);
               },
               {"Model"},
-              "type=\"PassiveScalar\": a number per mass that the gas carries along; type=\"Test\": one material "
-              "becomes another one; type=\"Simple_Burn\", type=\"Steady_Burn\": a body burns; "
-              "type=\"LightTime\": a gas burns by a program; type=\"BinaryProperties\": the gas is two gases at one "
-              "temperature",
+              "type=\"PassiveScalar\": a quantity per mass that is transported with the gas; type=\"Test\": one "
+              "material is converted into another one; type=\"Simple_Burn\", type=\"Steady_Burn\", type=\"DDT1\": a "
+              "body burns; type=\"LightTime\": a gas detonates at given times; type=\"BinaryProperties\": the gas "
+              "consists of two gases at one temperature",
               [](std::ostream& out, int indent) {
                 passiveScalarSchema().describe(out, indent);
                 massExchangeSchema().describe(out, indent);
                 simpleBurnSchema().describe(out, indent);
                 steadyBurnSchema().describe(out, indent);
+                ddtSchema().describe(out, indent);
                 programmedBurnSchema().describe(out, indent);
                 describeBinaryProperties(out, indent);
               })

@@ -11,7 +11,7 @@
 
 namespace tushar::ice {
 
-/// A region of a scalar: where it starts, or where it rises.
+/// A region of a scalar, with its initial value or its increase.
 struct ScalarRegion {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
@@ -25,13 +25,13 @@ struct ScalarRegion {
   double at(const Vec3& point) const;
 };
 
-/// `<Model type="PassiveScalar">`: a number per mass that the gas carries along.
+/// `<Model type="PassiveScalar">`: a quantity per mass that is transported with the gas.
 struct ScalarSettings {
   Location where;  ///< in the scene
   std::string name;
   double diffusivity = 0;              ///< m²/s
-  std::vector<ScalarRegion> start;     ///< where they overlap, the last one counts
-  std::vector<ScalarRegion> interior;  ///< sources: regions where it rises in each step
+  std::vector<ScalarRegion> start;     ///< where they overlap, the last one applies
+  std::vector<ScalarRegion> interior;  ///< sources: regions where it increases in each step
 };
 
 /// A scalar and the names of its variables, whose addresses must not change while tasks refer to them.
@@ -57,7 +57,7 @@ class CarriedScalar {
   ScalarSettings settings_;
   std::array<std::string, 4> words_;
   BoundaryLabel<double> atSides_{words_[0]};
-  CellLabel<double> value_{words_[1], "1", "a number per mass that the gas carries along"};
+  CellLabel<double> value_{words_[1], "1", "a quantity per mass that is transported with the gas"};
   CellLabel<double> held_{words_[2], "kg/m^3", "the scalar times density"};
   ReductionLabel<Sum> total_{words_[3], "kg", "amount of the scalar in all cells"};
 };

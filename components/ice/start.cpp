@@ -89,7 +89,8 @@ void setTaylorGreen(double angle, const Vec3& x, Vec3& velocity) {
 
 std::string CustomStart::problem(std::size_t gases) const {
   const int flows = (vortices ? 1 : 0) + (counterflow ? 1 : 0) + (manufactured ? 1 : 0);
-  if (flows > 1) return "give one of vortices, counterflow and manufacturedSolution: each has a velocity of its own";
+  if (flows > 1)
+    return "give only one of vortices, counterflow and manufacturedSolution, since each defines the velocity";
   if (gases > 1 && manufactured && manufactured->type == windOfVortices)
     return "manufacturedSolution mms_1 is not available with several gases: its temperature is that of one gas";
   return "";

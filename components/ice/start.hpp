@@ -36,9 +36,9 @@ struct Counterflow {
   double strainRate = 0;  ///< a, 1/s
 };
 
-/// `<manufacturedSolution>`: mms_1 is a row of vortices in a wind of 1 m/s along x and y, of amplitude A, with the
-/// pressure p_0 - A²/4 (cos 2x + cos 2y), p_0 = 101325 Pa; mms_3 the start of Taylor's and Green's
-/// vortex, of an angle (M. E. Brachet & al., J. Fluid Mech. 130 (1983) 411).
+/// `<manufacturedSolution>`: mms_1 is a row of vortices of amplitude A in a wind of 1 m/s along x and y, with the
+/// pressure p_0 - A²/4 (cos 2x + cos 2y), p_0 = 101325 Pa; mms_3 the start of Taylor's and Green's vortex, of an angle
+/// (M. E. Brachet & al., J. Fluid Mech. 130 (1983) 411).
 struct Manufactured {
   std::string type;
   double amplitude = 1;  ///< A, m/s

@@ -66,7 +66,7 @@ void readOne(euler::VaryingDiffusion& varying, const Element& model, Diagnostics
 void readViscosityModels(euler::VaryingDiffusion& varying, const Element& material, Diagnostics& diagnostics) {
   const auto models = material.child("dynamicViscosityModels");
   if (!models) return;
-  if (models->children().empty()) diagnostics.error(*models, "is empty: it takes at least one Model");
+  if (models->children().empty()) diagnostics.error(*models, "is empty: it needs at least one Model");
   for (const Element& model : models->children())
     if (model.name() == "Model")
       readOne(varying, model, diagnostics);

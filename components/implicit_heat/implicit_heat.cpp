@@ -28,7 +28,7 @@ void ImplicitHeat<D>::scheduleDiagnostics(TaskList& tasks) const {
 
 namespace {
 
-/// Extrapolates T from theta dt, in `newTemperature`, to dt.
+/// Extrapolates T to the time dt from that at theta dt, which `newTemperature` contains.
 template <int D>
 void extrapolate(const RankPatches& patches, double theta, const std::vector<CellView<const double>>& temperature,
                  const std::vector<CellView<double>>& newTemperature) {
@@ -91,7 +91,7 @@ const input::Schema<Settings>& schema() {
 
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind =
-      simulation::kindWithSection<ImplicitHeat>("implicit_heat", "heat conduction, implicit: stable with any step",
+      simulation::kindWithSection<ImplicitHeat>("implicit_heat", "heat conduction, implicit: stable with any time step",
                                                 schema(), {boundary::temperature, grid::symmetric});
   kind.takesLevels = true;
   kind.amrSections = {"Heat"};

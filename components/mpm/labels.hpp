@@ -14,7 +14,7 @@ inline constexpr ParticleLabel<Vec<D>> x{"p.x", "m", "position"};
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> velocity{"p.velocity", "m/s", "velocity"};
 inline constexpr ParticleLabel<double> mass{"p.mass", "kg", "mass"};
-inline constexpr ParticleLabel<double> volume{"p.volume", "m^3", "volume, mass over density"};
+inline constexpr ParticleLabel<double> volume{"p.volume", "m^3", "volume: mass divided by density"};
 }  // namespace p
 
 /// Node variables.
@@ -23,10 +23,10 @@ inline constexpr NodeLabel<double> mass{"g.mass", "kg", "mass gathered from part
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocity{"g.velocity", "m/s", "velocity before the step"};
 template <int D>
-inline constexpr NodeLabel<Vec<D>> internalForce{"g.internalforce", "N", "force of the stresses around the node"};
+inline constexpr NodeLabel<Vec<D>> internalForce{"g.internalforce", "N", "force due to the stresses around the node"};
 template <int D>
-inline constexpr NodeLabel<Vec<D>> acceleration{"g.acceleration", "m/s^2",
-                                                "acceleration by the stresses alone: internal force over mass"};
+inline constexpr NodeLabel<Vec<D>> acceleration{
+    "g.acceleration", "m/s^2", "acceleration due to the stresses alone: internal force divided by mass"};
 }  // namespace g
 
 /// Totals over all particles.

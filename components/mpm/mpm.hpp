@@ -18,7 +18,7 @@ struct MethodKind {
   std::function<int(const input::Element& root)> nodesBeyond = {};
 };
 
-/// To be called by the module of a method when it is loaded.
+/// Must be called by the module of a method when it is loaded.
 void define(Method method, MethodKind kind);
 
 /// All methods as one component.

@@ -15,16 +15,16 @@ inline double openShare(double coverage, double below, double above, bool thinWa
   return std::max(0.0, std::min(1 - coverage, most));
 }
 
-/// The two faces of a cell across an axis: their open area, and their common open and walled fractions.
+/// The two faces of a cell across an axis, as fractions of their area.
 struct OpenFaces {
   std::array<double, 2> open{};
-  double area = 0;  ///< 0 if the cell has no gas
+  double area = 0;  ///< open and wall together, the same for both; 0 if the cell has no gas
 
   double wall(int side) const { return area - open[side]; }
 };
 
-/// The degree to which the walls of a cell face the same way: 1 for one plane wall, 0 for two walls that face each
-/// other.
+/// The degree to which the walls of a cell face in the same direction: 1 for one plane wall, 0 for two walls that face
+/// each other.
 template <int D>
 double facingOneWay(const Level& level, const std::array<OpenFaces, D>& faces) {
   double open = 0, all = 0;
@@ -35,6 +35,14 @@ double facingOneWay(const Level& level, const std::array<OpenFaces, D>& faces) {
     all += walls * walls;
   }
   return all > 0 ? std::min(1.0, std::sqrt(open / all)) : 0;
+}
+
+/// The cell itself or, beyond the grid, the nearest on it.
+template <int D>
+Index<D> nearestOnGrid(const Level& level, Index<D> cell) {
+  for (int d = 0; d < D; ++d)
+    if (!level.isPeriodic(d)) cell[d] = std::clamp(cell[d], level.cells().lower[d], level.cells().upper[d] - 1);
+  return cell;
 }
 
 /// The space for the gas: free volumes of cells, and open fractions of faces, which bodies do not cover.
@@ -54,14 +62,10 @@ class FreeSpace {
     return side == 0 ? cell[axis] == level_->cells().lower[axis] : cell[axis] == level_->cells().upper[axis] - 1;
   }
 
-  /// The cell, or the one on the grid that is nearest to it.
-  Index<D> onGrid(Index<D> cell) const {
-    for (int d = 0; d < D; ++d)
-      if (!level_->isPeriodic(d)) cell[d] = std::clamp(cell[d], level_->cells().lower[d], level_->cells().upper[d] - 1);
-    return cell;
-  }
+  /// The cell itself or, beyond the grid, the nearest on it.
+  Index<D> onGrid(const Index<D>& cell) const { return nearestOnGrid(*level_, cell); }
 
-  /// Open share of a face.
+  /// Open fraction of a face.
   double aperture(const Index<D>& cell, int axis, int side) const {
     if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : roomOf(cells_.free[cell]);
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);

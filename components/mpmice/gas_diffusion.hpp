@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// rho, T, v and c of the gas of a cell, which must hold some, and how it diffuses there, without eddies.
+/// rho, T, v and c of the gas of a cell, which must contain some, and its diffusion coefficients, without eddies.
 template <int D>
 euler::DiffusingCell<D> diffusingAt(const Level& level, const Settings& settings, const GasInCells<D>& cells,
                                     const Index<D>& cell) {

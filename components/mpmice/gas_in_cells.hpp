@@ -10,8 +10,8 @@
 
 namespace tushar::mpmice {
 
-/// The contents of gas per volume of the gas itself: rho, rho v, E, and of each of several gases the mass and the
-/// share.
+/// The contents of gas per volume of the gas itself: rho, rho v, E, and, for several gases, the mass and the volume
+/// fraction of each.
 template <int D>
 struct Parcel {
   euler::State<D> u{};
@@ -44,20 +44,20 @@ auto viewsOfGases(Take& take, std::size_t gases, Access&& access) {
   return views;
 }
 
-/// The gas in the free part of cells: what it holds, per volume of the cell, and how much room it has. Of several gases
-/// the masses are per volume of the cell, too; shares are those of the gas's volume.
+/// The gas in the free part of cells: its content, per volume of the cell, and the free volume. Of several gases the
+/// masses are per volume of the cell, too; shares are those of the gas's volume.
 template <int D>
 struct GasInCells {
   euler::MixtureViews<D, const double> held;
   CellView<const double> free;
   CellView<const Vec<D>> coverage;
 
-  /// How far beyond a patch: the state, where gas is, and how much room it has.
+  /// Numbers of ghost layers for the state, for the presence of gas, and for the free volume.
   struct Reach {
     int state = 0, mass = 0, room = 0;
     std::size_t gases = 0;  ///< of several
   };
-  /// `reads` makes accesses of the state at the start of a step, or as the step has it.
+  /// `reads` makes accesses to the state at the start of a step, or as computed in the step.
   static GasInCells from(auto& take, auto reads, const Reach& ghost) {
     const auto ofEach = [&](const auto& labels) {
       return viewsOfGases(take, ghost.gases, [&](std::size_t k) { return reads(labels[k], ghost.state); });
@@ -81,7 +81,7 @@ struct GasInCells {
     u[euler::kPressure<D>] = held.totalEnergy[cell] * inverse;
     return u;
   }
-  /// The same with what each of several gases holds.
+  /// The same with the content of each of several gases.
   Parcel<D> parcel(const Index<D>& cell) const {
     Parcel<D> parcel{conserved(cell)};
     for (std::size_t k = 0; k < held.shares.size(); ++k) {
@@ -90,7 +90,7 @@ struct GasInCells {
     }
     return parcel;
   }
-  /// What a cell holds, whether it has room or not, times a factor.
+  /// The content of a cell, even without free volume, times a factor.
   Parcel<D> contentOf(const Index<D>& cell, double factor) const {
     Parcel<D> parcel;
     parcel.u[euler::kDensity] = factor * held.density[cell];
@@ -102,7 +102,7 @@ struct GasInCells {
     }
     return parcel;
   }
-  /// rho, v, p of the gas alone, and of K gases the mass and the share of each.
+  /// rho, v, p of the gas itself and, for K gases, the mass and the volume fraction of each.
   template <class G>
   euler::State<D, euler::kGases<G>> primitive(const G& gas, const Index<D>& cell) const {
     if constexpr (constexpr int K = euler::kGases<G>; K == 1) {
@@ -126,11 +126,10 @@ template <int D>
 [[noreturn]] void refuseGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, double free,
                             double density, double last) {
   const Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
-  throw NumericalError(
-      fmt::format("the gas beside a body became unphysical: {:.6g} kg/m^3 and {:.6g} Pa in the free {:.3g} of the cell "
-                  "at ({:g}, {:g}, {:g}) m",
-                  density, gas.pressureOf(density, last), free, at[0], at[1], at[2]),
-      "", "c.density", level.cellNumber<D>(cell));
+  throw NumericalError(fmt::format("the gas next to a body became unphysical: {:.6g} kg/m^3 and {:.6g} Pa in the free "
+                                   "fraction {:.3g} of the cell at ({:g}, {:g}, {:g}) m",
+                                   density, gas.pressureOf(density, last), free, at[0], at[1], at[2]),
+                       "", "c.density", level.cellNumber<D>(cell));
 }
 
 inline constexpr auto readsOld = [](const auto& label, int ghost) { return requiresOld(label, ghost); };

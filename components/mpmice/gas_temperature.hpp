@@ -11,8 +11,8 @@ inline double temperatureOf(const euler::Gas& gas, double density, double last) 
   return (last + gas.pInfinity) / (gas.gasConstant() * density);
 }
 
-/// The temperature, K, of what gas a cell holds; it must hold some. That of several gases is the same for all:
-/// rho e = sum of m_k c_v,k T + z_k p_inf,k.
+/// The temperature, K, of the gas in a cell, which must contain some. That of several gases is the same for all: rho e
+/// = sum of m_k c_v,k T + z_k p_inf,k.
 template <int D>
 double gasTemperature(const Settings& settings, const GasInCells<D>& cells, const Index<D>& cell) {
   if (settings.gases.empty()) {

@@ -4,6 +4,7 @@
 
 #include "components/ice/gas_input.hpp"
 #include "components/mpm/boundary_labels.hpp"
+#include "components/mpm/solid/constitutive/visco_scram.hpp"
 #include "components/mpm/solid/explicit/input.hpp"
 #include "components/mpm/solid/scene_input.hpp"
 #include "components/mpmice/mpmice.hpp"
@@ -35,23 +36,59 @@ bool hasAllPairs(const std::vector<double>& given, const char* name, int materia
   return false;
 }
 
+/// The least width of a cell, m; none if the scene says no number, or if its grid is refined.
+std::optional<double> leastWidth(const Element& root) {
+  const auto grid = root.child("Grid");
+  const auto levels = grid ? grid->children("Level") : std::vector<Element>();
+  if (levels.size() != 1 || root.child("AMR")) return {};
+  const std::optional<Element> level = levels.front();
+  const auto box = level->child("Box");
+  const auto vectorOf = [](const std::optional<Element>& of, const char* name) -> std::optional<Vec3> {
+    const auto tag = of ? of->child(name) : std::nullopt;
+    return tag ? input::parse<Vec3>(tag->text()).value : std::nullopt;
+  };
+  if (const auto spacing = vectorOf(level, "spacing")) return spacing->minCoeff();
+  const auto lower = vectorOf(box, "lower"), upper = vectorOf(box, "upper"), cells = vectorOf(box, "resolution");
+  if (!lower || !upper || !cells) return {};
+  return (*upper - *lower).cwiseQuotient(*cells).minCoeff();
+}
+
+/// The greatest rho c / h, kg/(m^3 s), of a gas at the start of a scene and a cell: how fast sound crosses it. An
+/// exchange of momentum that is faster stops the gas within a cell, as a wall does. Infinite if it is not known.
+double fastestCrossing(const std::vector<euler::Settings>& gases, const Element& root) {
+  const auto width = leastWidth(root);
+  double greatest = width && *width > 0 ? 0 : std::numeric_limits<double>::infinity();
+  for (const euler::Settings& gas : gases)
+    for (const euler::GasObject& object : gas.objects) {
+      if (!object.density.isConstant() || !object.temperature || !object.temperature->isConstant())
+        return std::numeric_limits<double>::infinity();
+      const double density = object.density(Vec3::Zero()), temperature = (*object.temperature)(Vec3::Zero());
+      const double squared = gas.gas.soundSpeedSquared(density, gas.gas.lastAt(density, temperature));
+      greatest = std::max(greatest, density * std::sqrt(squared) / width.value_or(1));
+    }
+  return greatest;
+}
+
 /// Checks the exchange of momentum: between gas and bodies, only walls are available; bodies interact by their
 /// contacts.
-void checkMomentum(const ice::Exchange& exchange, int solids, int gases, bool areRigid, const Element& tag,
+void checkMomentum(const ice::GasScene& scene, int solids, bool areRigid, const Element& root, const Element& tag,
                    Diagnostics& diagnostics) {
-  constexpr double walls = 1e9;
-  if (exchange.momentum.empty() || !hasAllPairs(exchange.momentum, "momentum", solids + gases, tag, diagnostics))
-    return;
-  forEachPairWithGas(exchange.momentum, solids, gases, [&](int body, double k) {
+  const std::vector<double>& momentum = scene.exchange->momentum;
+  const std::vector<euler::Settings> gases =
+      scene.mixture.empty() ? std::vector<euler::Settings>{scene.gas} : scene.mixture;
+  const int count = static_cast<int>(gases.size());
+  if (momentum.empty() || !hasAllPairs(momentum, "momentum", solids + count, tag, diagnostics)) return;
+  const double walls = std::min(1e9, 10 * fastestCrossing(gases, root));
+  forEachPairWithGas(momentum, solids, count, [&](int body, double k) {
     if (k >= walls || (areRigid && k == 0)) return;
-    diagnostics.error(
-        tag.child("momentum").value_or(tag),
-        fmt::format("{:g} between body {} and the gas is not available: bodies are walls to the gas; give 1e9 or more",
-                    k, body));
+    diagnostics.error(tag.child("momentum").value_or(tag),
+                      fmt::format("{:g} between body {} and the gas is not available: bodies are walls to the gas; "
+                                  "give {:g} or more, which stops it within a cell",
+                                  k, body, walls));
   });
   if (solids > 1)
     diagnostics.note(tag.child("momentum").value_or(tag),
-                     "does nothing between bodies: they interact by their <contact>");
+                     "does nothing between bodies: they interact through their <contact>");
 }
 
 /// The coefficients of heat; none if there are not as many as pairs, or a body has no specific heat.
@@ -61,23 +98,22 @@ ice::HeatCoefficients heatOf(const ice::Exchange& exchange, int solids, int gase
   if (!heat.pairs.empty() && !hasAllPairs(heat.pairs, "heat", solids + gases, tag, diagnostics)) return {};
   if (!heat.act()) return {};
   for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material"))
-    if (!material.child("specific_heat")) diagnostics.error(material, "missing tag <specific_heat>: it exchanges heat");
+    if (!material.child("specific_heat"))
+      diagnostics.error(material, "missing tag <specific_heat>: the body exchanges heat");
   return heat;
 }
 
-/// Refuses what gives a burning surface a wrong area or pressure.
+/// Refuses settings that would give a burning surface a wrong area or pressure.
 void checkBurning(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
   if (scene.burns.size() > 1)
-    diagnostics.error(scene.burns[1].where, "Models/Model", "one body of a scene may burn; take the others out");
+    diagnostics.error(scene.burns[1].where, "Models/Model",
+                      "only one body of a scene can burn; remove the other burn models");
   const Element gas = *root.child("CFD")->child("ICE");
   if (scene.thinWalls.value_or(false))
-    diagnostics.error(*gas.child("thin_walls"), "is not available with a body that burns: remove it");
-  if (scene.implicit)
-    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "is not available with a body that burns: remove it, or run with --set CFD/ICE/explicit=true");
+    diagnostics.error(*gas.child("thin_walls"), "is not available with a burning body: remove it");
 }
 
-/// The place of a material among those of its kind; reports a name that is not among them.
+/// The index of a material among those of its kind; reports a name that is not among them.
 std::size_t placeOf(const std::string& name, const std::vector<std::string>& names,
                     const std::vector<std::string>& others, const char* kind, const char* otherKind,
                     const std::function<void(const std::string&)>& refuse) {
@@ -91,8 +127,21 @@ std::size_t placeOf(const std::string& name, const std::vector<std::string>& nam
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// The body that burns, if one does.
-std::optional<Burning> burningOf(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
+/// Checks a body that burns in cracks, too.
+void checkCracks(const Element& body, bool areRigid, const ice::BurnModel& model, Diagnostics& diagnostics) {
+  const auto given = body.child("constitutive_model");
+  const std::string name = given ? given->attribute("type").value_or("") : "";
+  if (name != mpm::solid::ViscoScram::name)
+    diagnostics.error(given.value_or(body),
+                      fmt::format("the model DDT1 needs a body of visco_scram, which has cracks, found '{}'", name));
+  if (areRigid)
+    diagnostics.error(model.where, "Models/Model/DDT1",
+                      "is not available with rmpmice, whose bodies have no stress; use mpmice");
+}
+
+/// The burning body, if there is one.
+std::optional<Burning> burningOf(const ice::GasScene& scene, bool areRigid, const Element& root,
+                                 Diagnostics& diagnostics) {
   if (scene.burns.empty()) return {};
   checkBurning(scene, root, diagnostics);
   const ice::BurnModel& model = scene.burns.front();
@@ -110,7 +159,10 @@ std::optional<Burning> burningOf(const ice::GasScene& scene, const Element& root
   burning.body = placeOf(model.from, bodies, gases, "body", "gas", refuse("fromMaterial"));
   burning.gas = placeOf(model.to, gases, bodies, "gas", "body", refuse("toMaterial"));
   if (burning.body < materials.size() && !materials[burning.body].child("specific_heat"))
-    diagnostics.error(materials[burning.body], "missing tag <specific_heat>: it burns, and gives its heat to the gas");
+    diagnostics.error(materials[burning.body],
+                      "missing tag <specific_heat>: the body burns, and its heat is added to the gas");
+  if (burning.body < materials.size() && model.ddt())
+    checkCracks(materials[burning.body], areRigid, model, diagnostics);
   return burning;
 }
 
@@ -131,7 +183,7 @@ void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diag
                                   scene.gas.cfl, greatestCfl));
 }
 
-/// Notes that conditions on a part of a side hold only for the gas, and that bodies have those of the whole side.
+/// Notes that conditions on a part of a side apply only to the gas, and that bodies have those of the whole side.
 void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagnostics) {
   const auto grid = root.child("Grid");
   const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
@@ -142,7 +194,7 @@ void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagno
       const bool isOfGas = label == euler::boundary::density.name || label == euler::boundary::pressure.name;
       const int material = input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
       if (isOfGas || material >= solids || condition.attribute("var") == nameOf(BoundaryKind::neumann)) continue;
-      diagnostics.note(condition, "holds for the gas only: bodies have the conditions of the whole side");
+      diagnostics.note(condition, "applies only to the gas: bodies have the conditions of the whole side");
     }
   }
 }
@@ -161,14 +213,10 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
   if (!scene.scalars.empty())
     diagnostics.error(scene.scalars.front().where, "Models/Model",
-                      "is not available beside bodies; remove it, or keep only the gas");
+                      "is not available with bodies; remove it, or keep only the gas");
   if (!scene.massExchanges.empty())
     diagnostics.error(scene.massExchanges.front().where, "Models/Model",
-                      "is not available beside bodies; take it out, or keep only the gas");
-  if (scene.implicit && scene.gas.gas.law)
-    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "is not available beside bodies in a gas that is neither ideal nor stiffened: remove it, or run "
-                      "with --set CFD/ICE/explicit=true");
+                      "is not available with bodies; remove it, or keep only the gas");
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};
@@ -183,10 +231,10 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   if (scene.exchange) {
     const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
     const int gases = std::max<int>(1, static_cast<int>(scene.mixture.size()));
-    checkMomentum(*scene.exchange, solids, gases, areRigid, tag, diagnostics);
+    checkMomentum(scene, solids, areRigid, root, tag, diagnostics);
     settings.heat = heatOf(*scene.exchange, solids, gases, root, tag, diagnostics);
   }
-  settings.burning = burningOf(scene, root, diagnostics);
+  settings.burning = burningOf(scene, areRigid, root, diagnostics);
   checkGas(scene, root, diagnostics);
   noteConditionsOfBodies(root, solids, diagnostics);
   if (diagnostics.size() > before) return {};
@@ -203,7 +251,7 @@ simulation::ComponentKind kind(bool areRigid) {
   simulation::ComponentKind kind;
   kind.name = areRigid ? "rmpmice" : "mpmice";
   kind.sentence = areRigid ? "a compressible gas around bodies of particles that keep their velocities"
-                           : "a compressible gas and bodies of particles, which interact";
+                           : "a compressible gas that interacts with bodies of particles";
   kind.sections = ice::gasSections();
   kind.sections.insert(kind.sections.end(), {"MPM", "PhysicalBC"});
   kind.takesLevels = true;

@@ -16,12 +16,12 @@ using namespace ice::c;
 inline constexpr CellLabel<double> freeVolume{"c.freeVolume", "1",
                                               "fraction of the cell that is open to the gas; 0 in narrow holes"};
 inline constexpr CellLabel<double> unfilledVolume{"c.unfilledVolume", "1",
-                                                  "fraction of the cell that bodies do not fill, holes included"};
+                                                  "fraction of the cell that bodies do not fill, including holes"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "fraction of the lower faces that bodies cover"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> swept{
-    "c.swept", "1", "volume of bodies that moved upwards through the lower faces, over that of a cell"};
+    "c.swept", "1", "volume of bodies that moved upwards through the lower faces, divided by that of a cell"};
 /// A number on the walls at the lower faces of cells, and one on those at the upper faces.
 template <int D>
 using OnWalls = std::array<CellLabel<Vec<D>>, 2>;
@@ -44,16 +44,16 @@ template <int D>
 inline constexpr OnWalls<D> wallYield{
     {{"c.wallYieldBelow", "m/(s^2 Pa)", "acceleration per pressure of walls at the lower faces"},
      {"c.wallYieldAbove", "m/(s^2 Pa)", "acceleration per pressure of walls at the upper faces"}}};
-/// The state before small cells share theirs with others.
+/// The state before small cells are merged with others.
 inline constexpr CellLabel<double> unsharedDensity{"c.unsharedDensity", "kg/m^3",
-                                                   "before small cells share it with others"};
+                                                   "before small cells are merged with others"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> unsharedMomentum{"c.unsharedMomentum", "kg/(m^2 s)",
-                                                    "before small cells share it with others"};
+                                                    "before small cells are merged with others"};
 inline constexpr CellLabel<double> unsharedEnergy{"c.unsharedEnergy", "J/m^3",
-                                                  "before small cells share it with others"};
-/// For each of several gases, by its number: its mass per volume of the cell, its share of the gas's volume and, before
-/// small cells share theirs, its mass and volume per volume of the cell.
+                                                  "before small cells are merged with others"};
+/// For each of several gases, by its number: its mass per volume of the cell, its volume fraction of the gas and,
+/// before small cells are merged, its mass and volume per volume of the cell.
 inline constexpr std::array<CellLabel<double>, 3> massOfGas{{{"c.massOfGas0", "kg/m^3", "mass of the first gas"},
                                                              {"c.massOfGas1", "kg/m^3", "mass of the second gas"},
                                                              {"c.massOfGas2", "kg/m^3", "mass of the third gas"}}};
@@ -62,19 +62,19 @@ inline constexpr std::array<CellLabel<double>, 3> shareOfGas{
      {"c.shareOfGas1", "1", "volume fraction of the second gas in the gas"},
      {"c.shareOfGas2", "1", "volume fraction of the third gas in the gas"}}};
 inline constexpr std::array<CellLabel<double>, 3> unsharedMass{
-    {{"c.unsharedMass0", "kg/m^3", "mass of the first gas, before small cells share it"},
-     {"c.unsharedMass1", "kg/m^3", "mass of the second gas, before small cells share it"},
-     {"c.unsharedMass2", "kg/m^3", "mass of the third gas, before small cells share it"}}};
+    {{"c.unsharedMass0", "kg/m^3", "mass of the first gas, before small cells are merged"},
+     {"c.unsharedMass1", "kg/m^3", "mass of the second gas, before small cells are merged"},
+     {"c.unsharedMass2", "kg/m^3", "mass of the third gas, before small cells are merged"}}};
 inline constexpr std::array<CellLabel<double>, 3> unsharedVolume{
-    {{"c.unsharedVolume0", "1", "volume of the first gas, before small cells share it"},
-     {"c.unsharedVolume1", "1", "volume of the second gas, before small cells share it"},
-     {"c.unsharedVolume2", "1", "volume of the third gas, before small cells share it"}}};
+    {{"c.unsharedVolume0", "1", "volume of the first gas, before small cells are merged"},
+     {"c.unsharedVolume1", "1", "volume of the second gas, before small cells are merged"},
+     {"c.unsharedVolume2", "1", "volume of the third gas, before small cells are merged"}}};
 /// The exchange of the gas with bodies in a step, per volume of the cell, and since the start.
 template <int D>
 inline constexpr CellLabel<Vec<D>> impulse{"c.impulseOnBodies", "N s/m^3", "impulse of the gas on walls in the step"};
 inline constexpr CellLabel<double> work{"c.workOnBodies", "J/m^3", "work of the gas on walls in the step"};
 inline constexpr CellLabel<double> heat{"c.heatToBodies", "J/m^3",
-                                        "heat from the gas in the step, by exchange coefficients"};
+                                        "heat from the gas in the step, from exchange coefficients"};
 inline constexpr CellLabel<double> wallHeat{"c.heatToWalls", "J/m^3", "heat from the gas in the step, by conduction"};
 inline constexpr CellLabel<double> bodyCapacity{"c.bodyCapacity", "J/(m^3 K)", "heat capacity of bodies"};
 inline constexpr CellLabel<double> bodyTemperature{"c.bodyTemperature", "K",
@@ -90,18 +90,17 @@ template <int D>
 inline constexpr CellLabel<Vec<D>> massFlow{
     "c.massFlow", "kg/m^3", "gas that passed bodies upwards through the open lower faces, per volume of a cell"};
 inline constexpr CellLabel<double> leakSinceStart{"c.leakSinceStart", "kg/m^3",
-                                                  "gas that went through bodies in the cell"};
+                                                  "gas that leaked through bodies in the cell"};
 /// Of a body that burns.
 inline constexpr CellLabel<double> reactantMass{"c.reactantMass", "kg/m^3", "of the body that burns"};
-inline constexpr CellLabel<double> reactantVolume{"c.reactantVolume", "1", "share of the cell that it fills"};
+inline constexpr CellLabel<double> reactantVolume{"c.reactantVolume", "1", "fraction of the cell that it fills"};
 inline constexpr CellLabel<double> reactantTemperature{"c.reactantTemperature", "K", "of the body that burns"};
-inline constexpr CellLabel<double> otherVolume{"c.otherVolume", "1", "share of the cell that other bodies fill"};
+inline constexpr CellLabel<double> otherVolume{"c.otherVolume", "1", "fraction of the cell that other bodies fill"};
 inline constexpr CellLabel<double> hottestBody{
     "c.hottestBody", "K", "greatest temperature of the bodies that fill more than a fifth of the cell; 0 without any"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> burnRate{
-    "c.burnRate", "kg/(m^3 s)",
-    "mass that burns at the lower faces, over a cell's volume; negative where the gas is above"};
+    "c.burnRate", "kg/(m^3 s)", "mass that burns at the lower faces, per cell volume; negative where the gas is above"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> blowing{
     "c.blowing", "m/s", "speed of new gas away from walls at the lower faces; negative where the gas is above"};
@@ -109,10 +108,19 @@ template <int D>
 inline constexpr CellLabel<Vec<D>> recoil{"c.recoil", "Pa",
                                           "of new gas on walls at the lower faces; negative where the gas is above"};
 inline constexpr CellLabel<double> burnRateWithin{
-    "c.burnRateWithin", "kg/(m^3 s)", "mass that burns in a cell with a rest of a body, over the cell's volume"};
-inline constexpr CellLabel<double> burntShare{"c.burntShare", "1", "share of c.reactantMass that burns in the step"};
+    "c.burnRateWithin", "kg/(m^3 s)", "mass that burns in a cell with a remnant of a body, per cell volume"};
+/// Of one with cracks.
+inline constexpr CellLabel<double> bodyPressure{"c.bodyPressure", "Pa", "mean pressure of the body that burns"};
+inline constexpr CellLabel<double> crackRadius{"c.crackRadius", "m", "radius of its widest cracks"};
+inline constexpr CellLabel<double> burnMode{"c.burnMode", "1",
+                                            "how it burns: 0 not, 1 at its surface, 2 in cracks, 3 a flame comes"};
+inline constexpr CellLabel<double> burnPressure{"c.burnPressure", "Pa", "pressure at which it burns"};
+inline constexpr CellLabel<double> waited{"c.waited", "s", "time since a flame is beside the cell"};
+inline constexpr CellLabel<double> inductionTime{"c.inductionTime", "s", "time after which the cell burns"};
+inline constexpr CellLabel<double> burntShare{"c.burntShare", "1", "fraction of c.reactantMass that burns in the step"};
 inline constexpr CellLabel<double> burntSinceStart{"c.burntSinceStart", "kg/m^3", "mass that burned in the cell"};
-inline constexpr CellLabel<double> gasDensity{"c.gasDensity", "kg/m^3", "mass per volume of the gas; 0 where none is"};
+inline constexpr CellLabel<double> gasDensity{"c.gasDensity", "kg/m^3",
+                                              "mass per volume of the gas; 0 where there is none"};
 }  // namespace c
 
 namespace p {
@@ -120,7 +128,7 @@ using namespace mpm::solid::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> boxEdges{"p.boxEdges", "1",
                                                 "edges of the box that represents the particle, in cells"};
-inline constexpr ParticleLabel<double> unburned{"p.unburned", "1", "share of its mass at the start that is left"};
+inline constexpr ParticleLabel<double> unburned{"p.unburned", "1", "remaining fraction of its initial mass"};
 }  // namespace p
 namespace g {
 using namespace mpm::solid::g;
@@ -140,17 +148,17 @@ inline constexpr ReductionLabel<VectorSum> impulse{"GasImpulseOnBodies", "N s",
 inline constexpr ReductionLabel<Sum> work{"GasWorkOnBodies", "J", "work of the gas on walls since the start"};
 inline constexpr ReductionLabel<Sum> heat{"GasHeatToBodies", "J", "heat from the gas to bodies since the start"};
 inline constexpr ReductionLabel<Sum> burntMass{"BurntMass", "kg", "mass of bodies that burned since the start"};
-inline constexpr ReductionLabel<Sum> reactionHeat{"ReactionHeat", "J", "heat of its reaction"};
-inline constexpr ReductionLabel<Sum> leak{"GasLeak", "kg", "gas that went through bodies since the start"};
-inline constexpr ReductionLabel<Sum> mergedCells{"MergedCells", "1",
-                                                 "number of cells that gave their gas to a neighbour in the last step"};
+inline constexpr ReductionLabel<Sum> reactionHeat{"ReactionHeat", "J", "heat released by this burning"};
+inline constexpr ReductionLabel<Sum> leak{"GasLeak", "kg", "gas that leaked through bodies since the start"};
+inline constexpr ReductionLabel<Sum> mergedCells{
+    "MergedCells", "1", "number of cells whose gas was merged with that of a neighbour in the last step"};
 inline constexpr ReductionLabel<Minimum> leastFreeVolume{"LeastFreeVolume", "1",
                                                          "smallest open fraction of a cell that contains gas"};
 inline constexpr ReductionLabel<Minimum> leastMass{"LeastGasMass", "kg/m^3",
-                                                   "smallest mass of gas in a cell, over the volume of the cell"};
+                                                   "smallest mass of gas in a cell, divided by the volume of the cell"};
 inline constexpr ReductionLabel<Minimum> leastHeat{
     "LeastGasHeat", "J/m^3",
-    "smallest internal energy of gas in a cell, less that of p_inf, over the volume of the cell"};
+    "smallest internal energy of gas in a cell, minus that of p_inf, divided by the volume of the cell"};
 }  // namespace total
 
 }  // namespace tushar::mpmice

@@ -1,5 +1,6 @@
 #include "components/mpmice/mpmice.hpp"
 
+#include "components/mpmice/burn/burn_modes.hpp"
 #include "components/mpmice/burn/gas_of_burning.hpp"
 #include "components/mpmice/tasks/add_diffusion.hpp"
 #include "components/mpmice/tasks/add_gravity.hpp"
@@ -67,6 +68,9 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
   if (burns()) {
     tasks.perMaterial("mpmice::startUnburned", startUnburned, materials, requiresNew(p::mass), computes(p::unburned));
     tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(c::burntSinceStart));
+    if (waitsForFlames())
+      tasks.perPatch("mpmice::startBurnModes", startBurnModes<D>, computes(c::burnMode), computes(c::waited),
+                     computes(c::inductionTime));
   }
   tasks.perPatch("mpmice::startImpulse", startSum<D, Vec<D>>, computes(c::impulseSinceStart<D>));
   for (const CellLabel<double>* sum : {&c::workSinceStart, &c::heatSinceStart, &c::leakSinceStart})
@@ -74,8 +78,9 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
 }
 
 template <int D>
-void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) const {
-  if (burns()) scheduleBurning(tasks, materials);
+void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials,
+                                  const ParticleLabel<double>& state) const {
+  if (burns()) scheduleBurning(tasks, materials, state);
   if (settings_.implicit)
     schedulePressure(tasks, materials);
   else
@@ -94,19 +99,29 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
       computes(total::forceOnBodies), computes(g::surroundingForce<D>));
 }
 
-/// What burns in the step, by the state at its start.
+/// The mass that burns in the step, according to the state at its start.
 template <int D>
-void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials) const {
+void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials,
+                                   const ParticleLabel<double>& state) const {
+  constexpr typename GasInCells<D>::Reach reach{.state = 1, .mass = 3, .room = 3};
   tasks.acrossMaterials("mpmice::measureReactant", measureReactant<D>, materials, with(settings_),
                         all<ParticlesAtStart>(), withoutMaterial(all<NewReactant>()));
-  tasks.perPatch("mpmice::findBurning", findBurning<D>, with(settings_),
-                 gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), all<Reactant>(1), all<NewBurning<D>>());
+  if (hasCracks()) {
+    tasks.acrossMaterials("mpmice::measureLoad", measureLoad<D>, materials, with(settings_), with(state.components),
+                          all<StressedParticles>(&state), withoutMaterial(computes(c::bodyPressure)),
+                          withoutMaterial(computes(c::crackRadius)));
+    tasks.perPatch("mpmice::findBurnModes", findBurnModes<D>, with(settings_), requiresOld(delT),
+                   gasIn(readsOld, reach), all<Reactant>(1), all<Load>(1), all<Waited>(waitsForFlames()),
+                   all<NewBurnModes>());
+  }
+  tasks.perPatch("mpmice::findBurning", findBurning<D>, with(settings_), gasIn(readsOld, reach), all<Reactant>(1),
+                 all<KnownModes>(hasCracks(), 1), all<NewBurning<D>>());
   tasks.perPatch("mpmice::findBurntShare", findBurntShare<D>, with(settings_), startTime(), requiresOld(delT),
                  requiresNew(c::burnRate<D>, 2), requiresNew(c::burnRateWithin, 1), requiresNew(c::reactantMass, 1),
                  computes(c::burntShare));
 }
 
-/// The pressure at the end of the step, that on walls included.
+/// The pressure at the end of the step, including that on walls.
 template <int D>
 void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials) const {
   constexpr typename GasInCells<D>::Reach reach{.mass = 3, .room = 3};
@@ -119,10 +134,10 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
                 all<ice::PressureViews>(), totals<ice::SolveTotals>());
   tasks.acrossMaterials("mpmice::takeWallPressure", takeWallPressure<D>, materials, with(settings_),
                         withoutMaterial(gas), requiresNew(g::record, 1), withoutMaterial(requiresNew(c::pressureAtEnd)),
-                        withoutMaterial(all<Blowing<D>>(burns())), withoutMaterial(all<WallPressures<D>>()));
+                        withoutMaterial(all<WallPressures<D>>()));
 }
 
-/// What bodies fill at the end of the step, and what they swept.
+/// The volume that bodies fill at the end of the step, and the volume that they swept.
 template <int D>
 void GasAround<D>::scheduleBoxes(TaskList& tasks, const Materials& materials) const {
   if (burns())
@@ -165,14 +180,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_),
                  all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
                  computes(total::mergedCells));
-  if (hasHeat())
-    tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), startTime(),
-                          requiresOld(delT), withoutMaterial(all<HeatedGas<D>>(settings_.gases.size())),
-                          all<WarmBodies>(burns() ? requiresNew(p::mass) : requiresOld(p::mass)),
-                          withoutMaterial(offers(c::heat)));
-  else if (settings_.heating.acts())
-    tasks.perPatch("mpmice::addHeat", heatGases<D>, with(settings_), startTime(), requiresOld(delT),
-                   all<HeatedGas<D>>(settings_.gases.size()));
+  scheduleHeat(tasks, materials);
   if (!settings_.gravity.isZero(0) && !settings_.implicit)
     tasks.perPatch("mpmice::addGravity", addGravity<D>, with(settings_.gravity), requiresNew(c::freeVolume),
                    requiresNew(c::density), requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
@@ -182,7 +190,25 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                       modifies(p::x<D>), when(keepsStrain(materials), modifies(p::strainEnergy)));
 }
 
-/// Heat through the walls of bodies, by the state at the start of the step.
+/// Heat by exchange coefficients, and from outside.
+template <int D>
+void GasAround<D>::scheduleHeat(TaskList& tasks, const Materials& materials) const {
+  const std::size_t gases = settings_.gases.size();
+  const bool areFew = materials.size() + std::max<std::size_t>(1, gases) <= kFewThings;
+  if (hasHeat())
+    tasks.acrossMaterials(
+        "mpmice::exchangeHeat", areFew ? exchangeHeat<D, kFewThings> : exchangeHeat<D, Eigen::Dynamic>, materials,
+        with(settings_), startTime(), requiresOld(delT), withoutMaterial(all<HeatedGas<D>>(gases)),
+        all<WarmBodies>(burns() ? requiresNew(p::mass) : requiresOld(p::mass)), withoutMaterial(offers(c::heat)));
+  else if (settings_.heating.acts() && gases > 0)
+    tasks.perPatch("mpmice::heatGases", heatGases<D>, with(settings_), startTime(), requiresOld(delT),
+                   all<HeatedGas<D>>(gases));
+  else if (settings_.heating.acts())
+    tasks.perPatch("mpmice::heatGas", ice::addHeat<D>, with(settings_.heating), requiresNew(c::density), startTime(),
+                   requiresOld(delT), modifies(c::totalEnergy));
+}
+
+/// Heat through the walls of bodies, according to the state at the start of the step.
 template <int D>
 void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& materials) const {
   constexpr typename GasInCells<D>::Reach reach{.state = 1, .mass = 2, .room = 2};
@@ -230,7 +256,7 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
   scheduleStepsOfDiffusion(tasks, 1);
 }
 
-/// The limit of a viscosity that varies, beside this part of the speed of sound.
+/// The limit of a varying viscosity, together with this fraction of the speed of sound.
 template <int D>
 void GasAround<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
   if (settings_.diffusion.acts() && settings_.diffusion.varies())
@@ -294,6 +320,7 @@ template <int D>
 std::vector<std::string> MpmIce<D>::foreignLabels() const {
   std::vector<std::string> labels = solids_->foreignLabels();
   labels.insert(labels.end(), ice::uintahsLabels.begin(), ice::uintahsLabels.end());
+  labels.insert(labels.end(), uintahsLabels.begin(), uintahsLabels.end());
   return labels;
 }
 

@@ -8,7 +8,7 @@
 
 namespace tushar::mpmice {
 
-/// A gas in the space that bodies of particles leave free, in D dimensions: finite volumes with walls.
+/// A gas in the space around bodies of particles, in D dimensions: finite volumes with walls.
 ///
 /// The schedule of the solids calls its functions, which add its tasks among theirs. mpmice.cpp has the schedule.
 template <int D>
@@ -21,13 +21,15 @@ class GasAround : public mpm::solid::Surroundings {
   std::vector<std::string> gasNames() const;
   bool exchangesHeat() const override { return hasHeat() || burns(); }
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
-  void scheduleForces(TaskList& tasks, const Materials& materials) const override;
+  void scheduleForces(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const override;
   void scheduleMotion(TaskList& tasks, const Materials& materials) const override;
   void scheduleStableTimeStep(TaskList& tasks, const Materials& materials) const;
   void scheduleDiagnostics(TaskList& tasks) const;
   void scheduleErrorEstimate(TaskList& tasks) const;
   void scheduleRefine(TaskList& tasks) const;
   bool isImplicit() const { return settings_.implicit.has_value(); }
+  /// Whether cells count the time until a flame has crossed them.
+  bool waitsForFlames() const { return hasCracks() && settings_.burning->model.ddt()->induction; }
 
  private:
   /// The gas in cells; `reads` gives the access.
@@ -37,14 +39,16 @@ class GasAround : public mpm::solid::Surroundings {
   }
   bool hasHeat() const { return settings_.heat.act(); }
   bool conductsToBodies() const { return settings_.diffusion.conducts() && hasHeat(); }
+  void scheduleHeat(TaskList& tasks, const Materials& materials) const;
   void scheduleConduction(TaskList& tasks, const Materials& materials) const;
   bool isViscous() const { return settings_.diffusion.isViscous(); }
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
   bool burns() const { return settings_.burning.has_value(); }
-  /// Whether what burns has strain energy, which the gas gets.
+  bool hasCracks() const { return burns() && settings_.burning->model.ddt(); }
+  /// Whether the burning body has strain energy, which is added to the gas.
   bool keepsStrain(const Materials& materials) const;
-  void scheduleBurning(TaskList& tasks, const Materials& materials) const;
+  void scheduleBurning(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const;
   void scheduleBoxes(TaskList& tasks, const Materials& materials) const;
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
 
@@ -72,6 +76,7 @@ class MpmIce : public Component {
   void scheduleErrorEstimate(TaskList& tasks) const override { gas_->scheduleErrorEstimate(tasks); }
   void scheduleRefine(TaskList& tasks) const override { gas_->scheduleRefine(tasks); }
   std::string whyOneLevel() const override {
+    if (gas_->waitsForFlames()) return "useInductionTime counts the time in cells of one level; set it to false";
     return gas_->isImplicit() ? ice::pressureOnOneLevel : solids_->whyOneLevel();
   }
   std::string advice() const override { return "a smaller CFD/cfl, or more particles per cell along surfaces (res)"; }

@@ -8,10 +8,10 @@
 
 namespace tushar::mpmice {
 
-/// Cells around a patch whose free volume determines the state of a cell beside it.
+/// Layers of cells around a patch whose free volume determines the state of adjacent cells.
 inline constexpr int nearLayers = 2;
 
-/// The place of a cell in a box, row by row.
+/// The index of a cell in a box, row by row.
 template <int D>
 std::size_t offsetIn(const Box& box, const Index<D>& cell) {
   Index3 wide{};
@@ -19,7 +19,7 @@ std::size_t offsetIn(const Box& box, const Index<D>& cell) {
   return box.offset(wide);
 }
 
-/// The cells near bodies; all others contain gas alone.
+/// The cells near bodies; all others contain only gas.
 template <int D>
 class NearBodies {
  public:

@@ -37,11 +37,11 @@ struct ParticleBox {
   }
 };
 
-/// Longest edge of a box, in cells; a particle that is longer counts as one of that length.
+/// Longest edge of a box, in cells; longer particles are treated as having this length.
 inline constexpr double longestEdge = 1.5;
 
 /// Edges, in cells, of the box of a particle that started with the edges `size`, in cells, and was deformed by F: those
-/// of F along the axes where it turns nothing, else |F S e_a| along each axis, scaled to the volume det F.
+/// of F along the axes if F does not rotate, otherwise |F S e_a| along each axis, scaled to the volume det F.
 template <int D>
 Vec<D> edgesOf(const Level& level, const Vec<D>& size, const mpm::solid::Matrix3& deformation) {
   Eigen::Matrix<double, D, D> edges;

@@ -10,17 +10,17 @@
 
 namespace tushar::mpmice {
 
-/// A body that turns into a gas.
+/// A body that is converted into a gas.
 struct Burning {
   ice::BurnModel model;
-  std::size_t body = 0;  ///< its number among the bodies
+  std::size_t body = 0;  ///< its index among the bodies
   std::size_t gas = 0;   ///< that of the gas among several
 };
 
 /// How the gas around bodies diffuses.
 struct GasDiffusion {
-  euler::VaryingDiffusion alone = {};         ///< of one gas; of several the eddies
-  std::vector<euler::Diffusion> ofEach = {};  ///< of several gases: a cell has the mean by their shares
+  euler::VaryingDiffusion alone = {};         ///< of one gas; for several gases, only the eddies
+  std::vector<euler::Diffusion> ofEach = {};  ///< of several gases: a cell has the mean weighted by volume fractions
 
   /// Whether viscosity and conductivity differ from cell to cell.
   bool varies() const { return alone.varies() || !ofEach.empty(); }
@@ -41,23 +41,23 @@ struct Settings {
   double referencePressure = 0;  ///< exerts no force on bodies, Pa
   Vec3 gravity = Vec3::Zero();   ///< m/s²
   ice::HeatCoefficients heat;    ///< of bodies in their order, then gases
-  bool thinWalls = false;        ///< bodies thinner than a cell also hold the gas back
-  bool areRigid = false;         ///< bodies keep their velocities, whatever the gas does
+  bool thinWalls = false;        ///< bodies thinner than a cell also block the gas
+  bool areRigid = false;         ///< bodies keep their velocities, independently of the gas
   GasDiffusion diffusion = {};
-  std::optional<ice::IceSettings> implicit = {};  ///< where sound does not limit the steps
+  std::optional<ice::IceSettings> implicit = {};  ///< if sound does not limit the steps
   ice::Heating heating = {};                      ///< of the gases
   std::vector<euler::Settings> gases = {};        ///< each of several gases that share cells; the first is `gas`
   std::optional<Burning> burning = {};            ///< a body that burns
 };
 
-/// The offset of limits of free volumes from round fractions, which occur when bodies are aligned with cells, so that
-/// round-off does not decide on which side of a limit they are.
+/// The offset of thresholds for free volumes from round fractions. Such fractions occur when bodies are aligned with
+/// cells; with the offset, round-off does not affect on which side of a threshold they are.
 inline constexpr double offRoundShares = 1e-9;
-/// Smaller free volumes count as 0.
+/// Smaller free volumes are treated as 0.
 inline constexpr double leastFreeVolume = offRoundShares;
 /// With at least this free volume a cell is free of bodies.
 inline constexpr double wholeFreeVolume = 1 - offRoundShares;
-/// A cell with a smaller fraction of free volume gives its gas to a neighbour.
+/// The gas of a cell with a smaller fraction of free volume is merged with that of a neighbour.
 inline constexpr double smallFreeVolume = 0.5 - offRoundShares;
 /// The largest cfl, with which an open face lets out at most the contents of a half-full cell.
 inline constexpr double greatestCfl = 0.5;
@@ -65,7 +65,7 @@ inline constexpr double greatestCfl = 0.5;
 inline constexpr double narrowFreeVolume = 0.2 - offRoundShares;
 
 /// The fraction of a cell that its gas fills, as a function of the free volume, which falls continuously to 0 where the
-/// cell counts as full.
+/// cell is considered full.
 inline double roomOf(double free) {
   return free < 2 * leastFreeVolume ? std::max(0.0, 2 * (free - leastFreeVolume)) : free;
 }

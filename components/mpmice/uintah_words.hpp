@@ -16,4 +16,27 @@ inline const simulation::OtherNames uintahsNames{{"rho_micro_CC", "c.gasDensity"
                                                  {"p.velocity+", "p.velocity"},
                                                  {"p.temperature+", "p.temperature"}};
 
+/// Variables of Uintah's MPMICE and its burn models that no task computes here.
+inline const std::vector<std::string> uintahsLabels{"Tdot",
+                                                    "p.pressure",
+                                                    "vel_CCTransposed",
+                                                    "meanFreePath",
+                                                    "isSurfaceCell",
+                                                    "surfaceNorm",
+                                                    "burning",
+                                                    "BurningCriteria",
+                                                    "onSurface",
+                                                    "surfaceTemp",
+                                                    "detonating",
+                                                    "detLocalTo",
+                                                    "F",
+                                                    "delF",
+                                                    "crackedEnough",
+                                                    "inductionTime",
+                                                    "countTime",
+                                                    "SteadyBurn.numPPC",
+                                                    "SteadyBurn.BurningCell",
+                                                    "totalMassExchanged",
+                                                    "totalIntEngExchanged"};
+
 }  // namespace tushar::mpmice

@@ -7,7 +7,7 @@
 
 namespace tushar::mpmice {
 
-/// The effect of the bodies on the gas in a step: walls, and how free volume and faces changed.
+/// The effect of the bodies on the gas in a step: walls, and the changes of free volume and faces.
 template <int D>
 struct BodiesInStep {
   KnownWalls<D> walls;
@@ -28,7 +28,7 @@ struct Given {
   double work = 0;                  ///< J/m³
 };
 
-/// The least that a cell keeps of what it gives to others, so that round-off makes nothing negative.
+/// The smallest fraction that a donor keeps, so that round-off makes nothing negative.
 inline constexpr double roundOffOfShares = 1e-12;
 
 /// The exchange of the gas with walls in a step.
@@ -52,7 +52,7 @@ class WallExchange {
   /// Rules for ghost states beyond the sides of the grid.
   const euler::GhostRules<D>& rules() const { return rules_; }
   const FreeSpace<D>& space() const { return space_; }
-  /// Open share of the lower face of a cell, which may lie beyond an upper side of the grid.
+  /// Open fraction of the lower face of a cell, which may be outside an upper side of the grid.
   double openShareOf(const NearBodies<D>& near, const Index<D>& cell, int axis) const {
     if (!near(cell)) return 1;
     const bool isUpperSide = !level_.isPeriodic(axis) && cell[axis] == level_.cells().upper[axis];
@@ -80,8 +80,8 @@ class WallExchange {
     return given;
   }
 
-  /// Mass of gas that goes up through the open share of a cell's lower face, over a cell's volume, if it moves with the
-  /// bodies there.
+  /// Mass of gas, per cell volume, that would flow up through the open fraction of the lower face of a cell if it moved
+  /// with the bodies there.
   double carriedThrough(const Index<D>& cell, int axis) const {
     const double open = space_.aperture(cell, axis, 0);
     if (!(open > 0)) return 0;
@@ -92,7 +92,7 @@ class WallExchange {
   }
 
  private:
-  /// For several gases, turns shares into volumes, which fill the room that the gas in the cell has after the step.
+  /// For several gases, converts volume fractions into volumes, which fill the free volume of the cell after the step.
   void fillRoom(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
     for (std::size_t k = 0; k < held.shares.size(); ++k)
       held.shares[k][cell] += cells_.held.shares[k][cell] * (step_.newFree[cell] - 1);
@@ -131,20 +131,20 @@ class WallExchange {
       }
   }
 
-  /// Whether bodies are at the face below a cell, or went through it.
+  /// Whether bodies are at the face below a cell, or have passed through it.
   bool mayFlow(const Index<D>& face, int axis) const {
     const Index<D> below = face - Index<D>::unit(axis);
     return cells_.free[face] < 1 || cells_.free[below] < 1 || step_.swept[face][axis] != 0;
   }
 
-  /// The volume, over a cell's, that follows walls up through the lower face of a cell: what the covered share of the
-  /// face would sweep, less the volume that bodies swept.
+  /// The volume of gas, per cell volume, that follows walls up through the lower face of a cell: the volume that the
+  /// covered fraction of the face would sweep, minus the volume that bodies swept.
   double followingUp(const Index<D>& above, int axis, double wallVelocity) const {
     return (1 - space_.aperture(above, axis, 0)) * wallVelocity * dt_ * level_.inverseSpacing(axis) -
            step_.swept[above][axis];
   }
 
-  /// Gas follows a wall that draws back, and makes way for one that approaches, with all it holds.
+  /// Gas follows a receding wall and is displaced by an approaching one, together with its mass, momentum and energy.
   void flow(const Index<D>& cell, int axis, int side, double wallVelocity,
             const euler::MixtureViews<D, double>& held) const {
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
@@ -164,14 +164,14 @@ class WallExchange {
     }
   }
 
-  /// What a donor gives: a gas, and the share of the volume asked for.
+  /// The contribution of a donor: a gas, and the fraction of the requested volume.
   struct Gift {
     Parcel<D> of;
     double share = 1;
   };
 
-  /// What a donor lacks is paid by the neighbour that it will share with, if one is mostly free. Elsewhere
-  /// a donor gives of what it holds, as dense as the gas asked for, and at most all of it.
+  /// If a donor has too little gas, the rest comes from the neighbour with which it will be merged, if this is mostly
+  /// free. Elsewhere a donor gives of what it holds, as dense as the gas asked for, and at most all of it.
   std::optional<Gift> givenBy(const Index<D>& donor, const Index<D>& receiver) const {
     const std::optional<Parcel<D>> wanted = stateOf(donor, receiver);
     if (!wanted) return std::nullopt;
@@ -180,8 +180,8 @@ class WallExchange {
     if (!(mass > 0)) return std::nullopt;
     return Gift{cells_.contentOf(donor, wanted->u[euler::kDensity] / mass), mass / std::max(mass, massAskedOf(donor))};
   }
-  /// The mass that a donor would give through all its faces, kg/m³, and a little more: closed pores count, though they
-  /// get none.
+  /// The mass that a donor would give through all its faces, kg/m³, and a little more: closed pores are included,
+  /// although they receive none.
   double massAskedOf(const Index<D>& donor) const {
     double mass = 0;
     for (int d = 0; d < D; ++d)
@@ -196,8 +196,8 @@ class WallExchange {
       }
     return (1 + roundOffOfShares) * mass;
   }
-  /// Whether gas is where cells are mostly free after the step: in this cell, or in one beside it, over a
-  /// corner too, that it shares with.
+  /// Whether this cell, or a neighbour with which it is merged (possibly across a corner), is mostly free after the
+  /// step.
   bool isBesideRoom(const Index<D>& cell) const {
     const auto hasRoom = [&](const Index<D>& at) {
       return step_.newFree[at] >= smallFreeVolume && cells_.held.density[at] > 0;
@@ -229,7 +229,7 @@ class WallExchange {
     mean.add(sum, 1.0 / count);
     return mean;
   }
-  /// `part` of the state of one cell and the rest of another's.
+  /// `part` times the state of one cell, plus the rest of the state of another.
   Parcel<D> mixed(double part, const Index<D>& of, const Index<D>& rest) const {
     Parcel<D> sum;
     if (part > 0) sum.add(cells_.parcel(of), part);
@@ -237,7 +237,7 @@ class WallExchange {
     return sum;
   }
 
-  /// A hole in a body: hardly free, and no cell within two that is free for the most part.
+  /// A hole in a body: it has little free volume, and no cell within two cells is mostly free.
   bool isClosedPore(const Index<D>& cell) const {
     if (!(step_.newFree[cell] < narrowFreeVolume)) return false;
     bool closed = true;

@@ -8,16 +8,16 @@
 
 namespace tushar::mpmice {
 
-/// Thickness of the layer of gas, in cells, that a cell's velocity stands for: of a small cell, together with the
-/// neighbour that shares its own.
+/// Thickness of the layer of gas, in cells, that the velocity of a cell represents; a small cell is taken together with
+/// the neighbour with which it is merged.
 inline double layerOf(double free) { return free < smallFreeVolume ? 1 + free : free; }
 
-/// The drag of a cell's walls on its gas, at each face: viscosity times the wall's area along its surface over the
-/// distance from there to the middle of the gas, per volume of the cell.
+/// The drag of the walls of a cell on its gas, at each face: viscosity times the area of the wall along its surface,
+/// divided by the distance to the middle of the gas, per volume of the cell.
 template <int D>
 class CellFriction {
  public:
-  /// `massAt(face, axis)`: mass of bodies that the face belongs to; a wall without any drags nothing.
+  /// `massAt(face, axis)`: mass of the bodies at the face; a wall without mass causes no drag.
   template <class MassAt>
   CellFriction(const Level& level, const FreeSpace<D>& space, const Index<D>& cell, double free, double viscosity,
                MassAt&& massAt)
@@ -40,9 +40,9 @@ class CellFriction {
 
   /// Pa s/m² of all walls together; 0 without walls.
   double all() const { return all_; }
-  /// The share of the friction at a face.
+  /// The fraction of the friction at a face.
   double share(int axis, int side) const { return drag_[axis][side] > 0 ? drag_[axis][side] / all_ : 0; }
-  /// The part of a velocity along the walls: without the part that goes into an oblique wall or, between walls, into
+  /// The component of a velocity along the walls: without the component into an oblique wall or, between walls, into
   /// each of them.
   Vec<D> alongWalls(const Vec<D>& velocity) const {
     Vec<D> along = velocity - slip_ * velocity.dot(normal_) * normal_;
@@ -57,7 +57,7 @@ class CellFriction {
   double all_ = 0;
 };
 
-/// The shares of the friction at the faces of a cell with gas.
+/// The fractions of the friction at the faces of a cell with gas.
 template <int D>
 CellFriction<D> frictionWeights(const Level& level, const Settings& settings, const GasInCells<D>& cells,
                                 const FreeSpace<D>& space, const BodiesAtNodes<D>& bodies, const Index<D>& cell) {
@@ -78,7 +78,7 @@ struct FrictionOfStep {
   const BodiesAtNodes<D>& bodies;
   double dt;
 
-  /// mu A dv / d, but no more than brings gas and walls to one velocity within the step.
+  /// mu A dv / d, limited so that gas and walls do not overshoot a common velocity within the step.
   Vec<D> on(const Index<D>& cell) const {
     const CellFriction<D> weights = frictionWeights<D>(level, settings, cells, space, bodies, cell);
     if (!(weights.all() > 0)) return Vec<D>::Zero();
@@ -99,7 +99,8 @@ struct FrictionOfStep {
   }
 
  private:
-  /// Mass that a cell's friction moves, kg/m³: of a small cell, with that of the neighbour that has most.
+  /// Mass on which the friction of a cell acts, kg/m³; for a small cell, including that of the neighbour with most
+  /// mass.
   double massAbout(const Index<D>& cell) const {
     const double own = cells.held.density[cell];
     if (!(cells.free[cell] < smallFreeVolume)) return own;
@@ -114,7 +115,7 @@ struct FrictionOfStep {
   }
 };
 
-/// Finds the friction of walls on the gas of each cell, by the velocities of both at the start of the step.
+/// Finds the friction of walls on the gas of each cell from the velocities of both at the start of the step.
 template <int D>
 void computeWallFriction(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                          double dt, const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,

@@ -14,7 +14,8 @@ namespace boundary {
 inline constexpr BoundaryLabel<double> phi{"Phi"};
 }
 inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "iterations of the linear solve"};
-inline constexpr ReductionLabel<Maximum> finalResidual{"KrylovResidual", "1", "final residual over the initial one"};
+inline constexpr ReductionLabel<Maximum> finalResidual{"KrylovResidual", "1",
+                                                       "final residual divided by the initial one"};
 
 /// The `Poisson` section.
 struct Settings {

@@ -39,7 +39,7 @@ void checkTime(double t) {
 
 ExactRiemann::ExactRiemann(const RiemannProblem& problem) : problem_(problem), solution_(solveShifted(problem)) {
   if (problem.axis < 0 || problem.axis > 2) {
-    throw std::invalid_argument(fmt::format("The axis of a Riemann problem is 0, 1 or 2, not {}.", problem.axis));
+    throw std::invalid_argument(fmt::format("The axis of a Riemann problem must be 0, 1 or 2, not {}.", problem.axis));
   }
   if (!std::isfinite(problem.diaphragm)) {
     throw std::invalid_argument("The diaphragm of a Riemann problem must be at a finite position.");

@@ -23,9 +23,10 @@ const input::Schema<State>& stateSchema() {
           .required("density", &State::density, "kg/m^3", "rho", input::nonNegative())
           .required("pressure", &State::pressure, "Pa", "p", input::nonNegative())
           .value("velocity", &State::velocity, 0, "m/s", "u, along the normal")
-          .optional("gamma", &State::gamma, "1", "its own value, if the two gases differ", input::greaterThan(1))
+          .optional("gamma", &State::gamma, "1", "the value of this gas, if the two gases differ",
+                    input::greaterThan(1))
           .ours()
-          .optional("p_infinity", &State::pInfinity, "Pa", "its own value, if the two gases differ",
+          .optional("p_infinity", &State::pInfinity, "Pa", "the value of this gas, if the two gases differ",
                     input::nonNegative())
           .ours();
   return schema;
@@ -39,7 +40,7 @@ struct RiemannSection : GasTags {
 };
 const input::Schema<RiemannSection>& riemannSchema() {
   static const input::Schema<RiemannSection> schema =
-      gasSchema<RiemannSection>("exactRiemann", "Errors against the exact solution of a shock tube (Toro, ch. 4).")
+      gasSchema<RiemannSection>("exactRiemann", "Errors relative to the exact solution of a shock tube (Toro, ch. 4).")
           .value("p_infinity", memberOf<RiemannSection>(&GasTags::pInfinity), 0, "Pa", "stiffness of the gas",
                  input::nonNegative())
           .ours()
@@ -51,11 +52,11 @@ const input::Schema<RiemannSection>& riemannSchema() {
                  "direction of the tube; its length does not matter")
           .ours()
           .value("diaphragm", &RiemannSection::diaphragm, 0.5, "m",
-                 "the gases meet where normal . x has this value at t = 0")
+                 "the gases meet where normal · x has this value at t = 0")
           .ours()
           .optional(
               "mirror", &RiemannSection::mirror, "m",
-              "the tube is mirrored where normal . x has this value, and again half a period of the grid further on")
+              "the tube is mirrored where normal · x has this value, and again half a period of the grid further along")
           .ours()
           .check([](const RiemannSection& read, const input::Element& element, input::Diagnostics& diagnostics) {
             if (read.normal.isZero(0)) diagnostics.error(element, "normal is [0,0,0], which is no direction");
@@ -80,9 +81,9 @@ double periodAlong(const Vec3& normal, const grid::Level& level) {
   const double period = *std::min_element(lengths.begin(), lengths.end());
   for (const double length : lengths)
     if (std::abs(std::remainder(length, period)) > 1e-9 * period)
-      throw std::invalid_argument(fmt::format(
-          "normal: in this direction the grid repeats every {:g} m for one axis, but every {:g} m for another", period,
-          length));
+      throw std::invalid_argument(
+          fmt::format("normal: in this direction the grid has a period of {:g} m for one axis, but {:g} m for another",
+                      period, length));
   return period;
 }
 
@@ -91,8 +92,9 @@ void checkDiaphragm(double position, const Vec3& normal, const grid::Domain& dom
   const Vec3 lower = normal.cwiseProduct(domain.lower), upper = normal.cwiseProduct(domain.upper);
   const double first = lower.cwiseMin(upper).sum(), last = lower.cwiseMax(upper).sum();
   if (position < first || position > last)
-    throw std::invalid_argument(fmt::format(
-        "diaphragm: {:g} m along the normal is outside of the grid, from {:g} to {:g} m", position, first, last));
+    throw std::invalid_argument(
+        fmt::format("diaphragm: {:g} m along the normal is outside the grid, which extends from {:g} to {:g} m",
+                    position, first, last));
 }
 
 ReferencePointer tubeOn(const grid::Level& level, const RiemannSection& read) {
@@ -100,7 +102,8 @@ ReferencePointer tubeOn(const grid::Level& level, const RiemannSection& read) {
   const Vec3 normal = read.normal / length, axes = axesOf(level);
   for (int d = 0; d < 3; ++d)
     if (normal[d] != 0 && axes[d] == 0)
-      throw std::invalid_argument(fmt::format("normal: points along {}, but this grid has no {}", "xyz"[d], "xyz"[d]));
+      throw std::invalid_argument(
+          fmt::format("normal: points along {}, but this grid does not use {}", "xyz"[d], "xyz"[d]));
   RiemannProblem problem;
   problem.left = {read.left.density, read.left.velocity, read.left.pressure};
   problem.right = {read.right.density, read.right.velocity, read.right.pressure};
@@ -119,7 +122,7 @@ ReferencePointer tubeOn(const grid::Level& level, const RiemannSection& read) {
 
 simulation::AnalysisKind exactRiemannKind() {
   return gasModule(
-      "exactRiemann", "errors against the exact solution of a shock tube", riemannSchema,
+      "exactRiemann", "errors relative to the exact solution of a shock tube", riemannSchema,
       [](const RiemannSection& read, const grid::Level& level) { return tubeOn(level, read); },
       [](const RiemannSection& read) {
         return std::vector{gasOf(read.left, read), gasOf(read.right, read)};

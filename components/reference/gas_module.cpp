@@ -12,7 +12,7 @@ using simulation::MeasuredError;
 
 namespace {
 
-/// Measures a component's gas against an exact solution, whatever that is.
+/// Compares a component's gas with any exact solution.
 class GasError : public simulation::Analysis {
  public:
   GasError(std::string module, ReferencePointer exact, const GasSolution& solution)
@@ -82,8 +82,8 @@ std::string whyNotAmong(const std::vector<GasLaw>& scene, const GasLaw& gas) {
   };
   if (scene.empty() || std::any_of(scene.begin(), scene.end(), isIt)) return {};
   if (scene.size() > 1)
-    return fmt::format("gamma and p_infinity: found {:g} and {} Pa, but no gas of the scene has both", gas.gamma,
-                       gas.stiffness);
+    return fmt::format("gamma and p_infinity: found {:g} and {} Pa, but no gas of the scene has these values",
+                       gas.gamma, gas.stiffness);
   if (!isClose(gas.gamma, scene.front().gamma))
     return fmt::format("gamma: found {}, but the gas of the scene has {}", gas.gamma, scene.front().gamma);
   return fmt::format("p_infinity: found {:g} Pa, but the gas of the scene has {:g} Pa", gas.stiffness,
@@ -100,7 +100,7 @@ simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Lev
   return [build = std::move(build), problem, gases, name = tags.name, within = tags.within](
              const Component& component, const Level& level) -> std::unique_ptr<simulation::Analysis> {
     const auto* solution = dynamic_cast<const GasSolution*>(&component);
-    if (!solution) throw problem("measures a gas, but this component does not solve for one; remove the module");
+    if (!solution) throw problem("measures errors of a gas, but this component has no gas; remove the module");
     try {
       ReferencePointer exact = build(level);
       for (const GasLaw& gas : gases)

@@ -14,9 +14,9 @@ namespace tushar::reference {
 
 using ReferencePointer = std::shared_ptr<const GasReference>;
 
-/// Makes the analysis that measures a component's gas against what `build` makes for a grid, within a region if one is
-/// given. The analysis is refused, with an InputError of the module, for a component that solves for no gas or not for
-/// `gases`, and where `build` throws std::invalid_argument.
+/// Makes the analysis that compares a component's gas with the solution that `build` makes for a grid, within a region
+/// if one is given. The analysis is refused, with an InputError of the module, for a component that solves for no gas
+/// or not for `gases`, and where `build` throws std::invalid_argument.
 simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const grid::Level&)> build, const GasTags& tags,
                                         const std::vector<GasLaw>& gases, const input::Element& module);
 

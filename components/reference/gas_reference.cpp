@@ -43,8 +43,8 @@ class BoxMean {
     return sum / (upper_[axis] - lower_[axis]);
   }
 
-  /// Mean over [a, b], whose Gauss mean is `whole`: halves it for as long as that changes the mean
-  /// over the undivided piece, of which [a, b] is the part 2^-depth. Values too large for a number have no better mean.
+  /// Mean over [a, b], for which Gauss's rule gives `whole`. Halves the interval as long as this changes the mean over
+  /// the undivided piece, of which [a, b] is the part 2^-depth. Values too large for a number have no better mean.
   Fields adaptive(int axis, const Vec3& x, double a, double b, const Fields& whole, int depth) const {
     const double middle = 0.5 * (a + b);
     const Fields left = gauss(axis, x, a, middle);
@@ -55,7 +55,7 @@ class BoxMean {
     return 0.5 * (adaptive(axis, x, a, middle, left, depth + 1) + adaptive(axis, x, middle, b, right, depth + 1));
   }
 
-  /// The scale of an error: each field itself, and for velocities the speed of sound, too.
+  /// The scale of an error: the field itself and, for velocities, also the speed of sound.
   static Fields sizes(const Fields& left, const Fields& right) {
     Fields size = left.abs() + right.abs();
     size.segment<3>(1) = size.segment<3>(1).maxCoeff() + std::sqrt(size[5]);
@@ -82,7 +82,7 @@ class BoxMean {
 void checkBox(const Vec3& lower, const Vec3& upper) {
   if (!(upper.array() >= lower.array()).all()) {
     throw std::invalid_argument(fmt::format(
-        "There is no mean over the box [{}, {}, {}] to [{}, {}, {}]: its upper corner is below its lower one.",
+        "There is no mean over the box [{}, {}, {}] to [{}, {}, {}]: its upper corner is below its lower corner.",
         lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]));
   }
 }

@@ -14,7 +14,7 @@ struct GasState {
   double energy = 0;             ///< internal energy per mass, J/kg
 };
 
-/// A solution of the gas equations that runs are measured against.
+/// A solution of the gas equations with which runs are compared.
 class GasReference {
  public:
   virtual ~GasReference() = default;

@@ -53,8 +53,8 @@ struct ErrorNorms {
 };
 
 /// max_i |m_i / V_i - rho_exact(x_i)| over the nodes.
-inline constexpr ReductionLabel<Norm> nodeError{"NodeError.density", "kg/m^3",
-                                                "error of nodal mass over nodal volume against the exact density"};
+inline constexpr ReductionLabel<Norm> nodeError{
+    "NodeError.density", "kg/m^3", "error of nodal mass divided by nodal volume, relative to the exact density"};
 
 /// The exact means over a cell of a grid.
 template <int D>

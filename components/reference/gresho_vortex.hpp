@@ -4,7 +4,7 @@
 
 namespace tushar::reference {
 
-/// A vortex of two rings in which the pressure balances the turning, carried along by a uniform flow.
+/// A vortex of two rings in which the pressure balances the turning, carried by a uniform flow.
 struct GreshoProblem : VortexProblem {
   /// A radius of 0.2 m and 5 Pa in the middle; beyond twice the radius the gas does not turn.
   GreshoProblem() {

@@ -12,7 +12,7 @@ struct GreshoSection : VortexTags {
 const input::Schema<GreshoSection>& greshoSchema() {
   static const input::Schema<GreshoSection> schema =
       vortexSchema<GreshoSection>("gresho",
-                                  "Errors against the Gresho vortex, at rest or carried along by a uniform flow.")
+                                  "Errors relative to the Gresho vortex, at rest or carried by a uniform flow.")
           .value("density", &GreshoSection::density, 1, "kg/m^3", "density everywhere", input::positive())
           .ours()
           .value("pressure", &GreshoSection::pressure, 5, "Pa", "pressure at the centre", input::positive())
@@ -29,7 +29,7 @@ const input::Schema<GreshoSection>& greshoSchema() {
 }  // namespace
 
 simulation::AnalysisKind greshoKind() {
-  return gasModule("gresho", "errors against the Gresho vortex", greshoSchema,
+  return gasModule("gresho", "errors relative to the Gresho vortex", greshoSchema,
                    [](const GreshoSection& read, const grid::Level& level) {
                      auto problem = vortexProblem<GreshoProblem>(read, level);
                      problem.speed = read.speed;

@@ -12,7 +12,7 @@ struct VortexSection : VortexTags {
 const input::Schema<VortexSection>& isentropicSchema() {
   static const input::Schema<VortexSection> schema =
       vortexSchema<VortexSection>("isentropicVortex",
-                                  "Errors against a smooth vortex that a uniform flow carries along (Shu).")
+                                  "Errors relative to a smooth vortex carried by a uniform flow (Shu).")
           .value("density", &VortexSection::density, 1, "kg/m^3", "density far away", input::positive())
           .ours()
           .value("pressure", &VortexSection::pressure, 1, "Pa", "pressure far away", input::positive())
@@ -27,7 +27,7 @@ const input::Schema<VortexSection>& isentropicSchema() {
 }  // namespace
 
 simulation::AnalysisKind isentropicVortexKind() {
-  return gasModule("isentropicVortex", "errors against a smooth vortex in a uniform flow", isentropicSchema,
+  return gasModule("isentropicVortex", "errors relative to a smooth vortex in a uniform flow", isentropicSchema,
                    [](const VortexSection& read, const grid::Level& level) {
                      auto problem = vortexProblem<IsentropicVortexProblem>(read, level);
                      problem.strength = read.strength;

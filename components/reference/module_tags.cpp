@@ -9,8 +9,8 @@ namespace tushar::reference {
 const input::Schema<Region>& regionSchema() {
   static const input::Schema<Region> schema =
       input::Schema<Region>("within",
-                            "Errors are measured only in this box, which by default is the whole grid: in cells whose "
-                            "centre is inside, and at particles and nodes inside.")
+                            "Errors are measured only in this box (by default the whole grid): in cells whose centre "
+                            "is inside, and at particles and nodes inside.")
           .required("min", &Region::lower, "m", "lower corner")
           .required("max", &Region::upper, "m", "upper corner")
           .check([](const Region& region, const input::Element& element, input::Diagnostics& diagnostics) {
@@ -33,8 +33,8 @@ MovingFrame frameOf(const VortexTags& tags, const grid::Level& level) {
   for (int d = 0; d < 3; ++d)
     if (d != tags.axis && axes[d] == 0)
       throw std::invalid_argument(
-          fmt::format("axis: a vortex around {} needs a grid in {} and {}, but this one has no {}", "xyz"[tags.axis],
-                      "yzx"[tags.axis], "zxy"[tags.axis], "xyz"[d]));
+          fmt::format("axis: a vortex around {} needs a grid in {} and {}, but this grid does not use {}",
+                      "xyz"[tags.axis], "yzx"[tags.axis], "zxy"[tags.axis], "xyz"[d]));
   MovingFrame frame{tags.centre, tags.velocity};
   const grid::Domain& domain = level.domain();
   for (int d = 0; d < 3; ++d)

@@ -49,7 +49,7 @@ input::Schema<S> vortexSchema(const std::string& name, std::string_view sentence
       .required("centre", memberOf<S>(&VortexTags::centre), "m", "centre of the vortex at t = 0")
       .ours()
       .value("velocity", memberOf<S>(&VortexTags::velocity), Vec3::Zero(), "m/s",
-             "velocity of the flow that carries the vortex along")
+             "velocity of the flow that carries the vortex")
       .ours()
       .template choice<int>("axis", memberOf<S>(&VortexTags::axis), {{"x", 0}, {"y", 1}, {"z", 2}}, 2,
                             "the axis of rotation")
@@ -62,7 +62,8 @@ struct RadialTags : GasTags {
   Vec3 centre = Vec3::Zero();
 };
 
-/// The schema of the module `name` with those tags; S is derived from RadialTags, and `centre` says what is there.
+/// The schema of the module `name` with those tags; S is derived from RadialTags, and `centre` describes what is at the
+/// centre.
 template <class S>
 input::Schema<S> radialSchema(const std::string& name, std::string_view sentence, const std::string& centre,
                               double gamma = 1.4) {
@@ -76,8 +77,8 @@ input::Schema<S> radialSchema(const std::string& name, std::string_view sentence
       .ours();
 }
 
-/// Where the vortex goes on a grid, which may repeat. Throws std::invalid_argument where the plane in which it turns is
-/// not in the grid.
+/// The path of the vortex on a grid, which may be periodic. Throws std::invalid_argument where the plane in which it
+/// turns is not in the grid.
 MovingFrame frameOf(const VortexTags& tags, const grid::Level& level);
 
 /// Fills the settings that the problems of all vortices share from the tags of S.

@@ -4,19 +4,19 @@
 
 namespace tushar::reference {
 
-/// `exactRiemann`: errors against the exact solution of a shock tube.
+/// `exactRiemann`: compares a run with the exact solution of a shock tube.
 simulation::AnalysisKind exactRiemannKind();
-/// `simpleWave`: errors against a right-running simple wave.
+/// `simpleWave`: compares a run with a right-running simple wave.
 simulation::AnalysisKind simpleWaveKind();
-/// `isentropicVortex`: errors against a smooth vortex that a uniform flow carries along.
+/// `isentropicVortex`: compares a run with a smooth vortex carried by a uniform flow.
 simulation::AnalysisKind isentropicVortexKind();
-/// `gresho`: errors against a vortex of two rings.
+/// `gresho`: compares a run with a steady vortex that consists of two rings.
 simulation::AnalysisKind greshoKind();
-/// `noh`: errors against cold gas that falls into a plane, a line or a point.
+/// `noh`: compares a run with cold gas that collides in a plane, a line or a point.
 simulation::AnalysisKind nohKind();
-/// `sedov`: errors against a self-similar blast wave.
+/// `sedov`: compares a run with a self-similar blast wave.
 simulation::AnalysisKind sedovKind();
-/// `tabulated`: errors against the cells of another run.
+/// `tabulated`: compares a run with the cells of another run.
 simulation::AnalysisKind tabulatedKind();
 
 }  // namespace tushar::reference

@@ -11,10 +11,11 @@ struct NohSection : RadialTags {
 };
 const input::Schema<NohSection>& nohSchema() {
   static const input::Schema<NohSection> schema =
-      radialSchema<NohSection>("noh",
-                               "Errors against Noh's problem: cold gas converges on a plane, a line or a point, if the "
-                               "grid has 1, 2 or 3 dimensions.",
-                               "point towards which the gas moves", 5.0 / 3)
+      radialSchema<NohSection>(
+          "noh",
+          "Errors relative to Noh's problem: cold gas converges on a plane, a line or a point, if the "
+          "grid has 1, 2 or 3 dimensions.",
+          "point towards which the gas moves", 5.0 / 3)
           .value("speed", &NohSection::speed, 1, "m/s", "speed of the gas towards the centre", input::positive())
           .ours();
   return schema;
@@ -23,7 +24,7 @@ const input::Schema<NohSection>& nohSchema() {
 }  // namespace
 
 simulation::AnalysisKind nohKind() {
-  return gasModule("noh", "errors against Noh's problem: cold gas that converges on a point", nohSchema,
+  return gasModule("noh", "errors relative to Noh's problem: cold gas that converges on a point", nohSchema,
                    [](const NohSection& read, const grid::Level& level) {
                      return std::make_shared<Noh>(
                          NohProblem{read.density, read.speed, read.pressure, read.gamma, read.centre, axesOf(level)});

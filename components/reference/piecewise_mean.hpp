@@ -80,7 +80,8 @@ class PiecewiseMean {
     return sum / (upper_[axis] - lower_[axis]);
   }
 
-  /// The point by x = s²(3 - 2s), dx = 6s(1 - s) ds: what behaves like a root of x at an end is smooth in s.
+  /// The point after the substitution x = s²(3 - 2s), dx = 6s(1 - s) ds: a function that behaves like a root of x at an
+  /// end is smooth in s.
   static QuadraturePoint smoothEnds(const QuadraturePoint& point) {
     const double s = point.at;
     return {s * s * (3 - 2 * s), 6 * s * (1 - s) * point.weight};

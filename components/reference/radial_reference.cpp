@@ -12,7 +12,7 @@ RadialReference::RadialReference(const Vec3& centre, const Vec3& round) : centre
   const bool known = ((round.array() == 0) || (round.array() == 1)).all();
   if (!known || round.sum() == 0)
     throw std::invalid_argument(
-        fmt::format("The axes of a radial flow are 0 or 1, not [{}, {}, {}].", round[0], round[1], round[2]));
+        fmt::format("The axes of a radial flow must be 0 or 1, not [{}, {}, {}].", round[0], round[1], round[2]));
 }
 
 GasState RadialReference::at(const Vec3& x, double t) const {
@@ -32,10 +32,9 @@ GasState RadialReference::average(const Vec3& lower, const Vec3& upper, double t
 void requireRadialFlow(const char* problem, double density, const char* amount, double value, double pressure,
                        double gamma) {
   if (density > 0 && value > 0 && pressure >= 0 && gamma > 1) return;
-  throw std::invalid_argument(
-      fmt::format("{} needs a positive density and {}, a pressure of at least 0 and a gamma above 1, not {}, {}, {} "
-                  "and {}.",
-                  problem, amount, density, value, pressure, gamma));
+  throw std::invalid_argument(fmt::format(
+      "{} needs a positive density and {}, a pressure of at least 0 and a gamma above 1, but has {}, {}, {} and {}.",
+      problem, amount, density, value, pressure, gamma));
 }
 
 }  // namespace tushar::reference

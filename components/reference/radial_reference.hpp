@@ -13,11 +13,11 @@ struct RadialState {
 };
 
 /// A gas whose state depends on the distance from a centre alone, with one shock: between planes, around a line or
-/// around a point, in as many axes as are round.
+/// around a point.
 class RadialReference : public GasReference {
  public:
   GasState at(const Vec3& x, double t) const final;
-  /// By piecewiseMean, cut at the shock.
+  /// Uses piecewiseMean with one piece on each side of the shock.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
   /// Where the shock is, m.

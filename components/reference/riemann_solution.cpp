@@ -28,7 +28,7 @@ struct Side {
         stiffness(gas.stiffness) {}
 
   double soundSpeed() const { return density > 0 ? std::sqrt(gamma * pressure / density) : 0; }
-  /// Speed at which the gas expands into what has no pressure, Toro (4.77).
+  /// Speed at which the gas expands where there is no pressure, Toro (4.77).
   double front() const {
     return stiffness > 0 ? velocity - velocityChange(0) : velocity + 2 * soundSpeed() / (gamma - 1);
   }
@@ -119,7 +119,7 @@ void checkProblem(const RiemannState& left, const RiemannState& right, const Gas
   checkSide("left", left);
   checkSide("right", right);
   if (left.density == 0 && right.density == 0) {
-    throw std::invalid_argument("Both sides of the Riemann problem are vacuum: there is no gas to follow.");
+    throw std::invalid_argument("Both sides of the Riemann problem are vacuum: there is no gas.");
   }
 }
 
@@ -251,7 +251,7 @@ RiemannSolution solveRiemann(const RiemannState& left, const RiemannState& right
   const bool vacuum = left.density == 0 || right.density == 0 || leftSide.front() <= -rightSide.front();
   if (vacuum && (leftGas.gamma != rightGas.gamma || leftGas.stiffness > 0 || rightGas.stiffness > 0))
     throw std::invalid_argument(
-        "The two gases separate and leave a vacuum between them: a solution exists here only if both have the same "
+        "The two gases separate and leave a vacuum between them: the solution is available only if both have the same "
         "gamma and no stiffness.");
   vacuum ? fillVacuum(solution, leftSide, rightSide) : fillStar(solution, leftSide, rightSide);
   return solution;

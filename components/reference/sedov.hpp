@@ -33,8 +33,8 @@ class Sedov : public RadialReference {
 
   double shockRadius(double t) const override;
   RadialState atRadius(double r, double t) const override;
-  /// As for any reference, but internal energy weighted with mass, mean p / ((gamma-1) mean rho): it grows so fast
-  /// towards the centre that its plain mean is infinite there.
+  /// As for any reference, except that the internal energy is weighted with the mass, mean p / ((gamma-1) mean rho): it
+  /// grows so fast towards the centre that its plain mean is infinite there.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
   double alpha() const { return alpha_; }

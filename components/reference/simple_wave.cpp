@@ -23,15 +23,16 @@ void checkSettings(const SimpleWaveProblem& problem) {
     throw std::invalid_argument(fmt::format("The gamma of a simple wave must be above 1, not {}.", problem.gamma));
   }
   if (!(problem.density > 0) || !(problem.soundSpeed > 0)) {
-    throw std::invalid_argument(fmt::format("A simple wave needs a positive density and sound speed, not {} and {}.",
-                                            problem.density, problem.soundSpeed));
+    throw std::invalid_argument(
+        fmt::format("A simple wave needs a positive density and sound speed, but has {} and {}.", problem.density,
+                    problem.soundSpeed));
   }
   if (!(problem.upper > problem.lower)) {
     throw std::invalid_argument(
         fmt::format("The interval [{}, {}] of a simple wave is empty.", problem.lower, problem.upper));
   }
   if (problem.axis < 0 || problem.axis > 2) {
-    throw std::invalid_argument(fmt::format("The axis of a simple wave is 0, 1 or 2, not {}.", problem.axis));
+    throw std::invalid_argument(fmt::format("The axis of a simple wave must be 0, 1 or 2, not {}.", problem.axis));
   }
 }
 
@@ -66,7 +67,7 @@ void SimpleWave::checkProfile() const {
     const double u = problem_.velocity(x);
     if (!std::isfinite(u) || problem_.soundSpeed + 0.5 * (problem_.gamma - 1) * u <= 0) {
       throw std::invalid_argument(
-          fmt::format("The velocity {} of the simple wave at x = {} leaves no positive sound speed.", u, x));
+          fmt::format("The velocity {} of the simple wave at x = {} does not allow a positive sound speed.", u, x));
     }
     if (!std::isfinite(stateOf(u).pressure)) {
       throw std::invalid_argument(fmt::format(

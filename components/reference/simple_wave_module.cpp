@@ -13,7 +13,7 @@ struct WaveSection : GasTags {
 };
 const input::Schema<WaveSection>& waveSchema() {
   static const input::Schema<WaveSection> schema =
-      gasSchema<WaveSection>("simpleWave", "Errors against a simple wave that moves towards +x into gas at rest.")
+      gasSchema<WaveSection>("simpleWave", "Errors relative to a simple wave that moves towards +x into gas at rest.")
           .required("velocity", &WaveSection::velocity, "m/s", "velocity at t = 0, a formula in x")
           .ours()
           .value("density", &WaveSection::density, 1, "kg/m^3", "density at rest", input::positive())
@@ -30,10 +30,10 @@ const input::Schema<WaveSection>& waveSchema() {
 }  // namespace
 
 simulation::AnalysisKind simpleWaveKind() {
-  return gasModule("simpleWave", "errors against a simple wave that moves towards +x", waveSchema,
+  return gasModule("simpleWave", "errors relative to a simple wave that moves towards +x", waveSchema,
                    [](const WaveSection& read, const grid::Level& level) {
                      if (axesOf(level)[0] == 0)
-                       throw std::invalid_argument("the wave runs along x, but this grid has no x");
+                       throw std::invalid_argument("the wave moves along x, but this grid does not use x");
                      SimpleWaveProblem problem;
                      problem.velocity = [velocity = read.velocity](double x) { return velocity(Vec3(x, 0, 0)); };
                      problem.density = read.density;

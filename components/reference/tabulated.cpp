@@ -31,7 +31,7 @@ std::vector<double> readField(const output::Hdf5Input& file, const std::string& 
   const auto* reals = std::get_if<std::vector<double>>(&values);
   if (!reals || reals->size() != numbers)
     throw FileError(
-        fmt::format("'{}': {} does not have the {} numbers that the grid needs", file.path().string(), path, numbers));
+        fmt::format("'{}': {} does not have the {} values that the grid needs", file.path().string(), path, numbers));
   return *reals;
 }
 
@@ -41,7 +41,7 @@ GasTable readGasTable(const std::filesystem::path& path, double gamma) {
   const output::Hdf5Input file(path);
   if (file.has("grid/boxes"))
     throw FileError(
-        fmt::format("'{}' contains boxes of several levels: tools/coarsen turns it into a table", path.string()));
+        fmt::format("'{}' contains boxes of several levels: use tools/coarsen to make a table from it", path.string()));
   GasTable table;
   table.time = file.real("/", "time");
   table.cells = file.index("grid", "cells");
@@ -69,7 +69,7 @@ Tabulated::Tabulated(GasTable table) : table_(std::move(table)) {
   }
   if (count != table_.means.size())
     throw std::invalid_argument(
-        fmt::format("A table of {} cells needs as many means, not {}.", count, table_.means.size()));
+        fmt::format("A table of {} cells needs as many means, but has {}.", count, table_.means.size()));
 }
 
 bool Tabulated::holdsAt(double t) const { return std::abs(t - table_.time) <= 1e-9 * std::max(1.0, table_.time); }

@@ -15,9 +15,9 @@ struct GasTable {
   std::vector<GasState> means;  ///< x fastest, z slowest
 };
 
-/// The cells of an output of a gas, `t00042.h5` of an archive that holds c.density, c.velocity and c.pressure, or what
-/// tools/coarsen made of it. Internal energy is p / ((gamma-1) rho) of the means.
-/// Throws FileError where the file cannot be read or does not hold these.
+/// The cells of a gas in an output of an archive (`t00042.h5`) that contains c.density, c.velocity and c.pressure, or
+/// in a file made by tools/coarsen. Internal energy is p / ((gamma-1) rho) of the means. Throws FileError where the
+/// file cannot be read or does not hold these.
 GasTable readGasTable(const std::filesystem::path& file, double gamma);
 
 /// The cell means of another run, of higher resolution, as the reference of a scene that has no exact solution. It
@@ -37,7 +37,7 @@ class Tabulated : public GasReference {
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
  private:
-  /// Cells along an axis and what part of a sum they make.
+  /// Cells along an axis, and their shares of a sum.
   struct Share {
     int cell;
     double part;

@@ -14,9 +14,10 @@ struct TableSection : GasTags {
 };
 const input::Schema<TableSection>& tableSchema() {
   static const input::Schema<TableSection> schema =
-      gasSchema<TableSection>("tabulated",
-                              "Errors against the cells of another run, with higher resolution, at the time and in the "
-                              "box of its output. Internal energy is a mass-weighted mean.")
+      gasSchema<TableSection>(
+          "tabulated",
+          "Errors relative to the cells of another run, with higher resolution, at the time and in the "
+          "box of its output. Internal energy is a mass-weighted mean.")
           .required("file", &TableSection::file, "1",
                     "an output (.h5) with c.density, c.velocity and c.pressure, or a table that tools/coarsen made "
                     "from one; path relative to the scene")
@@ -27,7 +28,7 @@ const input::Schema<TableSection>& tableSchema() {
 }  // namespace
 
 simulation::AnalysisKind tabulatedKind() {
-  return gasModule("tabulated", "errors against the cells of another run", tableSchema,
+  return gasModule("tabulated", "errors relative to the cells of another run", tableSchema,
                    [](const TableSection& read, const grid::Level&) {
                      try {
                        return std::make_shared<Tabulated>(readGasTable(read.file, read.gamma));

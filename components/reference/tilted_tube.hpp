@@ -29,7 +29,7 @@ class TiltedTube : public GasReference {
   /// Throws std::domain_error from the time on at which a wave reaches a mirror.
   GasState at(const Vec3& x, double t) const override;
   bool holdsAt(double t) const override { return t >= 0 && t < meetingTime_; }
-  /// By piecewiseMean, cut at each wave; the axes across the tube cost nothing.
+  /// Uses piecewiseMean with one piece between any two waves; the axes across the tube cost nothing.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
  private:

@@ -64,9 +64,9 @@ class TaskError : public std::runtime_error {
 /// A non-finite or unphysical value: which one, where, when, and what the user can try.
 class NumericalError : public std::runtime_error {
  public:
-  /// `what` names the value and where it is; `advice` says what to try, empty for what the component advises.
-  /// `value` is the name of the value alone, `cell` the number of its cell: if several patches report an
-  /// error, the one in the lowest cell is kept, so that the layout does not matter.
+  /// `what` names the value and its position; `advice` says what to try; if empty, the advice of the component is used.
+  /// `value` is the name of the value alone, `cell` the number of its cell: if several patches report an error, the one
+  /// in the lowest cell is kept, so that the layout does not matter.
   NumericalError(const std::string& what, std::string advice, std::string value = {}, std::uint64_t cell = 0)
       : std::runtime_error(what), advice_(std::move(advice)), value_(std::move(value)), cell_(cell) {}
   const std::string& advice() const { return advice_; }
@@ -83,7 +83,7 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// ` (did you mean 'x'?)` for the candidate nearest to `word` if one is near enough, otherwise nothing.
+/// ` (did you mean 'x'?)` for the candidate most similar to `word` if there is a similar one, otherwise nothing.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
 
 /// `'a', 'b' or 'c'`.

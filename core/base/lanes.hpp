@@ -14,7 +14,7 @@
 
 namespace tushar {
 
-/// As many numbers as one vector register of the processor holds. An operation acts on each of them as it does on a
+/// As many numbers as fit into one vector register of the processor. An operation acts on each of them as it does on a
 /// number alone, to the same bits, so that results do not depend on which numbers share a register.
 class Lanes {
  public:
@@ -67,7 +67,7 @@ class Lanes {
   }
   friend Mask operator>=(Lanes a, Lanes b) { return a.values_ >= b.values_; }
   friend Lanes select(Mask which, Lanes yes, Lanes no) { return which ? yes.values_ : no.values_; }
-  /// Component `Which` of as many vectors of `numbers` numbers in a row as there are lanes.
+  /// Component `Which` of consecutive vectors of `numbers` numbers, one vector for each lane.
   template <int numbers, int Which>
   [[gnu::always_inline]] static Lanes unpacked(const double* from) {
     Register sum = at(from).values_;
@@ -99,7 +99,8 @@ class Lanes {
     return __builtin_shufflevector(low, high, (Start + Lane)...);
   }
 
-  /// Puts component Which of register Next and of later ones into `sum`, which holds that of the registers before.
+  /// Puts component Which of register Next and later registers into `sum`, which contains that of the previous
+  /// registers.
   template <int numbers, int Which, int Next, int... Lane>
   [[gnu::always_inline]] static void takeRegisters(Register& sum, const double* from,
                                                    std::integer_sequence<int, Lane...> lanes) {
@@ -137,7 +138,7 @@ class Lanes {
   Register values_;
 };
 
-/// As many rows as each has lanes.
+/// A square block: the number of rows equals the number of lanes.
 using LanesSquare = std::array<Lanes, Lanes::count>;
 
 /// Lane k of row r moves to lane r of row k.
@@ -168,7 +169,7 @@ template <int numbers, class At>
   return columns;
 }
 
-/// columnsOf of records that follow each other, for few numbers.
+/// columnsOf for consecutive records of few numbers.
 template <int numbers, int... Which>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> unpack(const double* from,
                                                                 std::integer_sequence<int, Which...>) {
@@ -213,7 +214,7 @@ template <std::size_t numbers, class At>
 /// An integer in each lane.
 using LaneIntegers [[gnu::vector_size(Lanes::count * sizeof(int))]] = int;
 
-/// a b + c, rounded once where the processor can.
+/// a b + c, rounded once if the processor supports it.
 [[gnu::always_inline]] inline Lanes multiplyAdd(Lanes a, Lanes b, Lanes c) {
 #if defined(__FMA__) && defined(__AVX512F__)
   return Lanes((Lanes::Register)_mm512_fmadd_pd((__m512d)a.values(), (__m512d)b.values(), (__m512d)c.values()));
@@ -246,13 +247,13 @@ inline Lanes widen(LaneIntegers whole) {
 inline Lanes sqrt(Lanes x) {
   return Lanes::of([&](int lane) { return std::sqrt(x[lane]); });
 }
-/// Whether something holds in the first `count` lanes.
+/// Whether a condition is true in the first `count` lanes.
 inline bool all(Lanes::Mask mask, int count) {
   bool holds = true;
   for (int lane = 0; lane < count; ++lane) holds = holds && mask[lane] != 0;
   return holds;
 }
-/// Whether something holds in every lane.
+/// Whether a condition is true in every lane.
 inline bool all(Lanes::Mask mask) {
 #if defined(__AVX512F__)
   return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) == 0xFF;

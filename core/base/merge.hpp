@@ -10,7 +10,7 @@ namespace tushar {
 template <class T>
 void mergeInMemory(const std::byte* from, std::byte* into) {
   static_assert(std::is_trivially_copyable_v<T>,
-                "only values that can be copied bytewise can be merged in messages and checkpoints");
+                "only trivially copyable values can be merged in messages and checkpoints");
   T one, other;
   std::memcpy(&one, into, sizeof(T));
   std::memcpy(&other, from, sizeof(T));

@@ -18,7 +18,7 @@ double secondsSpent = 0;
 std::filesystem::path libraryFolder() {
   Dl_info found;
   if (!dladdr(reinterpret_cast<const void*>(&libraryFolder), &found))
-    throw std::runtime_error("the folder of the modules is not known");
+    throw std::runtime_error("the folder that contains the modules is unknown");
   return std::filesystem::canonical(found.dli_fname).parent_path();
 }
 

@@ -223,7 +223,7 @@ Session::Session() {
   if (provided < MPI_THREAD_FUNNELED) {
     MPI_Finalize();
     if (launchedRank() > 0) throw FailedElsewhere();
-    throw std::runtime_error("this MPI does not support threads within a process, which sus needs");
+    throw std::runtime_error("this MPI library does not support threads within a process, which sus needs");
   }
   is_open_ = true;
   ranks_ = copyOf(MPI_COMM_WORLD);

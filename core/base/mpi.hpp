@@ -17,7 +17,7 @@ namespace tushar::mpi {
 
 using Bytes = std::vector<std::byte>;
 
-/// The kind of a message: a rank that waits for one kind takes no other.
+/// The kind of a message: a rank that waits for one kind does not receive others.
 enum class Tag : int { ghosts, migrants, patches, output };
 
 /// Adds `length` bytes to the end.
@@ -29,7 +29,7 @@ inline void append(Bytes& bytes, const void* from, std::size_t length) {
 /// Name and version of the MPI library; MPI need not be initialised.
 std::string libraryVersion();
 
-/// Thrown on a rank because another one has failed, which reports the cause.
+/// Thrown on a rank because another rank has failed, which reports the cause.
 class FailedElsewhere : public std::runtime_error {
  public:
   FailedElsewhere() : std::runtime_error("another rank has failed") {}
@@ -43,7 +43,7 @@ class Communicator {
  public:
   struct Native;
 
-  /// One rank on its own.
+  /// A single rank without others.
   Communicator() = default;
   static const Communicator& alone();
   /// See mpi_native.hpp.
@@ -61,7 +61,7 @@ class Communicator {
   long sum(long mine) const;
   /// Replaces each number by its sum over all ranks; whole numbers have bitwise the same sum on all ranks.
   void sum(std::span<double> mine) const;
-  /// Merges the values of all ranks by `merge(from, into)`, in a tree that depends only on the number of ranks. Every
+  /// Merges the values of all ranks with `merge(from, into)`, in a tree that depends only on the number of ranks. Every
   /// rank gets the same bits.
   void merge(std::span<std::byte> value,
              const std::function<void(const std::byte* from, std::byte* into)>& merge) const;
@@ -72,11 +72,11 @@ class Communicator {
   }
   /// The bytes of rank `from`, on every rank.
   Bytes broadcast(Bytes bytes, int from = 0) const;
-  /// The value of rank `from`, on every rank; it holds no pointers.
+  /// The value of rank `from`, on every rank; it must not contain pointers.
   template <class T>
   T broadcast(T value, int from = 0) const {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>,
-                  "a value that contains pointers has no meaning on another rank");
+                  "a value that contains pointers is meaningless on another rank");
     Bytes bytes(sizeof(T));
     std::memcpy(bytes.data(), &value, sizeof(T));
     bytes = broadcast(std::move(bytes), from);
@@ -108,7 +108,7 @@ class Outbox {
   explicit Outbox(const Communicator& ranks);
   Outbox(const Outbox&) = delete;
   Outbox& operator=(const Outbox&) = delete;
-  /// Messages that have not been received yet stay in memory, where MPI reads them.
+  /// Messages that have not been received yet remain in memory, where MPI reads them.
   ~Outbox();
 
   /// Returns at once.
@@ -139,10 +139,10 @@ class Session {
 
   const Communicator& ranks() const { return ranks_; }
 
-  /// To be called by a rank that cannot continue, for whatever reason; `isKnown` if it has its own error message. If
-  /// all ranks call this within some seconds, all can end in order: returns true on the first rank with a message,
-  /// which must print it, and all get its exit code. Otherwise this rank must report its own error and stop the others
-  /// by `abort`; the ranks do so in order, so that if several fail at the same time, one reports.
+  /// Must be called by a rank that cannot continue for any reason; `isKnown` if it has its own error message. If all
+  /// ranks call this within some seconds, all can end in order: returns true on the first rank with a message, which
+  /// must print it, and all get its exit code. Otherwise this rank must report its own error and stop the others by
+  /// `abort`; the ranks do so in order, so that if several fail at the same time, one reports.
   bool speaks(bool isKnown, int& exitCode);
   /// Whether all ranks have called `speaks`.
   bool isAgreed() const { return is_agreed_; }

@@ -32,7 +32,7 @@ std::vector<std::uint64_t> allOf(const Communicator& ranks, std::span<const std:
 /// The first rank of each node, ascending, on every rank.
 std::vector<int> firstOfNodes(const Communicator& ranks);
 
-/// A message, and the rank that it is to or from.
+/// A message, and the rank to which it is sent or from which it comes.
 struct Letter {
   int rank = 0;
   Bytes bytes;

@@ -16,7 +16,7 @@ class Progress {
   /// file.
   Progress(bool quiet, std::FILE* stream, Clock::duration period = std::chrono::minutes(1));
 
-  /// Prints a line that stays.
+  /// Prints a permanent line.
   void line(const std::string& text);
   /// Draws the live line, or writes a line to a file. `time`, `dt` and `maxTime` in s.
   void live(int step, double time, double dt, double maxTime);

@@ -12,7 +12,7 @@ namespace tushar {
 using Quad = double __attribute__((vector_size(32)));
 using QuadOfIntegers = int __attribute__((vector_size(16)));
 
-/// factor * a + b, rounded once where the processor can.
+/// factor * a + b, rounded once if the processor supports it.
 [[gnu::always_inline]] inline Quad multiplyAdd(double factor, const Quad& a, const Quad& b) {
 #if defined(__FMA__)
   return (Quad)_mm256_fmadd_pd(_mm256_set1_pd(factor), (__m256d)a, (__m256d)b);

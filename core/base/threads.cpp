@@ -68,7 +68,7 @@ class Threads::Pool {
  public:
   explicit Pool(int count) : limit_(tbb::global_control::max_allowed_parallelism, count), arena_(count), busy_(count) {}
 
-  /// Runs the loop; returns the time that all threads together have worked.
+  /// Runs the loop; returns the total working time of all threads.
   template <class Work>
   Clock::duration run(int times, const Work& work) {
     started_.store(true, std::memory_order_release);
@@ -107,9 +107,10 @@ class Threads::Pool {
 
   tbb::global_control limit_;
   tbb::task_arena arena_;
-  tbb::affinity_partitioner partitioner_;  ///< gives each thread the same indices again: data stay in its cache
+  tbb::affinity_partitioner
+      partitioner_;  ///< gives each thread the same indices again, so that data remain in its cache
   std::vector<Busy> busy_;
-  /// TBB synchronises caller and workers; these two do so again, in a way that the thread sanitizer sees.
+  /// TBB synchronises caller and workers; these two do so again, in a way that the thread sanitizer can detect.
   std::atomic<bool> started_ = false;
   std::atomic<long> finished_ = 0;
 };

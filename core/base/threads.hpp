@@ -8,8 +8,8 @@
 
 namespace tushar {
 
-/// Cores that this rank may use: those that it is bound to, or its share where several ranks of a launcher use the same
-/// machine; no more than SLURM_CPUS_PER_TASK, where that is set.
+/// Number of cores that this rank may use: those to which it is bound, or its share if several ranks of a launcher use
+/// the same machine; at most SLURM_CPUS_PER_TASK, if that is set.
 int allowedThreads();
 
 /// The version of TBB in use.
@@ -27,8 +27,8 @@ class Threads {
   /// Sets the number of threads from the next loop on.
   void resize(int count);
 
-  /// Calls `work(0)` to `work(times - 1)`, in any order and several at once, and returns when all are done. If calls
-  /// throw, all are made nevertheless, and the exception of the lowest number is rethrown.
+  /// Calls `work(0)` to `work(times - 1)`, in any order and possibly concurrently, and returns when all are done. If
+  /// calls throw, all are made nevertheless, and the exception of the lowest number is rethrown.
   template <class Work>
   void forEach(int times, const Work& work, trace::Kind kind = trace::Kind::task) {
     run(times, {&work, [](const void* called, int k) { (*static_cast<const Work*>(called))(k); }}, kind);
@@ -51,7 +51,7 @@ class Threads {
   };
   const Use& use() const { return use_; }
 
-  /// If true, loops on a single thread do not read the clock: their caller counts the time.
+  /// If true, loops on a single thread do not read the clock, because their caller measures the time.
   void countOutside(bool outside) { counted_outside_ = outside && !pool_; }
   bool isCountedOutside() const { return counted_outside_; }
   /// Counts the time [s] of loops that did not read the clock.

@@ -17,8 +17,8 @@ std::string_view nameOf(Kind kind);
 void start();
 bool isOn();
 
-/// Records what the calling thread did from `from` to `to`. `name` must outlive the trace; `patch` is -1 if there is
-/// none.
+/// Records an activity of the calling thread from `from` to `to`. `name` must outlive the trace; `patch` is -1 if there
+/// is none.
 void record(Kind kind, std::string_view name, int patch, Clock::time_point from, Clock::time_point to);
 
 /// Records a span as long as its own lifetime. Spans of a thread are nested.

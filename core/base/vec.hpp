@@ -13,7 +13,7 @@ namespace tushar {
 template <int D>
 using Vec = Eigen::Matrix<double, D, 1, Eigen::DontAlign>;
 
-/// A vector as scenes write it, [x,y,z]; axes that a scene leaves out are dropped with Level::reduce.
+/// A vector as written in scenes, [x,y,z]; Level::reduce drops the axes that a scene does not use.
 using Vec3 = Vec<3>;
 
 /// Euclidean length; in one dimension computed without a square root.
@@ -32,7 +32,7 @@ struct Index {
 
   constexpr int& operator[](int axis) { return at[axis]; }
   constexpr int operator[](int axis) const { return at[axis]; }
-  /// Compares component by component, as the comparison of arrays would call memcmp.
+  /// Compares component by component, because the comparison of arrays would call memcmp.
   friend constexpr bool operator==(const Index& a, const Index& b) {
     bool same = true;
     for (int d = 0; d < D; ++d) same &= a[d] == b[d];

@@ -25,8 +25,8 @@ struct Window {
   std::vector<grid::Box> finer{};  ///< cells of levels 1, 2, …
 };
 
-/// Variables over the whole grid, in an order that no layout changes: particles by id, nodes and cells with x fastest.
-/// Vectors come out in x, y, z. All ranks make the same calls, between which the state does not change.
+/// Variables over the whole grid, in an order that does not depend on the layout: particles by id, nodes and cells with
+/// x fastest. Vectors come out in x, y, z. All ranks make the same calls, between which the state does not change.
 class Gather {
  public:
   explicit Gather(data::Warehouse& warehouse) : warehouse_(&warehouse) {}
@@ -60,7 +60,7 @@ output::GridInfo gridInfo(const grid::Grid& grid);
 output::GridInfo gridInfo(const grid::Level& level);
 /// The geometry of a layer: the axis across it has one cell and is not in use.
 output::GridInfo gridInfo(const grid::Grid& grid, const Layer& layer);
-/// The geometry of the grid; of several levels, with the boxes of cells that are in the window.
+/// The geometry of the grid; for several levels, with the boxes of cells that are in the window.
 output::GridInfo gridInfo(const grid::Grid& grid, const Window& window);
 
 /// Hash of the old values of the named variables of all materials, in the order above: 16 hexadecimal digits. Two runs

@@ -8,8 +8,9 @@
 
 namespace tushar::collect {
 
-/// An order of the cells or nodes of a grid that no layout changes: the first axis fastest; if there are several
-/// levels, box after box, the coarsest level first, those of a level along the curve.
+/// An order of the cells or nodes of a grid that does not depend on the layout: the first axis fastest. If there are
+/// several levels, the order goes box by box, from the coarsest level to the finest, and along the curve within a
+/// level.
 class GridOrder {
  public:
   /// The order of the cells or nodes of a box, for a single level.
@@ -21,7 +22,7 @@ class GridOrder {
   std::size_t size() const { return boxes_ ? size_ : all_.size(); }
   /// The cells or nodes that a patch contributes.
   grid::Box givenBy(const grid::Box& own) const { return boxes_ ? own : own.intersect(all_); }
-  /// Calls `visit(place in the order, first cell or node, count)` for each row of a box of a level, as far as it is in
+  /// Calls `visit(position in the order, first cell or node, count)` for each row of a box of a level, if it is part of
   /// the order; box by box along the curve, so from left to right for a single row.
   template <class Visit>
   void forEachRow(int level, const grid::Box& box, Visit&& visit) const {

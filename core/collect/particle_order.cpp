@@ -54,7 +54,7 @@ void ParticleOrder::findRows() {
   }
 }
 
-/// Finds where the particles of each row start: after those of all previous rows, whichever ranks have them.
+/// Finds the start of the particles of each row: after those of all previous rows, on any rank.
 void ParticleOrder::sum() {
   std::vector<std::uint32_t> order(rows_.size());
   std::iota(order.begin(), order.end(), 0u);

@@ -17,7 +17,7 @@ namespace tushar::collect {
 /// by block. A rank stores the counts of its own cells alone.
 class ParticleOrder {
  public:
-  /// Orders the particles that the warehouses of all ranks hold. Collective.
+  /// Orders the particles in the warehouses of all ranks. Collective.
   ParticleOrder(data::Warehouse& warehouse, int material);
 
   /// A request for the numbers of particles in `count` consecutive cells, from a place in the order of all cells.
@@ -25,14 +25,14 @@ class ParticleOrder {
     std::size_t first, count;
     std::int32_t* to;
   };
-  /// Takes the number of particles in each cell from `read`, which is called once. Collective.
+  /// Gets the number of particles in each cell from `read`, which is called once. Collective.
   ParticleOrder(data::Warehouse& warehouse, int material, const std::function<void(const std::vector<Wanted>&)>& read);
 
   /// Number of particles of all ranks.
   std::size_t count() const { return count_; }
-  /// The number of particles in each cell of the grid, in the order of the cells; valid as long as this object.
+  /// The number of particles in each cell of the grid, in the order of the cells; valid as long as this object exists.
   std::shared_ptr<const output::Source> perCell() const;
-  /// Gives each patch its particles, without their values.
+  /// Assigns its particles to each patch, without their values.
   void install();
   /// The rows of cells with particles in the patches of this rank.
   Runs runs() const;

@@ -31,13 +31,13 @@ struct Place {
 /// Where the particles with these ids are, in ascending order of the ids.
 std::vector<Place> placesById(const Parts& ids);
 
-/// The conversion of entries of a variable for an array: they stay as they are, or are extended to x, y, z.
+/// The conversion of entries of a variable for an array: they are unchanged, or extended to x, y, z.
 class EntryForm {
  public:
-  /// Entries of `bytes` bytes, which stay as they are.
+  /// Entries of `bytes` bytes, which are not changed.
   explicit EntryForm(std::size_t bytes) : bytes_(bytes) {}
   explicit EntryForm(const data::Label& label) : EntryForm(label.bytes) {}
-  /// Vectors get 0 along the axes that the grid leaves out, and positions the middle of the domain.
+  /// Vectors get 0 along the axes that the grid does not use, and positions the middle of the domain.
   EntryForm(const data::Label& label, const grid::Level& level);
 
   std::size_t bytes() const { return bytes_; }  ///< Size of an entry of the variable.
@@ -54,7 +54,7 @@ class EntryForm {
   std::size_t bytes_;
   int axes_ = 0;                ///< number of kernel axes if entries are extended, otherwise 0
   int axis_[2] = {0, 0};        ///< the axis x, y or z of each
-  double rest_[3] = {0, 0, 0};  ///< values along the axes left out
+  double rest_[3] = {0, 0, 0};  ///< values along the unused axes
 };
 
 /// The locations of this rank's particles, and their places in an order of all ranks' particles.

@@ -72,7 +72,7 @@ std::vector<std::uint64_t> shapeOf(const grid::Grid& grid, const Label& label) {
 
 std::size_t wordsOf(std::size_t bytes) { return (bytes + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t); }
 
-/// Shared by writing and reading: which variables there are, and where they are in the file.
+/// The part that writing and reading share: the variables, and their positions in the file.
 class StateWalk {
  public:
   StateWalk(data::Warehouse& warehouse, const StateNames& names)
@@ -205,9 +205,10 @@ class StateReader : StateWalk {
   /// Refuses a dataset whose size or type differs from what the scene needs.
   void check(const std::string& path, const Array::Values& found, std::size_t size, const Array::Values& type,
              std::size_t count) const {
-    if (found.index() != type.index()) refuse(fmt::format("the checkpoint stores {} as another type of number", path));
+    if (found.index() != type.index())
+      refuse(fmt::format("the checkpoint stores {} with a different type of numbers", path));
     if (size != count)
-      refuse(fmt::format("the checkpoint has {} numbers for {}, but the scene needs {}", size, path, count));
+      refuse(fmt::format("the checkpoint has {} values of {}, but the scene needs {}", size, path, count));
   }
 
   /// A dataset with a number of values of a type.

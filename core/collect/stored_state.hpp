@@ -17,9 +17,9 @@ struct StateNames {
   std::vector<std::string> labels, materials;
 };
 
-/// The old values of the variables to the last bit, in an order that no layout changes: nodes and cells with x fastest,
-/// particles by (cell, id). Variables that are not held are left out. The values stay where they are, and are valid
-/// until the state changes.
+/// The old values of the variables, exact to the last bit, in an order that does not depend on the layout: nodes and
+/// cells with x fastest, particles by (cell, id). Variables that are not held are left out. The values stay where they
+/// are, and are valid until the state changes.
 ///
 ///     /particles/<material>/perCell    number of particles of each cell
 ///     /particles/<material>/<label>    shape: particles × components along the axes in use

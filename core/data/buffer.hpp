@@ -24,7 +24,7 @@ class Buffer {
   const std::byte* data() const { return start_; }
   std::size_t capacity() const { return capacity_; }
 
-  /// Makes room for `bytes` bytes; the first `keep` bytes are kept, the rest is undefined. Throws std::bad_alloc.
+  /// Makes space for `bytes` bytes; the first `keep` bytes are preserved, the rest is undefined. Throws std::bad_alloc.
   void reserve(std::size_t bytes, std::size_t keep = 0);
   void release();
 

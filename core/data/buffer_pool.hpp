@@ -11,9 +11,9 @@ namespace tushar::data {
 /// that it has lent hold at most `bound()` bytes together. Not for several threads at once.
 class BufferPool {
  public:
-  /// Makes room for `bytes` in a buffer, from the pool if it has one that fits; the first `keep` bytes are kept.
+  /// Makes space for `bytes` in a buffer, from the pool if it has one that fits; the first `keep` bytes are preserved.
   void reserve(Buffer& buffer, std::size_t bytes, std::size_t keep = 0);
-  /// Lends a buffer of at least `bytes` for a short time; it may hold much more.
+  /// Lends a buffer of at least `bytes` for a short time; it may be much larger.
   Buffer lend(std::size_t bytes);
   /// Takes back the memory of a buffer, which is then empty.
   void takeBack(Buffer& buffer);
@@ -43,10 +43,10 @@ class BufferPool {
   Buffer take(Place which);
   void giveUp(Place which);
   void keepBound();
-  /// Notes that a buffer of `before` bytes now holds `after`.
+  /// Notes that the size of a buffer has changed from `before` to `after` bytes.
   void note(std::size_t before, std::size_t after);
 
-  std::vector<Free> free_;  ///< in the order in which they came back
+  std::vector<Free> free_;  ///< in the order in which they were returned
   std::size_t free_bytes_ = 0, lent_ = 0, allocations_ = 0;
   std::size_t most_lent_ = 0, most_lent_before_ = 0;  ///< largest amount at the same time, in this step and the last
 };

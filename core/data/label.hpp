@@ -21,12 +21,12 @@ enum class Number { real, id, integer };
 /// touch. Then patches exchange only those (tasks/near_rows); the others are undefined, or as each patch wrote them.
 enum class Counts { everywhere, nearParticles };
 
-/// The properties of a variable, whatever its type, as the graph, the archive and messages to users need them. Two
-/// labels with the same name are the same variable.
+/// The properties of a variable of any type that the graph, the archive and messages to users need. Two labels with the
+/// same name are the same variable.
 struct Label {
   std::string_view name;         ///< as seen in .ups and .uda: `p.mass`, `g.velocity`
   std::string_view unit;         ///< SI unit; `1` for a dimensionless number
-  std::string_view description;  ///< a phrase, in the terms of the field
+  std::string_view description;  ///< a short description
   Centring centring;
   Number number;
   int components;     ///< numbers per particle, node or cell
@@ -76,11 +76,11 @@ struct FieldLabel : Label {
               bounded, nullptr} {
     if (bounded != Bound::none && Stored<T>::number != Number::real)
       throw std::invalid_argument("only real numbers have bounds");
-    if (!called.starts_with(prefix())) throw std::invalid_argument("a label starts with p., g. or c.");
+    if (!called.starts_with(prefix())) throw std::invalid_argument("the name of a label must start with p., g. or c.");
   }
   constexpr FieldLabel(std::string_view called, std::string_view inUnit, std::string_view meaning, Counts where)
       : FieldLabel(called, inUnit, meaning) {
-    if (C != Centring::node) throw std::invalid_argument("Counts::nearParticles is for node labels only");
+    if (C != Centring::node) throw std::invalid_argument("Counts::nearParticles is only for node labels");
     counts = where;
   }
   /// Keeps `count` values of T for each particle, node or cell.
@@ -102,7 +102,7 @@ using NodeLabel = FieldLabel<Centring::node, T>;
 template <class T>
 using CellLabel = FieldLabel<Centring::cell, T>;
 
-/// A number over the whole grid, gathered from every patch by a reducer R (see reduction.hpp).
+/// A value for the whole grid, combined from all patches by a reducer R (see reduction.hpp).
 template <class R>
 struct ReductionLabel : Label {
   using Reducer = R;
@@ -114,7 +114,7 @@ struct ReductionLabel : Label {
 /// The name of the label of particle positions, which are shifted for ghosts beyond a periodic face.
 inline constexpr std::string_view positionName = "p.x";
 
-/// Identifies every particle; the framework keeps it in every particle set.
+/// Identifies a particle; the framework stores it in every particle set.
 inline constexpr ParticleLabel<ParticleId> particleId{"p.particleID", "1",
                                                       "identifier of the particle, which never changes"};
 

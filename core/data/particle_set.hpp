@@ -12,7 +12,7 @@
 
 namespace tushar::data {
 
-/// Places in memory of the particles of one cell, in the order of their ids.
+/// Indices of the particles of one cell, in the order of their ids.
 struct ParticleRange {
   int first = 0, last = 0;
 
@@ -70,7 +70,7 @@ class ParticleSet {
     return ranges_[offset(cell)];
   }
 
-  /// Calls `visit(cell, particles)` for the cells of a box that hold particles, in lexicographic order.
+  /// Calls `visit(cell, particles)` for the cells of a box that contain particles, in lexicographic order.
   template <int D, class Visit>
   void forEachOccupied(const grid::Box& box, Visit&& visit) const {
     if (hasNone()) return;
@@ -97,17 +97,17 @@ class ParticleSet {
     return {first, std::max(std::min(span.last, end), first)};
   }
 
-  /// The rows of nodes that particles of cells() touch: the nodes of their cells and `ghost` beyond, along the first
-  /// `dimension` axes. They are found on first use, which must not be by several threads at once.
+  /// The rows of nodes that particles of cells() touch: the nodes of their cells and `ghost` layers around them, along
+  /// the first `dimension` axes. They are found on first use, which must not be by several threads at once.
   const TouchedRows& touched(int ghost, int dimension) const;
 
   /// The ranges of consecutive cells along the first axis, from `cell` on.
   ParticleRange* row(const Index3& cell) { return &ranges_[offset(cell)]; }
   const ParticleRange* row(const Index3& cell) const { return &ranges_[offset(cell)]; }
 
-  /// Notes that all cells of the patch have their particles, `count` in total.
+  /// Marks the particles of all cells of the patch as complete, `count` in total.
   void setOwned(int count);
-  /// Notes that the cells of the patch in the row from `first` on have their particles.
+  /// Marks the particles of the cells of the patch in the row starting with `first` as complete.
   void closeRow(const Index3& first);
   /// Like setOwned, after closeRow has been called for every row that has particles.
   void setOwnedOfClosedRows(int count) { owned_ = count; }
@@ -119,7 +119,7 @@ class ParticleSet {
   const std::vector<GhostRun>& ghostRuns() const { return ghost_runs_; }
   bool hasGhosts() const { return has_ghosts_; }
   void markGhosts() { has_ghosts_ = true; }
-  /// Marks the ghosts as out of date: their patches have other particles now.
+  /// Marks the ghosts as out of date, because their patches have other particles now.
   void forgetGhosts();
 
  private:

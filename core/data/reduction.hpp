@@ -20,7 +20,7 @@ class Reason {
   /// Takes a literal of at most 31 characters.
   template <std::size_t N>
   constexpr Reason(const char (&words)[N]) {
-    static_assert(N <= std::tuple_size_v<decltype(letters_)>, "a reason has at most 31 characters");
+    static_assert(N <= std::tuple_size_v<decltype(letters_)>, "a reason must have at most 31 characters");
     for (std::size_t k = 0; k < N; ++k) letters_[k] = words[k];
   }
   /// Takes any text, cut off after 31 characters.
@@ -64,7 +64,7 @@ struct Maximum {
   std::vector<double> values() const { return {value}; }
 };
 
-/// Makes `a` the rounded sum of both and `b` the rest of it, exactly (D. E. Knuth, The Art of Computer Programming 2,
+/// Makes `a` the rounded sum of both, and `b` the exact rounding error (D. E. Knuth, The Art of Computer Programming 2,
 /// 4.2.2, theorem B). For registers, lane by lane.
 template <class Number>
 void addExactly(Number& a, Number& b) {
@@ -74,8 +74,8 @@ void addExactly(Number& a, Number& b) {
   a = sum;
 }
 
-/// A sum with the rounding error of each addition carried along, and the rounding error of that, about 48 digits: its
-/// 16 leading digits do not depend on the order of the additions, not even where most of it cancels out.
+/// A sum of about 48 digits, which includes the rounding error of each addition and the rounding error of that. Its 16
+/// leading digits do not depend on the order of the additions, even if most of it cancels out.
 struct Sum {
   double value = 0, error = 0, rest = 0;
 
@@ -84,7 +84,7 @@ struct Sum {
     addExactly(error, x);
     rest += x;
   }
-  /// Afterwards each part is the rounding error of the one before, so that equal sums have equal bits.
+  /// Afterwards each part is the rounding error of the previous one, so that equal sums have equal bits.
   void merge(const Sum& other) {
     add(other.value);
     double x = other.error;
@@ -132,8 +132,8 @@ struct VectorSum {
   std::vector<double> values() const { return {x.total(), y.total(), z.total()}; }
 };
 
-/// Norms of an error, unweighted over whatever it is added for: L1 = mean |e|, L2 = sqrt(mean e²), max |e|, and L1 over
-/// the mean magnitude of the exact values, where they are given.
+/// Norms of an error, unweighted over the places for which it is added: L1 = mean |e|, L2 = sqrt(mean e²), max |e|, and
+/// L1 over the mean magnitude of the exact values, where they are given.
 struct Norm {
   Sum absolute, squared, count, exact;
   double max = 0;
@@ -162,7 +162,7 @@ struct Norm {
 /// The time step; tasks of scheduleComputeStableTimeStep lower it, each with the name of its limit as the reason.
 inline constexpr ReductionLabel<Minimum> delT{"delT", "s", "time step"};
 
-/// The factor by which the time step may be multiplied without breaking a bound. If a task of scheduleTimeAdvance
+/// The factor by which the time step may be multiplied without violating a bound. If a task of scheduleTimeAdvance
 /// computes less than 1, the step is undone and repeated with a smaller one; the reason names the bound. The step ends
 /// with that task, so that no later one sees the invalid values. The old state stays as it is.
 inline constexpr ReductionLabel<Minimum> recomputeTimeStep{

@@ -10,7 +10,7 @@
 
 namespace tushar::data {
 
-/// A reduction of some type: the reducer, and while a task runs a partial result of each patch.
+/// A reduction of some type: the reducer and, while a task runs, a partial result of each patch.
 class ReductionSlot {
  public:
   virtual ~ReductionSlot() = default;
@@ -20,7 +20,7 @@ class ReductionSlot {
   virtual std::span<std::byte> bytes() = 0;
   /// Merges a reducer into another, both given by their bytes.
   virtual void merge(const std::byte* from, std::byte* into) const = 0;
-  /// Makes that many empty partial results.
+  /// Makes this number of empty partial results.
   virtual void divide(std::size_t parts) = 0;
   /// Adds the partial results to the reducer in a fixed order and empties them.
   virtual void gather() = 0;
@@ -47,7 +47,7 @@ class TypedReduction : public ReductionSlot {
   }
 
  private:
-  /// A partial result in a cache line of its own, as threads write to neighbouring ones at the same time.
+  /// A partial result in its own cache line, because threads write to neighbouring results at the same time.
   struct alignas(64) Part {
     R reducer;
   };

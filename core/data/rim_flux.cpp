@@ -13,7 +13,7 @@ namespace {
 struct OwnedLabel {
   explicit OwnedLabel(const Label& of) : name(nameOf(of)), label(of) {
     label.name = name;
-    label.description = "flux through the rims of patches";
+    label.description = "flux through faces where levels meet";
     label.centring = Centring::rim;
     label.bound = Bound::none;
   }

@@ -7,7 +7,7 @@
 
 namespace tushar::data {
 
-/// The label of the fluxes of a variable of cells through the rims of patches; it lives as long as the program.
+/// The label of the fluxes of a cell variable through the rims of patches; it exists until the program ends.
 const Label& rimLabelOf(const Label& label);
 
 /// The fluxes of a variable through the faces of a patch at which its level ends: the amount per area and time, along

@@ -21,7 +21,7 @@ void append(Slots& slots, std::size_t place, std::size_t room) {
   slots.end += room;
 }
 
-/// Slots for a number of particles, with spare room.
+/// Slots for a number of particles, with spare space.
 std::size_t roomFor(std::size_t count) { return roundedUp(count + count / 64 + step); }
 
 SharedSlots laidOutAnew(const std::vector<std::size_t>& counts) {

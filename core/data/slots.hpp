@@ -10,26 +10,25 @@ namespace tushar::data {
 
 struct Label;
 
-/// The places of a rank's patches in the single buffer of a variable, counted in values. Each patch has a slot; behind
-/// the last come copies of particles whose own place is elsewhere: on another rank, or one period away.
+/// The positions of a rank's patches in the single buffer of a variable, counted in values. Each patch has a slot;
+/// behind the last come copies of particles whose own place is elsewhere: on another rank, or one period away.
 ///
 /// Layouts do not change: variables with the same layout share one, and where particles need other slots there is a new
 /// one.
 struct Slots {
   std::vector<std::size_t> first;  ///< by index of the patch on its rank
-  std::vector<std::size_t> room;   ///< for particles: how many each slot can hold
-  std::vector<grid::Box> stored;   ///< for nodes and cells: the box in each slot, ghosts included
+  std::vector<std::size_t> room;   ///< for particles: capacity of each slot
+  std::vector<grid::Box> stored;   ///< for nodes and cells: the box in each slot, including ghosts
   std::size_t end = 0;             ///< end of the last slot
 
-  /// Whether particles can move here from the slots `other` within the same memory: each slot is one of `other`,
-  /// with no more room, or lies behind all of them. So no patch overwrites values that another has
-  /// still to move.
+  /// Whether particles can move here from the slots `other` within the same memory: each slot is one of `other` and not
+  /// larger, or is behind all of them. So no patch overwrites values that another has still to move.
   bool extends(const Slots& other) const;
 };
 
 using SharedSlots = std::shared_ptr<const Slots>;
 
-/// Slots for a node or cell variable that is read `ghost` layers beyond each patch.
+/// Slots for a node or cell variable that is read with `ghost` layers around each patch.
 SharedSlots slotsOfGrid(const grid::Grid& grid, const Label& label, int ghost);
 /// Slots for the faces of patches beyond which other levels begin.
 SharedSlots slotsOfRims(const grid::Grid& grid);

@@ -16,8 +16,8 @@ class TouchedRows {
   TouchedRows() = default;
   /// All rows of `nodes`, in full.
   static TouchedRows all(const grid::Box& nodes);
-  /// Rows within `nodes` that particles in cells `around` touch: the nodes of their cells and `ghost` beyond, along the
-  /// first `dimension` axes.
+  /// Rows within `nodes` that particles in cells `around` touch: the nodes of their cells and `ghost` layers around
+  /// them, along the first `dimension` axes.
   TouchedRows(const ParticleSet& particles, const grid::Box& around, int ghost, const grid::Box& nodes, int dimension);
 
   bool empty() const { return touched_.empty(); }

@@ -17,7 +17,7 @@ inline constexpr bool checked = true;
 inline constexpr bool checked = false;
 #endif
 
-/// An index outside the declared range: a defect in the task's body. Checked in the dev preset only.
+/// An index outside the declared range, which is a defect in the body of the task. Checked in the dev preset only.
 class AccessError : public std::logic_error {
   using std::logic_error::logic_error;
 };
@@ -25,7 +25,7 @@ class AccessError : public std::logic_error {
 [[noreturn]] void refuse(const Label* label, const Index3& index, const grid::Box& box);
 [[noreturn]] void refuse(const Label* label, int particle, int count);
 
-/// A task's view of a particle variable: one T per particle of its patch, and of the ghost cells it declared. `const T`
+/// A task's view of a particle variable: one T per particle of its patch and of the declared ghost cells. `const T`
 /// where it may only read.
 template <class T>
 class ParticleView {
@@ -47,17 +47,17 @@ class ParticleView {
       if (!cells_.contains(cell)) refuse(label_, widened(cell), cells_);
     return set_->in(cell);
   }
-  /// Calls `visit(cell, particles)` for the cells of a box that hold particles, in lexicographic order.
+  /// Calls `visit(cell, particles)` for the cells of a box that contain particles, in lexicographic order.
   template <int D, class Visit>
   void forEachOccupied(const grid::Box& box, Visit&& visit) const {
     if constexpr (checked)
       if (!(box.intersect(cells_) == box)) refuse(label_, box.lower, cells_);
     set_->forEachOccupied<D>(box, std::forward<Visit>(visit));
   }
-  /// Number of particles that the patch owns: places 0 to owned() - 1.
+  /// Number of particles that the patch owns: indices 0 to owned() - 1.
   int owned() const { return set_->owned(); }
   const ParticleSet& set() const { return *set_; }
-  /// The address of the value at place 0; values of ghosts may precede it.
+  /// The address of the value with index 0; values of ghosts may precede it.
   T* values() const { return values_; }
 
  private:
@@ -78,7 +78,7 @@ class ParticleView {
 template <Centring C, class T>
 class GridView {
  public:
-  /// `values` holds the box `stored`; the task may use `box`, which lies within.
+  /// `values` contains the box `stored`; the task may use `box`, which is inside it.
   GridView(T* values, const grid::Box& stored, const grid::Box& box, const Label* label = nullptr)
       : values_(values), stored_(stored), box_(box), label_(label) {
     stride_[0] = 1;

@@ -97,7 +97,7 @@ void Warehouse::takeRestored(int number) {
   if (restored == restored_.end()) return;
   const std::span<std::byte> bytes = reductions_[number]->bytes();
   if (bytes.size() != restored->second.size())
-    throw AccessError(fmt::format("{} was restored from another type", (*table_)[number].label->name));
+    throw AccessError(fmt::format("{} was restored from a different type", (*table_)[number].label->name));
   std::copy(restored->second.begin(), restored->second.end(), bytes.begin());
   restored_.erase(restored);
 }
@@ -143,7 +143,8 @@ void Warehouse::allocateParticles(Generation generation, int number, Generation 
   allocate(storage(generation, number), *label, where.slots, valuesWithCopies(where, number));
 }
 
-/// Number of values with room for ghost copies: as many as before, for variables that are read beyond their patches.
+/// Number of values including space for ghost copies; for variables that are read outside their patches, as many as
+/// before.
 std::size_t Warehouse::valuesWithCopies(const Layout& layout, int number) const {
   return layout.slots->end + (table_->ghost(number) > 0 ? layout.mostCopies : 0);
 }

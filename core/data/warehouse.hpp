@@ -30,18 +30,18 @@ struct VariableName {
 /// Numbers the variables of a run, so that the time loop never looks up a name.
 class VariableTable {
  public:
-  /// The number of a variable, given on first use.
+  /// The index of a variable, assigned on first use.
   int number(const Label& label, int material);
-  /// The number, or -1 if no task has named the variable.
+  /// The index, or -1 if no task has named the variable.
   int find(std::string_view name, int material) const;
   const VariableName& operator[](int number) const { return names_[number]; }
   int size() const { return static_cast<int>(names_.size()); }
 
-  /// Notes that a task reads the variable `ghost` cells or nodes beyond its patch.
+  /// Notes that a task reads the variable with `ghost` layers of cells or nodes around its patch.
   void widen(int number, int ghost);
-  /// The largest distance beyond its patch at which any task reads a variable.
+  /// The largest number of ghost layers with which any task reads a variable.
   int ghost(int number) const { return ghosts_[number]; }
-  /// The largest distance beyond its patch at which any task reads a particle variable of a material.
+  /// The largest number of ghost layers with which any task reads a particle variable of a material.
   int reach(int material) const { return material < static_cast<int>(reaches_.size()) ? reaches_[material] : 0; }
 
  private:
@@ -54,7 +54,7 @@ class VariableTable {
 /// The values of a variable on one patch.
 struct Variable {
   std::byte* values = nullptr;
-  grid::Box stored;   ///< for node and cell variables: the box in memory, ghosts included
+  grid::Box stored;   ///< for node and cell variables: the box in memory, including ghosts
   bool held = false;  ///< whether the variable has values
 };
 
@@ -63,7 +63,7 @@ inline grid::Box ownBox(const grid::Patch& patch, const Label& label) {
   return label.centring == Centring::node ? patch.nodes() : patch.cells();
 }
 
-/// What tasks read as `requiresOld`: the state at the start of the step. The rest is new.
+/// The values that tasks read with `requiresOld`: the state at the start of the step. The rest is new.
 enum class Generation { old, fresh };
 
 /// Holds the variables and particle sets of this rank, in two generations.
@@ -76,7 +76,7 @@ class Warehouse {
  public:
   /// For one rank on its own.
   Warehouse(const grid::Grid& grid, VariableTable& table);
-  /// `ranks` share the grid as the grid says, and outlive the warehouse.
+  /// `ranks` share the grid as the grid prescribes, and must outlive the warehouse.
   Warehouse(const grid::Grid& grid, VariableTable& table, const mpi::Communicator& ranks)
       : grid_(&grid), table_(&table), ranks_(&ranks) {}
 
@@ -86,7 +86,7 @@ class Warehouse {
   /// The ranks that share the grid.
   const mpi::Communicator& ranks() const { return *ranks_; }
 
-  /// `patch` is the number of a patch of this rank. Good until the memory of the variable changes.
+  /// `patch` is the index of a patch of this rank. Good until the memory of the variable changes.
   Variable variable(Generation generation, int number, int patch);
   ParticleSet& particles(Generation generation, int material, int patch) {
     return state(generation).sets[place(material, patch)];
@@ -111,9 +111,10 @@ class Warehouse {
   /// Restores the bytes that a reduction had in another run.
   void restoreReduction(int number, std::vector<std::byte> bytes);
 
-  /// Makes room for all variables named so far, and for the particle sets of `materials` materials.
+  /// Makes space for all variables named so far, and for the particle sets of `materials` materials.
   void grow(int materials);
-  /// Discards all values on patches, and takes the patches that the grid now assigns to this rank; reductions are kept.
+  /// Discards all values on patches, and switches to the patches that the grid now assigns to this rank; reductions are
+  /// kept.
   void startAnew(int materials);
   /// Allocates a node or cell variable on all patches, with all ghosts that tasks read; filled with NaN in the dev
   /// preset.
@@ -126,22 +127,22 @@ class Warehouse {
   /// Returns the memory of a variable to the pool.
   void free(Generation generation, int number);
 
-  /// Gives slots to the sets of a material, which have their particles on all patches; if possible, the slots of
+  /// Assigns slots to the sets of a material, whose particles are complete on all patches; if possible, the slots of
   /// `base`.
   void layOut(Generation generation, int material, Generation base);
-  /// Moves a particle variable from the previous places of the sets to those of generation `set`. Values in slots that
+  /// Moves a particle variable from the previous slots of the sets to those of generation `set`. Values in slots that
   /// stay are kept; patches with other slots have undefined values. If the variable has other memory now, returns the
   /// previous one, which the caller gives back.
   Buffer follow(Generation generation, int number, Generation set);
-  /// The memory of a variable, and the places of patches and of sets in it.
+  /// The memory of a variable, and the positions of patches and sets in it.
   std::byte* memory(Generation generation, int number) { return storage(generation, number).memory.data(); }
   const SharedSlots& slots(Generation generation, int number) const;
   const SharedSlots& slotsOfSets(Generation generation, int material) { return layout(generation, material).slots; }
   /// The distance in memory from the first particle of a patch to that of another.
   int distance(Generation set, int material, int from, int to);
-  /// Place of the next `count` ghost copies of a patch, counted from its first particle.
+  /// Index of the next `count` ghost copies of a patch, counted from its first particle.
   int placeCopies(Generation set, int material, int patch, int count);
-  /// Makes room for all ghost copies that have a place; existing values are kept.
+  /// Makes space for all ghost copies that have an index; existing values are preserved.
   void reserveCopies(Generation generation, int number, Generation set);
 
   /// Lends memory for a short time; give it back with takeBack.

@@ -27,7 +27,7 @@ class BlockTiling : public Tiling {
   int patchAfter(std::uint64_t cells) const override;
 
  private:
-  /// The patch of a block that is a leaf; -1 if it is none.
+  /// The patch of a block that is a leaf; -1 if it is not a leaf.
   int patchOf(const BlockId& block) const;
 
   BlockTree tree_;

@@ -49,15 +49,16 @@ void forEachCorner(int dimension, Visit&& visit) {
 
 void checkTree(int dimension, const Index3& roots, int levels) {
   if (dimension < 1 || dimension > 3)
-    throw std::invalid_argument(fmt::format("a tree of blocks has 1 to 3 dimensions, not {}", dimension));
+    throw std::invalid_argument(fmt::format("a tree of blocks must have 1 to 3 dimensions, not {}", dimension));
   if (levels < 1 || levels > mostTreeLevels)
-    throw std::invalid_argument(fmt::format("a tree of blocks has 1 to {} levels, not {}", mostTreeLevels, levels));
+    throw std::invalid_argument(
+        fmt::format("a tree of blocks must have 1 to {} levels, not {}", mostTreeLevels, levels));
   for (int d = 0; d < 3; ++d) {
     const int most = d < dimension ? 1 << mostPlaceBits >> (levels - 1) : 1;
     if (roots[d] < 1 || roots[d] > most)
       throw std::invalid_argument(
-          fmt::format("a grid of {} levels has 1 to {} blocks of the coarsest level along the {} axis, not {}", levels,
-                      most, "xyz"[d], roots[d]));
+          fmt::format("a grid of {} levels must have 1 to {} blocks of the coarsest level along the {} axis, not {}",
+                      levels, most, "xyz"[d], roots[d]));
   }
 }
 
@@ -204,10 +205,10 @@ BlockTree BlockTree::fromKeys(int dimension, const Index3& roots, const Index3& 
   // The keys of a tree: leaves that are wrong or missing make them differ.
   BlockTree tree = unrefined.withRefined(std::move(refined));
   if (tree.keys_ != keys)
-    throw std::invalid_argument(fmt::format(
-        "these {} blocks are not the leaves of a grid of {} x {} x {} blocks with up to {} levels: they leave gaps, "
-        "overlap, are not in order, or some that touch differ by more than one level",
-        keys.size(), roots[0], roots[1], roots[2], levels));
+    throw std::invalid_argument(
+        fmt::format("these {} blocks are not the leaves of a grid of {} x {} x {} blocks with up to {} levels: there "
+                    "are gaps or overlaps, they are not in order, or neighbours differ by more than one level",
+                    keys.size(), roots[0], roots[1], roots[2], levels));
   return tree;
 }
 

@@ -9,7 +9,7 @@
 
 namespace tushar::grid {
 
-/// A block of cells: its level, 0 the coarsest, and its place among the blocks of that level along the kernel axes.
+/// A block of cells: its level, 0 the coarsest, and its index among the blocks of this level along the kernel axes.
 struct BlockId {
   int level = 0;
   Index3 at{};
@@ -44,19 +44,21 @@ class BlockTree {
   int levelAt(const BlockId& block) const;
   /// Place of a leaf on the curve, from 0; the block must be a leaf, not a periodic image.
   int placeOf(const BlockId& leaf) const;
-  /// The same of a block of the grid, -1 if it is no leaf.
+  /// The same for any block of the grid; -1 if it is not a leaf.
   int placeIfLeaf(const BlockId& block) const;
   /// Whether a block is refined. Along periodic axes, images count.
   bool isRefined(const BlockId& block) const { return levelAt(block) > block.level; }
 
-  /// The tree in which all of `wanted` are refined, and those in `kept` that are refined now, and nothing else but
-  /// what follows from that: ancestors, and neighbours of refined blocks, so that leaves that touch differ by one level
-  /// at most. Images along periodic axes count as the blocks they are of; blocks of the last level, and blocks outside
-  /// the grid along other axes, are passed over. Their order, and how often each is there, are of no consequence.
+  /// The tree in which only these blocks are refined: all of `wanted`, those of `kept` that are refined now, and those
+  /// that this implies, namely ancestors, and neighbours of refined blocks, so that leaves that touch differ by at most
+  /// one level. Images along periodic axes count as the blocks they are of; blocks of the last level, and blocks
+  /// outside the grid along other axes, are passed over. Their order, and how often each is there, are of no
+  /// consequence.
   BlockTree regridded(const std::vector<BlockId>& wanted, const std::vector<BlockId>& kept) const;
 
-  /// Leaves as numbers, sorted along the curve, for checkpoints and messages: the bits of the block's lower corner in
-  /// blocks of the finest level, interleaved, z above y above x; below them four bits of level.
+  /// Leaves as numbers, sorted along the curve, for checkpoints and messages. A number consists of the interleaved bits
+  /// of the block's lower corner, counted in blocks of the finest level, z above y above x, and below them four bits
+  /// for the level.
   const std::vector<std::uint64_t>& keys() const { return keys_; }
   /// The tree with these leaves. Throws std::invalid_argument if they are not, in this order, the leaves of a tree that
   /// covers the grid, or some that touch differ by more than one level.

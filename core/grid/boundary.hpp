@@ -13,8 +13,8 @@
 
 namespace tushar::grid {
 
-/// The kind of a condition at a side of the grid: reflection, as in a plane of symmetry; a given value; or a given
-/// outward derivative.
+/// The kind of a condition at a side of the grid: reflection, as at a symmetry plane; a given value; or a given outward
+/// derivative.
 enum class BoundaryKind { symmetry, dirichlet, neumann };
 
 /// The `var` attributes of a `BCType`, in the order of BoundaryKind.
@@ -25,9 +25,9 @@ constexpr std::string_view nameOf(BoundaryKind kind) { return boundaryKindNames[
 struct BoundaryVariable {
   std::string_view name;  ///< the `label` attribute of a `BCType`
   bool isVector = false;  ///< whether its value is a vector
-  bool isEven = false;    ///< may be given on a plane of symmetry; for a vector, if it lies in the plane
+  bool isEven = false;    ///< may be given on a symmetry plane; for a vector, if it is parallel to the plane
 
-  /// The same variable, which may also be given on a plane of symmetry.
+  /// The same variable, which may also be given on a symmetry plane.
   constexpr BoundaryVariable evenOnPlanes() const { return {name, isVector, true}; }
   friend constexpr bool operator==(const BoundaryVariable& a, const BoundaryVariable& b) { return a.name == b.name; }
 };
@@ -35,11 +35,12 @@ struct BoundaryVariable {
 /// A variable with conditions whose values are of type T: a number or a Vec3 along x, y and z.
 template <class T>
 struct BoundaryLabel : BoundaryVariable {
-  static_assert(std::is_same_v<T, double> || std::is_same_v<T, Vec3>, "the value of a condition is a number or a Vec3");
+  static_assert(std::is_same_v<T, double> || std::is_same_v<T, Vec3>,
+                "the value of a condition must be a number or a Vec3");
   constexpr explicit BoundaryLabel(std::string_view called) : BoundaryVariable{called, std::is_same_v<T, Vec3>} {}
 };
 
-/// Not a variable but the whole state, mirrored in a plane of symmetry.
+/// Not a variable, but the whole state, mirrored at a symmetry plane.
 inline constexpr BoundaryVariable symmetric{"Symmetric"};
 
 /// One `BCType` of a `Face`: the condition for a variable at a side of the domain.
@@ -47,11 +48,11 @@ struct BoundaryCondition {
   BoundaryVariable variable;
   BoundaryKind kind;
   Vec3 value = Vec3::Zero();  ///< a number is in the first component; the unit is the variable's
-  int material = -1;          ///< number of the material for which it holds; -1: all
-  /// Formulas instead of the value, for components that take them; a scalar is in the first component.
+  int material = -1;          ///< index of the material to which it applies; -1: all
+  /// Formulas instead of the value, for components that support them; a scalar is in the first component.
   std::shared_ptr<const input::VectorExpression> formula = {};
 
-  /// Whether it holds for a material.
+  /// Whether it applies to a material.
   bool isOf(int number) const { return material < 0 || material == number; }
 };
 
@@ -85,7 +86,7 @@ struct ConditionsOfPart {
   std::vector<BoundaryCondition> conditions;
 };
 
-/// Used like the number of a part: the rest of a side, outside all its parts.
+/// Used as the index of a part: the rest of a side, outside all its parts.
 inline constexpr int restOfSide = -1;
 
 /// The conditions of the six faces x-, x+, y-, y+, z-, z+ in this order. A face with none is free.

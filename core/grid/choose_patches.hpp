@@ -7,7 +7,7 @@
 
 namespace tushar::grid {
 
-inline constexpr int cellsPerThread = 8192;  ///< an additional thread with fewer cells does not pay off
+inline constexpr int cellsPerThread = 8192;  ///< with fewer cells, an additional thread does not pay off
 
 /// How many threads, from 1 to `most`, pay off for a number of cells.
 int usefulThreads(double cells, int cellsOfThread, int most);

@@ -23,8 +23,8 @@ MortonCurve::Cuts cutsOf(const Level& level) {
   return cuts;
 }
 
-/// The cells of a level that overlap a region; a side of the region within a thousandth of a cell of a node counts as
-/// on it.
+/// The cells of a level that overlap a region; a side of the region within a thousandth of a cell of a node is
+/// considered to be on it.
 Box cellsWith(const Level& level, const FineRegion& region) {
   Box cells = level.cells();
   for (int d = 0; d < level.dimension(); ++d) {

@@ -14,7 +14,7 @@
 
 namespace tushar::grid {
 
-/// The grid of a run, with its levels and patches, from the view of one rank.
+/// The grid of a run, with its levels and patches, as one rank sees it.
 ///
 /// Patches are numbered along Morton's curve; a rank has consecutive ones. Where there is one level, only these are
 /// kept: any other is made when it is needed, so that a grid of a million patches takes no more memory on a rank than
@@ -33,7 +33,7 @@ class Grid {
   int levels() const { return static_cast<int>(levels_.size()); }
   const Level& finest() const { return levels_.back(); }
   bool isFinest(const Patch& patch) const { return &patch.level() == &finest(); }
-  /// Whether all cells of a box on the finest level exist, that is, none is part of a coarser cell; cells beyond the
+  /// Whether all cells of a box on the finest level exist, that is, none is part of a coarser cell; cells outside the
   /// grid and its images are ignored.
   bool isFinest(const Box& cells) const;
   int dimension() const { return level().dimension(); }
@@ -43,7 +43,7 @@ class Grid {
   /// Cells of a block along the kernel axes.
   const Index3& blockCells() const { return blocks_->blockCells(); }
   const BlockTiling& tiling() const { return *blocks_; }
-  /// Blocks that stay refined, as the regions of the scene say; some may be there twice.
+  /// Blocks that are always refined because of regions of the scene; may contain duplicates.
   const std::vector<BlockId>& fixedBlocks() const { return fixed_blocks_; }
   /// The patches of another tree.
   std::unique_ptr<BlockTiling> cut(BlockTree tree) const;
@@ -52,7 +52,7 @@ class Grid {
   std::unique_ptr<Tiling> refine(std::unique_ptr<BlockTiling> tiling, RankOffsets shares = {});
   /// Cells of one of this rank's patches that were part of coarser ones before the last call of refine().
   const std::vector<Box>& newCells(int patch) const { return new_cells_[patch - first_patch_]; }
-  /// The patches of this rank, in the order of their numbers.
+  /// The patches of this rank, in the order of their indices.
   const std::vector<Patch>& patches() const { return patches_; }
   /// Number of cells of all patches.
   std::uint64_t cellCount() const { return tiling_->cells(); }
@@ -60,7 +60,7 @@ class Grid {
   int patchCount() const { return tiling_->count(); }
   /// Any patch of the grid.
   Patch patch(int id) const { return patchOf(tiling_->tile(id)); }
-  /// The number of the first patch of this rank.
+  /// The index of the first patch of this rank.
   int firstPatch() const { return first_patch_; }
   /// Whether a patch belongs to this rank.
   bool isMine(int patch) const {
@@ -69,20 +69,20 @@ class Grid {
   /// The rank that has a patch.
   int ownerOf(int patch) const { return isMine(patch) ? share_.rank : partition_->ownerOf(patch); }
   const Share& share() const { return share_; }
-  /// The nodes that a patch of this rank owns: all except those on an upper face with only patches of this rank behind
-  /// it, which own them. So each node of the rank's patches has one owner among them.
+  /// The nodes that a patch of this rank owns: all except those on an upper face behind which there are only patches of
+  /// this rank, which own them. So each node of the rank's patches has one owner among them.
   const Box& ownNodes(int patch) const { return own_nodes_[patch - first_patch_]; }
   /// The distribution of patches to ranks.
   RankOffsets rankOffsets() const;
   /// Redistributes the patches to the ranks. The caller moves their values: see tasks::migratePatches.
   void share(RankOffsets offsets);
 
-  /// The patch that holds a cell of a level, which must be neither refined nor part of a coarser one.
+  /// The patch that contains a cell of a level, which must be neither refined nor part of a coarser one.
   Patch patchOf(const Index3& cell, int level) const { return patchOf(tiling_->tileOf(level, cell)); }
-  /// The patches of a level that hold cells of a box, in the order of their cells.
+  /// The patches of a level that contain cells of a box, in the order of their cells.
   std::vector<Patch> patchesOverlapping(const Box& cells, int level) const;
-  /// Calls `visit(patch, shift)` for each patch of a level, and each of its periodic images, that holds cells of a box:
-  /// an image has the patch's cells shifted.
+  /// Calls `visit(patch, shift)` for each patch of a level, and each of its periodic images, that contains cells of a
+  /// box; the cells of an image are those of the patch, shifted.
   template <class Visit>
   void forEachOverlapping(const Level& level, const Box& cells, Visit&& visit) const {
     for (const Index3& shift : level.imagesOverlapping(cells))

@@ -55,12 +55,12 @@ class Level {
   /// The finest level of that grid; this one if there are no finer ones.
   const Level& finest() const;
   int dimension() const { return static_cast<int>(axes_.size()); }
-  /// The scene's axis (0 for x, 1 for y, 2 for z) behind a kernel axis.
+  /// The scene's axis (0 for x, 1 for y, 2 for z) that corresponds to a kernel axis.
   int axis(int kernelAxis) const { return axes_[kernelAxis]; }
 
   /// Every cell of the grid; lower is always 0.
   const Box& cells() const { return cells_; }
-  /// Every node, including those beyond the sides of the grid.
+  /// Every node, including those outside the grid.
   Box nodes() const;
   /// The nodes of the cells of the grid.
   Box nodesOfCells() const { return cells_.nodes(dimension()); }
@@ -80,7 +80,7 @@ class Level {
   double minSpacing() const;
   /// Volume of a cell, m³; an axis without extent counts as 1 m.
   double cellVolume() const { return cellVolume_; }
-  /// The volume of a cell over that of a cell of the coarsest level: a power of two.
+  /// The ratio of the volume of a cell to that of a cell of the coarsest level: a power of two.
   double weight() const { return std::ldexp(1.0, -number_ * dimension()); }
   /// Position of a node along a kernel axis, m.
   double nodePosition(int kernelAxis, int node) const { return lower_[kernelAxis] + node * spacing(kernelAxis); }
@@ -107,10 +107,10 @@ class Level {
   Box cellsNear(const Vec3& lower, const Vec3& upper) const;
   /// The axes that the grid does not use: `y, z`, or nothing.
   std::string axesLeftOut() const;
-  /// The periodic images of the grid that hold cells of a box, as shifts in cells: cell c + shift is an image of c.
+  /// The periodic images of the grid that contain cells of a box, as shifts in cells: cell c + shift is an image of c.
   /// Zero among them where the box holds cells of the grid.
   std::vector<Index3> imagesOverlapping(const Box& cells) const;
-  /// The cell of the grid that a cell is an image of along periodic axes.
+  /// The cell of the grid of which a cell is an image along periodic axes.
   template <int D>
   Index<D> wrapped(Index<D> cell) const {
     for (int d = 0; d < std::min(D, dimension()); ++d) {
@@ -119,7 +119,7 @@ class Level {
     }
     return cell;
   }
-  /// Number of a cell in lexicographic order, x fastest, 0 for the first; independent of the patches. Where there are
+  /// Index of a cell in lexicographic order, x fastest, 0 for the first; independent of the patches. Where there are
   /// finer levels, that of the first of its cells of the finest.
   template <int D>
   std::uint64_t cellNumber(const Index<D>& cell) const {
@@ -137,14 +137,14 @@ class Level {
     for (int d = 0; d < D; ++d) reduced[d] = v[axis(d)];
     return reduced;
   }
-  /// A direction along x, y, z, from one along the kernel axes: zero along the axes left out.
+  /// A direction along x, y, z, from one along the kernel axes: zero along the unused axes.
   template <int D>
   Vec3 expandDirection(const Vec<D>& v) const {
     Vec3 full = Vec3::Zero();
     for (int d = 0; d < D; ++d) full[axis(d)] = v[d];
     return full;
   }
-  /// A point in x, y, z, from one along the kernel axes: the middle of the domain along the axes left out.
+  /// A point in x, y, z, from one along the kernel axes: the middle of the domain along the unused axes.
   template <int D>
   Vec3 expandPoint(const Vec<D>& x) const {
     Vec3 full = 0.5 * (domain_.lower + domain_.upper);
@@ -163,11 +163,11 @@ class Level {
   /// The conditions for a variable on all sides, for kernels that visit the cells of a patch.
   template <class T>
   BoundarySides<T> sides(const BoundaryLabel<T>& variable, int material = 0) const;
-  /// The parts of a side that have conditions of their own.
+  /// The parts of a side that have their own conditions.
   const std::vector<ConditionsOfPart>& parts(int kernelAxis, int side) const {
     return domain_.boundaries.parts[2 * axis(kernelAxis) + side];
   }
-  /// The number of the part of a side that contains the centre of a cell's face; restOfSide if none does. The distance
+  /// The index of the part of a side that contains the centre of a cell's face; restOfSide if none does. The distance
   /// of the cell from the side does not matter. A cell beyond the grid counts as the nearest one, or as its image.
   template <int D>
   int partAt(int kernelAxis, int side, const Index<D>& cell) const {
@@ -225,7 +225,7 @@ class BoundarySides {
       }
   }
 
-  /// The condition on the rest of a side, outside of its parts.
+  /// The condition on the rest of a side, outside its parts.
   const std::optional<BoundaryValue<T>>& operator()(int kernelAxis, int side) const {
     return sides_[numberOf(kernelAxis, side)].rest;
   }

@@ -28,11 +28,11 @@ class MortonCurve {
   Index3 blockAt(int place) const;
   /// The cells of a block.
   Box cellsAt(const Index3& block) const;
-  /// Cells of all blocks before a place.
+  /// Number of cells of all blocks before a position.
   std::uint64_t cellsBefore(int place) const;
-  /// The first place that has `cells` or more before it.
+  /// The first position before which there are at least `cells` cells.
   int placeAfter(std::uint64_t cells) const;
-  /// The block along an axis that holds a cell.
+  /// The block along an axis that contains a cell.
   int blockAlong(int axis, int cell) const;
 
  private:

@@ -12,7 +12,7 @@ struct Share {
   int rank = 0, ranks = 1;
 };
 
-/// The distribution of patches to ranks: each rank has consecutive ones.
+/// The distribution of patches to ranks: each rank has consecutive patches.
 class Partition {
  public:
   /// Distributes patches so that numbers of cells are as equal as whole patches allow. Needs no memory per rank. Rank 0

@@ -17,7 +17,7 @@ class Patch {
   int id() const { return id_; }
   const Level& level() const { return *level_; }
   const Box& cells() const { return cells_; }
-  /// The nodes of the patch's cells, and those beyond the sides of the grid that it touches.
+  /// The nodes of the patch's cells, and those outside the sides of the grid that it touches.
   Box nodes() const;
   /// Cells within `width` of the patch that are on the grid or, along periodic axes, on its images.
   Box cellsWithin(int width) const;
@@ -27,7 +27,7 @@ class Patch {
   bool isAtBoundary(int kernelAxis, int side) const;
   /// The patch's nodes on one of its sides.
   Box faceNodes(int kernelAxis, int side) const;
-  /// The patch's nodes beyond one of its sides, at which the grid ends.
+  /// The patch's nodes outside one of its sides, at which the grid ends.
   Box nodesBeyond(int kernelAxis, int side) const;
 
  private:

@@ -16,9 +16,10 @@ struct FineRegion {
 /// The possible refinement of a grid: its levels, and its blocks of a fixed number of cells, which the scene
 /// determines. Patches are boxes of blocks of one level, chosen for speed alone.
 struct Refinement {
-  int levels = 1;                        ///< largest number of levels, including the coarsest
-  Index3 blockCells{{8, 8, 8}};          ///< cells of a block along x, y, z
-  std::optional<Index3> blocksPerPatch;  ///< largest number along x, y, z; if not given, as suits the threads and ranks
+  int levels = 1;                ///< largest number of levels, including the coarsest
+  Index3 blockCells{{8, 8, 8}};  ///< cells of a block along x, y, z
+  std::optional<Index3>
+      blocksPerPatch;  ///< largest number along x, y, z; if not given, depends on the threads and ranks
   std::vector<FineRegion> regions;
 };
 

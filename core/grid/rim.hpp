@@ -14,20 +14,20 @@ struct RimPiece {
   int axis, side;     ///< side 0: lower faces of `cells`, 1: upper faces
   Box cells;          ///< cells of the patch
   int other;          ///< the patch behind
-  Index3 shift;       ///< in cells of the coarser level: `other` is this image of it
+  Index3 shift;       ///< in cells of the coarser level: the shift of the periodic image of `other`
   bool isFiner;       ///< whether the other level is the finer one
   std::size_t first;  ///< index of the first face among those of the patch
 
-  /// Number of fluxes that a patch keeps: those of its faces and, if the other level is finer, the means of the fluxes
+  /// Number of fluxes that a patch stores: those of its faces and, if the other level is finer, the means of the fluxes
   /// behind them.
   std::size_t size() const { return cells.size() * (isFiner ? 2 : 1); }
 };
 
-/// The faces at which a patch meets other levels, ordered by axis, side and number of the other patch. Any patch of the
+/// The faces at which a patch meets other levels, ordered by axis, side and index of the other patch. Any patch of the
 /// grid.
 std::vector<RimPiece> rimsOf(const Grid& grid, const Patch& patch);
 
-/// Number of values that a patch keeps for its pieces.
+/// Number of values that a patch stores for its pieces.
 std::size_t sizeOf(const std::vector<RimPiece>& pieces);
 
 }  // namespace tushar::grid

@@ -7,7 +7,7 @@
 
 namespace tushar::grid {
 
-/// A patch of a tiling: its number, its level and its cells, counted on that level.
+/// A patch of a tiling: its index, its level and its cells, as indices on that level.
 struct Tile {
   int id;
   int level;
@@ -22,16 +22,16 @@ class Tiling {
   /// Number of patches.
   virtual int count() const = 0;
   virtual Tile tile(int id) const = 0;
-  /// The patch that holds a cell of a level; its id is -1 if the cell is refined or belongs to a coarser level.
+  /// The patch that contains a cell of a level; its id is -1 if the cell is refined or belongs to a coarser level.
   virtual Tile tileOf(int level, const Index3& cell) const = 0;
-  /// The patches of a level that hold cells of a box of it, all of which lie on the grid.
+  /// The patches of a level that contain cells of a box of this level, all of which are on the grid.
   virtual std::vector<Tile> overlapping(int level, const Box& cells) const = 0;
 
   /// Number of cells of all patches.
   virtual std::uint64_t cells() const = 0;
-  /// Cells of all patches before one.
+  /// Number of cells of all patches before one.
   virtual std::uint64_t cellsBefore(int id) const = 0;
-  /// The first patch that has `cells` or more before it.
+  /// The first patch before which there are at least `cells` cells.
   virtual int patchAfter(std::uint64_t cells) const = 0;
 };
 

@@ -19,7 +19,7 @@ Constraint greaterThan(double limit);
 Constraint lessThan(double limit);
 Constraint atLeast(double limit);
 Constraint atMost(double limit);
-/// A constraint to a range, both ends included.
+/// A constraint to a range, including both ends.
 Constraint between(double least, double most);
 inline Constraint positive() { return greaterThan(0); }
 inline Constraint nonNegative() { return atLeast(0); }

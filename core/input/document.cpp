@@ -44,7 +44,7 @@ class TreeBuilder {
   std::vector<std::string> including_;
 };
 
-/// The path of a file that a tag names.
+/// The path of a file that is named in a tag.
 struct FoundFile {
   std::string path;
   bool hasMoved = false;  ///< whether it was found elsewhere
@@ -55,7 +55,7 @@ bool isFile(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, unreadable);
 }
 
-/// Whether there is a pair of files of that name, as for a surface of triangles: NAME.pts and NAME.tri.
+/// Whether there is a pair of files of this name, as for a surface of triangles: NAME.pts and NAME.tri.
 bool isPair(const std::filesystem::path& path) {
   return isFile(path.string() + ".pts") && isFile(path.string() + ".tri");
 }
@@ -65,8 +65,8 @@ bool isThere(const std::filesystem::path& path) {
   return std::filesystem::exists(path, unreadable) || isPair(path);
 }
 
-/// Finds a file that a tag of the scene `scene` names: beside the scene, in a folder above it, where the run is started
-/// or, finally, beside the scene without the folders that the tag names.
+/// Finds the file whose name a tag of `scene` gives: next to the scene, in a folder above it, in the folder where the
+/// run is started or, finally, next to the scene without the folders in the tag.
 FoundFile findFile(const std::string& path, const std::string& scene) {
   const std::filesystem::path beside = std::filesystem::absolute(scene).parent_path();
   const auto at = [&](const std::filesystem::path& folder) { return (folder / path).lexically_normal(); };
@@ -83,17 +83,19 @@ FoundFile findFile(const std::string& path, const std::string& scene) {
 /// Whether the text of a tag is the path of a file, which must also be valid in the archive's copy of the scene.
 bool isPath(const pugi::xml_node& xml) {
   const std::string_view name = xml.name(), parent = xml.parent().name();
-  return name == "file" || name == "PrescribedDeformationFile" || (parent == "contact" && name == "filename") ||
+  return name == "file" || name == "PrescribedDeformationFile" || name == "InsertParticlesFile" ||
+         (parent == "contact" && name == "filename") ||
          ((parent == "tri" || parent == "line_segment") && name == "name");
 }
 
-/// Gives a tag the absolute path of the file that it names. Scenes are moved to other folders with their files, and
-/// still name the folder where those were.
+/// Replaces the text of a tag by the absolute path of the file that it names. Scenes are moved to other folders with
+/// their files, and still name the folder where those were.
 void TreeBuilder::resolvePath(const XmlFile& file, Node& node) {
   const FoundFile found = findFile(node.text, file.name());
   if (found.hasMoved)
-    diagnostics_.note(node.where, node.name,
-                      fmt::format("there is no '{}': the file of that name next to the scene is used", node.text));
+    diagnostics_.note(
+        node.where, node.name,
+        fmt::format("there is no '{}', so the file of the same name next to the scene is used", node.text));
   node.text = found.path;
 }
 

@@ -28,8 +28,8 @@ class Document {
   /// created. The location of the new value is `--set PATH=VALUE`.
   void set(const std::string& change, Diagnostics& diagnostics);
 
-  /// Makes the tags at `path`, such as `MaterialProperties/MPM`, count as if they were above their siblings, which can
-  /// then refer to labels in them.
+  /// Treats the tags at `path`, such as `MaterialProperties/MPM`, as if they were above their siblings, which can then
+  /// refer to labels in them.
   void readFirst(std::string_view path);
 
   /// `<Uintah_specification>`.

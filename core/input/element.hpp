@@ -35,7 +35,7 @@ class Element {
   std::vector<Element> children(std::string_view name) const;
   /// The tag that contains this one; none for the root.
   std::optional<Element> parent() const;
-  /// Whether it counts as standing above its siblings (Document::readFirst).
+  /// Whether it is treated as if it were above its siblings (Document::readFirst).
   bool isReadFirst() const { return node_->isReadFirst; }
 
   /// Whether both are the same tag of the same document.

@@ -36,7 +36,7 @@ struct Compiled {
   mu::Parser parser;
 };
 
-/// The formulas that this thread has compiled, by number of the program, until the thread ends.
+/// The formulas that this thread has compiled, by index of the program, until the thread ends.
 std::unordered_map<std::uint64_t, Compiled>& compiledHere() {
   thread_local std::unordered_map<std::uint64_t, Compiled> programs;
   return programs;
@@ -138,7 +138,7 @@ Parsed<VectorExpression> VectorExpression::parse(std::string_view given) {
   const auto parts = splitAtCommas(bracketed ? text.substr(1, text.size() - 2) : std::string());
   if (parts.size() != 3) {
     const std::string found = text.empty() ? "nothing" : "'" + text + "'";
-    return Parsed<VectorExpression>::wrong(fmt::format("found {}, expected three formulas, as [a,b,c]", found));
+    return Parsed<VectorExpression>::wrong(fmt::format("found {}, expected three formulas, such as [a,b,c]", found));
   }
   VectorExpression out;
   for (std::size_t d = 0; d < 3; ++d) {

@@ -70,7 +70,7 @@ Schema<Operands> operandsSchema(const std::string& name, const std::string& sent
     diagnostics.error(element, fmt::format("expected {} in <{}>, found {}", expected, element.name(), count));
   };
   Schema<Operands> schema(name, sentence);
-  schema.foreignAttribute("label", "a name by which an empty tag further down refers to this shape")
+  schema.foreignAttribute("label", "a name with which an empty tag further down can refer to this shape")
       .foreignAttribute("name", "a synonym of label")
       .custom("shapes", readOperands, geometryNames(), exactlyTwo ? "two shapes" : "any number of shapes")
       .forms(geometryForms(), exactlyTwo ? 2 : 1)
@@ -94,7 +94,7 @@ Kind nothing() {
   struct Tag {};
   static const Schema<Tag> schema =
       Schema<Tag>("null", "The empty shape: a body without particles.")
-          .foreignAttribute("label", "a name by which an empty tag further down refers to this shape");
+          .foreignAttribute("label", "a name with which an empty tag further down can refer to this shape");
   const auto read = [](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
     schema.read(element, diagnostics);
     return std::make_shared<Nothing>();
@@ -112,7 +112,7 @@ Kind fromFile(const std::string& name, const std::string& sentence, const std::s
               const std::function<PiecePtr(const std::string&, const Element&, Diagnostics&)>& load) {
   const auto schema = std::make_shared<const Schema<FileTag>>(
       Schema<FileTag>(name, sentence)
-          .foreignAttribute("label", "a name by which an empty tag further down refers to this shape")
+          .foreignAttribute("label", "a name with which an empty tag further down can refer to this shape")
           .required("name", &FileTag::file, "m", whatFile));
   const auto read = [schema, load](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
     const std::size_t before = diagnostics.size();
@@ -125,17 +125,18 @@ Kind fromFile(const std::string& name, const std::string& sentence, const std::s
 }
 
 Kind surface() {
-  return fromFile("tri", "The inside of a closed surface of triangles.",
-                  "a file next to the scene: STL (text or binary) if its name ends in .stl; otherwise the pair "
-                  "NAME.pts, a point `x y z` per line, and NAME.tri, the numbers (from 0) of three points per line",
-                  [](const std::string& path, const Element& tag, Diagnostics& diagnostics) -> PiecePtr {
-                    return readSurface(path, tag, diagnostics);
-                  });
+  return fromFile(
+      "tri", "The inside of a closed surface of triangles.",
+      "a file next to the scene: STL (text or binary) if its name ends in .stl; otherwise NAME for a pair of files: "
+      "NAME.pts with a point `x y z` per line, and NAME.tri with the indices (from 0) of three points per line",
+      [](const std::string& path, const Element& tag, Diagnostics& diagnostics) -> PiecePtr {
+        return readSurface(path, tag, diagnostics);
+      });
 }
 
 Kind polygon() {
   return fromFile("line_segment", "A polygon in the plane z = 0, within 1e-5 m of it.",
-                  "a file next to the scene: a corner `x y` per line, in order around the polygon",
+                  "a file next to the scene, with a corner `x y` per line, in order around the polygon",
                   [](const std::string& path, const Element& tag, Diagnostics& diagnostics) -> PiecePtr {
                     std::vector<Vec3> corners = readPolygon(path, tag, diagnostics);
                     return corners.empty() ? nullptr : std::make_shared<Polygon>(std::move(corners));
@@ -158,7 +159,7 @@ const std::vector<Kind>& kinds() {
       simple<SmoothCylinder>(),
       combined(operandsSchema("union", "The union of its shapes.", false),
                [](std::vector<PiecePtr> pieces) { return std::make_shared<Union>(std::move(pieces)); }),
-      combined(operandsSchema("difference", "The points in its first shape but not in its second.", true),
+      combined(operandsSchema("difference", "The points in its first shape that are not in its second.", true),
                [](std::vector<PiecePtr> pieces) { return std::make_shared<Difference>(pieces[0], pieces[1]); }),
       combined(operandsSchema("intersection", "The intersection of its shapes.", false),
                [](std::vector<PiecePtr> pieces) { return std::make_shared<Intersection>(std::move(pieces)); })};
@@ -195,7 +196,7 @@ bool collectAbove(const Element& from, const Element& until, std::vector<Element
 }
 
 /// The labelled shapes above a shape in the same section of the scene (MaterialProperties, PhysicalBC, …): each section
-/// has its own labels, which hide those of others. Parts of the section that are read first count as above.
+/// has its own labels, which hide those of other sections. Parts of the section that are read first count as above.
 std::vector<Element> labelledAbove(const Element& shape) {
   Element section = shape, part = shape;
   while (section.parent() && section.parent()->parent()) {
@@ -241,8 +242,9 @@ PiecePtr readReference(const Element& reference, const std::string& label, Diagn
   }
   const Element& original = originals.front();
   if (originals.size() > 1) {
-    diagnostics.error(reference, fmt::format("'{}' is the label of the shapes at {} and at {}: which one is meant?",
-                                             label, original.where().text(), originals[1].where().text()));
+    diagnostics.error(reference,
+                      fmt::format("'{}' is the label of two shapes, at {} and at {}; give them different labels", label,
+                                  original.where().text(), originals[1].where().text()));
     return nullptr;
   }
   if (original.name() != reference.name()) {
@@ -257,8 +259,9 @@ PiecePtr readReference(const Element& reference, const std::string& label, Diagn
 void noteIfTaken(const Element& shape, const std::string& label, Diagnostics& diagnostics) {
   const std::vector<Element> others = definitions(label, labelledAbove(shape));
   if (others.empty()) return;
-  diagnostics.note(shape, fmt::format("the label '{}' is that of the <{}> at {} as well, so no tag can refer to either",
-                                      label, others.front().name(), others.front().where().text()));
+  diagnostics.note(
+      shape, fmt::format("the <{1}> at {2} also has the label '{0}', so no tag can refer to either of them", label,
+                         others.front().name(), others.front().where().text()));
 }
 
 /// An empty tag that refers to a shape further up.

@@ -23,7 +23,7 @@ std::size_t endOfTag(std::string_view text, std::size_t at) {
   return npos;
 }
 
-/// The position after the text at `at` if that is not an element's tag, otherwise `at`.
+/// The position after the text at `at` if this is not the tag of an element, otherwise `at`.
 std::size_t pastOther(std::string_view text, std::size_t at) {
   const std::pair<std::string_view, std::string_view> others[] = {
       {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}};

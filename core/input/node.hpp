@@ -26,7 +26,7 @@ struct Node {
   std::vector<Attribute> attributes;
   std::vector<std::unique_ptr<Node>> children;
   const Node* parent = nullptr;
-  bool isReadFirst = false;  ///< counts as standing above its siblings
+  bool isReadFirst = false;  ///< is treated as if it were above its siblings
 
   /// Appends a child and returns it; the pointer stays valid for the life of this node.
   Node& append(std::unique_ptr<Node> child) {

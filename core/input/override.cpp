@@ -102,10 +102,10 @@ std::string stepProblem(const Node& parent, const OverrideStep& step, std::size_
     return fmt::format("there is no {}[{}]: <{}> has {} of them", step.name, step.index, parent.name, found);
   }
   if (!step.attribute.empty() && found == 0) {
-    return fmt::format("no <{}> in <{}> has {}='{}'", step.name, parent.name, step.attribute, step.value);
+    return fmt::format("there is no <{}> in <{}> with {}='{}'", step.name, parent.name, step.attribute, step.value);
   }
   if (found <= 1) return {};
-  return fmt::format("{} tags <{}> match in <{}>; say which one, such as {}[1] or {}[@label='…']", found, step.name,
+  return fmt::format("{} tags <{}> in <{}> match; choose one, such as {}[1] or {}[@label='…']", found, step.name,
                      parent.name, step.name, step.name);
 }
 

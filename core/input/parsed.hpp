@@ -10,7 +10,7 @@ namespace tushar::input {
 template <class T>
 struct Parsed {
   std::optional<T> value;
-  std::string problem;  ///< empty exactly if there is a value
+  std::string problem;  ///< empty if and only if there is a value
 
   explicit operator bool() const { return value.has_value(); }
   const T& operator*() const { return *value; }

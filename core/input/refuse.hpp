@@ -10,22 +10,22 @@
 
 namespace tushar::input {
 
-/// Accepts a switch of Uintah's only if it is `false` or 0; `instead` names the alternative.
+/// Accepts a flag of Uintah only if it is `false` or 0; `instead` names the alternative.
 void refuseSwitch(SchemaBase& schema, const std::string& tag, const std::string& instead);
-/// Accepts a switch of Uintah's only if it is `true`; `instead` names the alternative.
+/// Accepts a flag of Uintah only if it is `true`; `instead` names the alternative.
 void requireSwitch(SchemaBase& schema, const std::string& tag, const std::string& instead);
-/// Accepts a tag of Uintah's only with one of some values; `sentence` says why.
+/// Accepts a tag of Uintah only with one of some values; `sentence` gives the reason.
 void refuseOtherValues(SchemaBase& schema, const std::string& tag, const std::vector<std::string>& values,
                        const std::string& sentence);
-/// Refuses a tag of Uintah's; `instead` names the alternative.
+/// Refuses a tag of Uintah; `instead` names the alternative.
 void refuseTag(SchemaBase& schema, const std::string& tag, const std::string& instead);
-/// Accepts a tag of Uintah's that has no effect here, with a note that says `why`.
+/// Accepts a tag of Uintah that has no effect, with a note that gives the reason `why`.
 void noteTag(SchemaBase& schema, const std::string& tag, const std::string& why);
-/// Notes an attribute of Uintah's, declared as Schema::ignoredAttribute, that has no effect here, if it is given:
-/// `why`.
+/// If an attribute of Uintah declared as Schema::ignoredAttribute is given, notes that it has no effect, with the
+/// reason `why`.
 void noteAttribute(const Element& given, const std::string& attribute, const std::string& why,
                    Diagnostics& diagnostics);
-/// Accepts only the `available` options of a choice of Uintah's; the tag may be left out.
+/// Accepts only the `available` options of a choice in Uintah; the tag may be omitted.
 void refuseTypes(SchemaBase& schema, const std::string& tag, const std::vector<std::string>& available,
                  const std::string& sentence);
 
@@ -37,10 +37,10 @@ void refuseDescent(const std::vector<T>& entries, Member T::*member, const std::
     if (entries[k].*member <= entries[k - 1].*member) diagnostics.error(tags[k], problem);
 }
 
-/// Options of Uintah's that are not available, and the nearest alternative of each.
+/// Options of Uintah that are not available, and the closest alternative to each.
 using Lacking = std::vector<std::pair<std::string, std::string>>;
 
-/// Declares a tag with one of several words; for words that are `lacking`, the message names the nearest alternative.
+/// Declares a tag with one of several words; for words that are `lacking`, the message names the closest alternative.
 template <class S, class E>
 void requiredChoiceOrRefusal(input::Schema<S>& schema, const std::string& tag, E S::*member,
                              const std::type_identity_t<input::Choices<E>>& choices, const Lacking& lacking,
@@ -56,7 +56,8 @@ void requiredChoiceOrRefusal(input::Schema<S>& schema, const std::string& tag, E
           if (given->text() == word) read.*member = value;
         for (const auto& [word, nearest] : lacking)
           if (given->text() == word)
-            return diagnostics.error(*given, "'" + word + "' of Uintah is not available; the nearest is " + nearest);
+            return diagnostics.error(*given,
+                                     "'" + word + "' of Uintah is not available; the most similar one is " + nearest);
         const std::string problem = input::choiceProblem(given->text(), words);
         if (!problem.empty()) diagnostics.error(*given, problem);
       },

@@ -54,7 +54,7 @@ void writeValue(xml_node parent, const TagForm& form) {
     refer(parent, "value-" + valueTypeOf(form.type).name);
 }
 
-/// Writes how often something may occur in `parent`; returns the node for its content.
+/// Writes the allowed number of occurrences in `parent`; returns the node for the content.
 xml_node often(xml_node parent, int atLeast, bool repeats) {
   if (repeats) return parent.append_child(atLeast > 0 ? "oneOrMore" : "zeroOrMore");
   return atLeast > 0 ? parent : parent.append_child("optional");
@@ -253,7 +253,7 @@ class Grammar {
     allowAttributes(element, {});
     refer(element, anything);
     xml_node other = named(named(grammar_, "define", include), "element", "include");
-    document(other, "Is replaced by the tags of another file.");
+    document(other, "Is replaced by the contents of another file.");
     named(other, "attribute", "href").append_child("text");
     for (const char* name : {"section", "excludeSectionTag"})
       named(other.append_child("optional"), "attribute", name).append_child("text");

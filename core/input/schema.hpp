@@ -25,7 +25,7 @@ T S::*memberOf(T Base::*member) {
 }
 
 /// A description of how to read one tag into a structure S: each tag and attribute that it may contain is declared
-/// once, with its type, default, unit, limits and a sentence. Reading, the messages and the manual all come from these
+/// once, with its type, default, unit, limits and description. Reading, the messages and the manual all come from these
 /// declarations.
 ///
 /// S must be default-constructible. Units are as in "m/s"; "1" means none. Schemas that are passed to others are kept
@@ -50,7 +50,7 @@ class Schema : public SchemaBase {
     return object;
   }
 
-  /// A tag with a value, which is `byDefault` if it is left out.
+  /// A tag with a value, which is `byDefault` if the tag is omitted.
   template <class T, class... C>
   Schema& value(std::string_view name, T S::*member, const std::type_identity_t<T>& byDefault, std::string_view unit,
                 std::string_view sentence, const C&... constraints) {
@@ -64,7 +64,7 @@ class Schema : public SchemaBase {
     return put(mandatory(valueEntry<T>(member, name, unit, sentence, constraints...)));
   }
 
-  /// A tag with a value that may be left out.
+  /// A tag with an optional value.
   template <class T, class... C>
   Schema& optional(std::string_view name, std::optional<T> S::*member, std::string_view unit, std::string_view sentence,
                    const C&... constraints) {
@@ -140,13 +140,13 @@ class Schema : public SchemaBase {
     return put(attribute(choiceEntry<E>(member, name, choices, sentence)));
   }
 
-  /// A tag read by another schema, which may be left out: the member is then empty.
+  /// An optional tag that another schema reads; the member is empty without it.
   template <class T>
   Schema& section(std::string_view name, std::optional<T> S::*member, const Schema<T>& schema,
                   std::string_view sentence = "") {
     return put(nestedEntry(name, schema, sentence, member));
   }
-  /// A tag read by another schema, which may be left out: the member then has that schema's defaults.
+  /// An optional tag that another schema reads; without it, the member has the defaults of that schema.
   template <class T>
   Schema& section(std::string_view name, T S::*member, const Schema<T>& schema, std::string_view sentence = "") {
     SchemaEntry entry = nestedEntry(name, schema, sentence, member);
@@ -172,7 +172,7 @@ class Schema : public SchemaBase {
     return put(attribute(ignoredEntry(name, sentence)));
   }
 
-  /// An attribute with text that something other than this schema reads.
+  /// An attribute with text that is not read by this schema.
   Schema& foreignAttribute(std::string_view name, std::string_view sentence) {
     return put(attribute(textEntry(name, sentence)));
   }
@@ -223,7 +223,7 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// Adds, to the message about a word that is not in the last choice, where that word is available.
+  /// Adds a note to the message about a word that is not in the last choice: where the word is available.
   Schema& elsewhere(std::string_view word, std::string_view sentence) {
     explainWordOfLast(word, sentence);
     return *this;

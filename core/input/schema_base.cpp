@@ -34,8 +34,8 @@ void reportAttribute(const Element& element, const Attribute& attribute, std::st
 
 void refuseTags(const Element& element, Diagnostics& diagnostics) {
   for (const Element& child : element.children())
-    diagnostics.error(child,
-                      fmt::format("tag <{}> in <{}>, where only a value is allowed", child.name(), element.name()));
+    diagnostics.error(
+        child, fmt::format("found tag <{}> in <{}>, where only a value is allowed", child.name(), element.name()));
 }
 
 /// Reads a tag that contains one value, and neither attributes nor tags.
@@ -52,7 +52,7 @@ std::string place(const Location& where, const Location& from) {
 }
 
 void reportTwice(const Element& first, const Element& again, Diagnostics& diagnostics) {
-  diagnostics.error(again, fmt::format("tag <{}> is given twice, {} and {}; one is allowed", again.name(),
+  diagnostics.error(again, fmt::format("tag <{}> is given twice, {} and {}; only one is allowed", again.name(),
                                        place(first.where(), again.where()), place(again.where(), again.where())));
 }
 
@@ -147,8 +147,8 @@ void refuseAttributes(const Element& element, const std::vector<std::string>& al
 
 void refuseText(const Element& element, Diagnostics& diagnostics) {
   if (!element.text().empty())
-    diagnostics.error(element,
-                      fmt::format("text '{}' in <{}>, where only tags are allowed", element.text(), element.name()));
+    diagnostics.error(
+        element, fmt::format("found text '{}' in <{}>, where only tags are allowed", element.text(), element.name()));
 }
 
 std::string factsOf(const SchemaEntry& entry) {
@@ -285,7 +285,7 @@ void SchemaBase::readText(void* object, const Element& element, Diagnostics& dia
     const std::string problem = entry->assign(object, element.text(), element.where());
     if (!problem.empty()) diagnostics.error(element, problem);
   } else if (!element.text().empty()) {
-    diagnostics.error(element, fmt::format("text '{}' in <{}>, where {} allowed", element.text(), element.name(),
+    diagnostics.error(element, fmt::format("found text '{}' in <{}>, where {} allowed", element.text(), element.name(),
                                            tagNames().empty() ? "none is" : "only tags are"));
   }
 }

@@ -43,7 +43,7 @@ struct SchemaEntry {
   const SchemaBase* nested = nullptr;  ///< the schema that reads a nested tag
 
   std::function<void(void* object)> setDefault;
-  /// Reads a value that is given at `where`; returns what is wrong with it, or nothing.
+  /// Reads a value that is given at `where`; returns the problem with it, if any.
   std::function<std::string(void* object, const std::string& text, const Location& where)> assign;
   /// Reads a nested tag; for Form::custom, the parent.
   std::function<void(void* object, const Element& element, Diagnostics& diagnostics)> fill;
@@ -53,7 +53,7 @@ struct SchemaEntry {
 
 SchemaEntry namedEntry(std::string_view name, std::string_view sentence);
 
-/// The facts about a value that the manual adds to its sentence: `number in Pa, greater than 0, default 1`.
+/// The facts about a value that the manual adds to its description: `number in Pa, greater than 0, default 1`.
 std::string factsOf(const SchemaEntry& entry);
 
 /// The message that `text` is not one of `words`; empty if it is.
@@ -108,7 +108,7 @@ class SchemaBase {
   static SchemaEntry flagEntry(SchemaEntry&& entry);
   static SchemaEntry ignoredEntry(std::string_view name, std::string_view sentence);
   static SchemaEntry textEntry(std::string_view name, std::string_view sentence);
-  /// A tag that `schema` reads; an empty sentence stands for that of the schema.
+  /// A tag that `schema` reads; with an empty sentence, that of the schema is used.
   static SchemaEntry sectionEntry(std::string_view name, const SchemaBase& schema, std::string_view sentence);
   void markLastOurs();
   void markAllOurs() { all_ours_ = true; }

@@ -26,7 +26,7 @@ std::vector<TagForm> formsOf(const SchemaEntry& entry);
 /// The documentation of a declaration, such as `number in Pa, greater than 0: its modulus [Tushar's own]`.
 std::string documentationOf(const SchemaEntry& entry);
 
-/// The demand on a tag or attribute of that name; null if there is none.
+/// The requirement on a tag or attribute of this name; null if there is none.
 const Demand* findDemand(const std::vector<Demand>& demands, const std::string& name);
 
 }  // namespace tushar::input

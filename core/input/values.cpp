@@ -25,7 +25,7 @@ std::string_view withoutPlus(std::string_view text) {
   return plus ? text.substr(1) : text;
 }
 
-/// The text without a decimal point that is followed only by zeros: `2.0` is a whole number, too.
+/// The text without a decimal point that is followed only by zeros: so that `2.0` is also a whole number.
 std::string_view withoutPoint(std::string_view text) {
   const auto point = text.find('.');
   const bool isWhole =
@@ -58,7 +58,7 @@ Parsed<std::vector<std::string>> parts(const std::string& text, std::string_view
   return Parsed<std::vector<std::string>>::ok(splitAtCommas(inside));
 }
 
-/// A number without brackets is a list of one, as in Uintah.
+/// As in Uintah, a number without brackets is a list of one.
 template <class T>
 Parsed<std::vector<T>> parseList(std::string_view given, std::string_view what) {
   const std::string text = trimmed(given);
@@ -113,7 +113,7 @@ Parsed<double> parse<double>(std::string_view given) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool whole = end == digits.data() + digits.size();
   if (error == std::errc::result_out_of_range && whole) {
-    return Parsed<double>::wrong(found(text) + ", which is beyond the range of a double");
+    return Parsed<double>::wrong(found(text) + ", which is outside the range of a double");
   }
   if (error != std::errc() || !whole) return Parsed<double>::wrong(expected(text, "a number"));
   if (!std::isfinite(value)) return Parsed<double>::wrong(expected(text, "a finite number"));
@@ -129,12 +129,12 @@ Parsed<std::string> parse<std::string>(std::string_view given) {
 
 template <>
 Parsed<Vec3> parse<Vec3>(std::string_view text) {
-  return parseTriple<Vec3, double>(text, "three numbers, as [1,2,3]");
+  return parseTriple<Vec3, double>(text, "three numbers, such as [1,2,3]");
 }
 
 template <>
 Parsed<Index3> parse<Index3>(std::string_view text) {
-  return parseTriple<Index3, int>(text, "three integers, as [1,2,3]");
+  return parseTriple<Index3, int>(text, "three integers, such as [1,2,3]");
 }
 
 template <>
@@ -156,10 +156,10 @@ Parsed<std::vector<std::string>> parse<std::vector<std::string>>(std::string_vie
 template <>
 Parsed<std::vector<Index3>> parse<std::vector<Index3>>(std::string_view given) {
   const std::string text = trimmed(given);
-  const auto pieces = parts(text, "brackets of three integers, as [[1,2,3]]");
+  const auto pieces = parts(text, "lists of three integers, such as [[1,2,3]]");
   if (!pieces) return Parsed<std::vector<Index3>>::wrong(pieces.problem);
   if ((*pieces).empty())
-    return Parsed<std::vector<Index3>>::wrong(expected(text, "brackets of three integers, as [[1,2,3]]"));
+    return Parsed<std::vector<Index3>>::wrong(expected(text, "lists of three integers, such as [[1,2,3]]"));
   const bool isOne = !(*pieces).front().starts_with('[');
   std::vector<Index3> triples;
   for (const std::string& piece : isOne ? std::vector{text} : *pieces) {

@@ -44,7 +44,7 @@ class TypedTag<std::variant<Ts...>> {
   }
 };
 
-/// Adds such a tag to a schema; its member keeps the default if the tag is left out.
+/// Adds such a tag to a schema; its member keeps the default if the tag is omitted.
 template <class S, class Variant>
 void typedTag(input::Schema<S>& schema, const std::string& tag, Variant S::*member, const std::string& sentence,
               bool isRequired) {

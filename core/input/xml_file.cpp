@@ -42,7 +42,7 @@ std::string latin1ToUtf8(std::string_view text) {
 /// Why the file at `path` cannot be opened at all; empty if it can.
 std::string accessProblem(const std::string& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return "this is a folder, expected a file";
+  if (std::filesystem::is_directory(path, ignored)) return "this is a folder, but must be a file";
   if (!std::filesystem::exists(path, ignored)) return "there is no such file";
   return {};
 }
@@ -84,7 +84,7 @@ void XmlFile::parse(Diagnostics& diagnostics) {
   const std::optional<BadNesting> bad = findBadNesting(text_);
   if (bad && bad->tooDeep)
     return diagnostics.error(locate(bad->where), {},
-                             fmt::format("tags are nested more than {} levels deep here", mostNested));
+                             fmt::format("tags are nested more than {} levels deep", mostNested));
   const unsigned options = pugi::parse_default | pugi::parse_comments;
   const pugi::xml_parse_result result = document_.load_buffer(text_.data(), text_.size(), options, pugi::encoding_utf8);
   if (!result && bad && result.status == pugi::status_end_element_mismatch) {
@@ -106,7 +106,7 @@ std::string XmlFile::sentence(const BadNesting& bad) const {
   if (bad.open.empty()) return fmt::format("found {}, but no tag is open here", found);
   const std::string open = fmt::format("<{}> of {}", bad.open, locate(bad.whereOpened).text());
   if (bad.wasOpened || bad.closed.empty())
-    return fmt::format("found {} while {} is still open; is its </{}> missing?", found, open, bad.open);
+    return fmt::format("found {} while {} is still open; its </{}> may be missing", found, open, bad.open);
   return fmt::format("found {}, but no such tag is open; the open tag here is {}", found, open);
 }
 

@@ -182,7 +182,7 @@ class Writer {
       restrict(named(schema_, "xs:simpleType", "value-" + type.name), "xs:token", "xs:pattern", {type.pattern});
     xml_node other = named(schema_, "xs:complexType", "include");
     other.append_attribute("mixed") = "true";
-    annotate(other, "Is replaced by the tags of another file.");
+    annotate(other, "Is replaced by the contents of another file.");
     for (const char* name : {"href", "section", "excludeSectionTag"})
       named(other, "xs:attribute", name).append_attribute("type") = "xs:string";
   }

@@ -62,8 +62,8 @@ class CellSystem {
     if (isRefined && unknowns_.constantIsFree) takeOutMean();
     return outcome;
   }
-  /// Throws NumericalError if the solver gave up on `what`; `section` has the settings of the solver, `quantity` is the
-  /// label of the solution, and `also` is further advice.
+  /// Throws NumericalError if the solve of `what` has failed; `section` has the settings of the solver, `quantity` is
+  /// the label of the solution, and `also` is further advice.
   void requireConvergence(const solvers::Outcome& outcome, const std::string& what, const std::string& section,
                           const std::string& quantity, const std::string& also = "") const {
     if (outcome.converged) return;
@@ -88,8 +88,8 @@ class CellSystem {
   std::size_t rowOf(std::size_t p, const Index<D>& cell) const {
     return static_cast<std::size_t>(number_(levelOf(p), cell));
   }
-  /// Finds, from the equations of cells at the faces of patches, which cells of other ranks they use, and how many
-  /// entries their rows have; the equations of other cells contain only direct neighbours.
+  /// Finds from the equations of cells at the faces of patches which cells of other ranks are used, and the number of
+  /// entries in their rows; the equations of other cells contain only direct neighbours.
   template <class EquationOf>
   void meetOthers(EquationOf&& equationOf) {
     forEachCell([&](std::size_t p, const Index<D>& cell) {
@@ -126,7 +126,7 @@ class CellSystem {
     unknowns_.ranks->merge(volume);
     for (double& value : solution_) value -= sum.total() / volume.total();
   }
-  /// The centre of the cell with a given number, m; none if it belongs to another rank.
+  /// The centre of the cell with a given index, m; none if it belongs to another rank.
   std::optional<Vec3> middleOf(int wanted) const {
     std::optional<Vec3> middle;
     forEachCell([&](std::size_t p, const Index<D>& cell) {

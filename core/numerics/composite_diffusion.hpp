@@ -63,7 +63,7 @@ class CompositeDiffusion {
     }
   }
 
-  /// Adds `factor` times the flow A F out of a cell into a coarser one.
+  /// Adds `factor` times the flux A F from a cell into a coarser one.
   void addRim(int level, const Index<D>& fine, int d, int side, double factor, Balance<D>& balance) const {
     const Diffusion<D>& diffusion = on(level);
     const grid::Level& here = grid_.level(level);
@@ -84,7 +84,7 @@ class CompositeDiffusion {
       balance.add(level - 1, cell, over * weight);
     });
   }
-  /// k halfway between the middle of a cell and one of its faces.
+  /// k halfway between the centre of a cell and one of its faces.
   double nearFace(int level, const Index<D>& cell, int d, int side) const {
     const grid::Level& here = grid_.level(level);
     Vec<D> x = here.template cellCentre<D>(here.template wrapped<D>(cell));

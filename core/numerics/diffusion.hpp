@@ -10,8 +10,8 @@
 
 namespace tushar::numerics {
 
-/// The mean of two coefficients at the face between their cells that gives the correct flux where they jump (Patankar,
-/// Numerical Heat Transfer and Fluid Flow, 4.2).
+/// The mean of the coefficients of two cells with which the flux through the face between them is correct even if the
+/// coefficient jumps (Patankar, Numerical Heat Transfer and Fluid Flow, 4.2).
 inline double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }
 
 /// A linear function of the values in a cell and its neighbours: sum_n weight_n phi_n + constant.
@@ -29,7 +29,7 @@ struct Balance {
   std::array<Index<D>, most> cells{};  ///< the cell itself, then some of its neighbours, which may be periodic images
   std::array<double, most> weights{};
   std::size_t count = 1;
-  std::vector<Far> far;  ///< values beyond faces where the level ends; none on a single level
+  std::vector<Far> far;  ///< values behind faces where the level ends; none on a single level
   double constant = 0;
 
   /// Adds to the weight of a cell.
@@ -72,14 +72,14 @@ class Diffusion {
     });
     return sum;
   }
-  /// The flux of phi through a face of a cell inside the grid over that of div(k grad phi), along the axis:
-  /// -k d phi / dx.
+  /// The flux of phi through a face of a cell, inside the grid, for div(k grad phi), along the axis: -k d phi / dx.
   double flux(const data::CellView<const double>& phi, const Index<D>& cell, int d, int side) const {
     const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
     const double outward = atFace(cell, next, true) * (phi[cell] - phi[next]) / level_.spacing(d);
     return side == 0 ? -outward : outward;
   }
-  /// The sum over the faces of a cell of k / h²: in an explicit step of at most 1 over this rate no cell overshoots.
+  /// The sum over the faces of a cell of k / h²: in an explicit step of at most 1 divided by this rate, no cell
+  /// overshoots.
   double rate(const Index<D>& cell) const {
     double sum = 0;
     forEachFace(cell, [&](int d, int, const Index<D>& next, bool isInside) {
@@ -123,7 +123,7 @@ class Diffusion {
     const double own = inCell(cell);
     return k_.isConstant() || !isInside ? own : harmonicMean(own, inCell(next));
   }
-  /// phi beyond a side of the grid such that the condition holds on the side.
+  /// phi outside a side of the grid such that the condition is satisfied on the side.
   double mirrored(double phi, const Index<D>& cell, int d, int side) const {
     const auto& given = sides_(d, side, cell);
     if (!given) return phi;

@@ -32,15 +32,15 @@ class LeafCells {
   const grid::Grid* grid_;
 };
 
-/// Values of a field beside a face with finer cells behind it, by a polynomial through the cells of the level: of
-/// second degree along each axis of the face, with their mixed term. Cells that are not there are not used: beside
-/// finer ones, and at sides of the grid, it uses those on the other side.
+/// Values of a field next to a face behind which there are finer cells. They follow from a polynomial through the cells
+/// of the level, of second degree along each axis of the face and with their mixed term. Cells that are not there are
+/// not used: beside finer ones, and at sides of the grid, it uses those on the other side.
 template <int D>
 class FaceInterpolation {
  public:
   explicit FaceInterpolation(const LeafCells<D>& leaves) : leaves_(leaves) {}
 
-  /// Calls `visit(cell, weight)` for each term of the value at the middle of `cell` plus `shift` widths; the shift
+  /// Calls `visit(cell, weight)` for each term of the value at the centre of `cell` plus `shift` widths; the shift
   /// along the axis `normal` is ignored.
   template <class Visit>
   void forEachTerm(int level, const Index<D>& cell, int normal, const std::array<double, D>& shift,
@@ -74,8 +74,8 @@ class FaceInterpolation {
     visit(cell + inwards * 2, u * (u - 1) / 2);
     return (u - 1) * (u - 2) / 2 - 1;
   }
-  /// Visits the cells of s_a s_b times the mixed difference: the mean over the corners of the cell whose other cells
-  /// exist.
+  /// Visits the cells of s_a s_b times the mixed difference, which is the mean over those corners of the cell whose
+  /// other cells exist.
   template <class Visit>
   double addMixed(int level, const Index<D>& cell, int a, int b, const std::array<double, D>& shift,
                   Visit&& visit) const {

@@ -23,7 +23,7 @@ struct GlobalSample {
   std::vector<double> values;
 };
 
-/// The extent of an archive when a checkpoint was written.
+/// The contents of an archive when a checkpoint was written.
 struct ArchivePoint {
   int step = 0;
   double time = 0;    ///< s
@@ -48,8 +48,8 @@ struct ArchivePoint {
 /// second or a twentieth of the run's time, so that an output takes as long however many there are.
 class Archive {
  public:
-  /// Makes the folder `filebase.NNN`, NNN one above the highest there is, and points the link `filebase` to it.
-  /// FileError if `filebase` exists and is not a link, or if nothing can be written there.
+  /// Makes the folder `filebase.NNN`, where NNN is one above the largest existing number, and points the link
+  /// `filebase` to it. FileError if `filebase` exists and is not a link, or if nothing can be written there.
   Archive(const std::filesystem::path& filebase, const std::string& inputXml, const ArchiveOptions& options = {});
   /// Continues in the folder of another run from some point; later outputs and lines of `.dat` files are removed.
   /// `name` is that of the filebase. Where index.xml is damaged, the point's is taken; what the XDMF file lacks is read

@@ -21,7 +21,7 @@ struct Settings {
   DiskFailure* failure;
 };
 
-/// An open file; HDF5 keeps its own members in front.
+/// An open file; the first members are those of HDF5.
 struct DiskFile : H5FD_t {
   int descriptor;
   haddr_t allocated;  ///< end of the space allocated by HDF5
@@ -95,7 +95,8 @@ herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t from, size_t count, void* b
   return 0;
 }
 
-/// Starts to write a large part to the disk while the next is made; failures show when the file is synchronised.
+/// Starts to write a large part to the disk while the next is made; failures are detected when the file is
+/// synchronised.
 void startOnDisk(const DiskFile& file, haddr_t from, size_t count) {
   constexpr size_t large = size_t{1} << 18;
   if (count >= large)

@@ -14,8 +14,8 @@
 
 namespace tushar::output {
 
-/// Makes the folder `filebase.NNN`, NNN one above the highest there is, with its parents. Returns its path.
-/// FileError if it cannot be made, or if `filebase` itself exists and is not a link.
+/// Makes the folder `filebase.NNN`, where NNN is one above the largest existing number, with its parents. Returns its
+/// path. FileError if it cannot be made, or if `filebase` itself exists and is not a link.
 std::filesystem::path makeNextFolder(const std::filesystem::path& filebase);
 
 /// Makes a folder and its parents, unless they exist. FileError if it cannot.
@@ -24,7 +24,8 @@ void makeFolder(const std::filesystem::path& folder);
 /// Points the relative link `filebase` to `folder`, atomically.
 void pointLink(const std::filesystem::path& filebase, const std::filesystem::path& folder);
 
-/// Puts `text` into the file, atomically: a reader sees the old text or the new. FileError if it cannot.
+/// Replaces the contents of the file by `text` atomically: a reader sees either the old text or the new. FileError if
+/// it cannot.
 void replaceFile(const std::filesystem::path& file, const std::string& text);
 
 /// The same with the text that `write` puts into the stream.
@@ -41,7 +42,7 @@ class AppendFile {
   AppendFile(AppendFile&& other) noexcept
       : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
   ~AppendFile();
-  /// Appends text, which is kept even if the process is killed afterwards.
+  /// Appends text, which is not lost even if the process is killed afterwards.
   void append(std::string_view text);
   /// Waits until all text is on the disk.
   void sync() const;
@@ -51,7 +52,7 @@ class AppendFile {
   int descriptor_;
 };
 
-/// Bytes that are kept on the disk instead of in memory, in a file without a name that ends with the process. Its
+/// Bytes that are stored on the disk instead of in memory, in an unnamed file that vanishes with the process. Its
 /// functions throw FileError.
 class Scratch {
  public:
@@ -60,9 +61,9 @@ class Scratch {
   ~Scratch();
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
-  /// Keeps bytes; returns their place.
+  /// Stores bytes; returns their position.
   std::uint64_t append(std::span<const std::byte> bytes);
-  /// Reads the bytes at a place.
+  /// Reads the bytes at a position.
   void read(std::uint64_t first, std::span<std::byte> to) const;
 
  private:

@@ -66,7 +66,7 @@ Handle spaceOf(const std::vector<Extent>& shape) {
 Handle vectorSpace(hsize_t size) { return {H5Screate_simple(1, &size, nullptr), H5Sclose}; }
 Handle scalarSpace() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
 
-/// The numbers 0, 1, 2, …, made while they are written.
+/// The numbers 0, 1, 2, …, generated while they are written.
 class Sequence : public Source {
  public:
   explicit Sequence(std::size_t count) : count_(count) {}

@@ -46,11 +46,11 @@ class Hdf5File {
   /// attributes unit and description. The groups above it are made. Values of a source are written piece by piece.
   void dataset(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape,
                Precision precision = Precision::asAsked);
-  /// The same for an array whose values are written later: allocates space for them, without gaps, and returns its
-  /// start in the file; 0 in a compressed file, where each chunk gets its space when it is written.
+  /// The same for an array whose values are written later: allocates contiguous space for them and returns where it
+  /// starts in the file. Returns 0 in a compressed file, where each chunk gets its space when it is written.
   std::uint64_t room(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape);
-  /// Writes a packed chunk of a dataset that has room for it; `corner` is the index of its first number, `skipped`
-  /// HDF5's mask of filters.
+  /// Writes a packed chunk of a dataset in which space is allocated for it; `corner` is the index of its first number,
+  /// `skipped` HDF5's mask of filters.
   void chunk(const std::string& name, const std::vector<unsigned long long>& corner, std::uint32_t skipped,
              std::span<const std::byte> bytes);
   /// Writes a text of any length as a dataset. The groups above it are made.

@@ -53,7 +53,7 @@ struct PackedChunk {
   std::vector<std::byte> bytes;
 };
 
-/// Packs chunks by HDF5's own filters, in a file in memory, into the bytes that HDF5 would write.
+/// Packs chunks with HDF5's own filters, in a file in memory, into the bytes that HDF5 would write.
 class ChunkPacker {
  public:
   /// Compresses at a gzip level.

@@ -15,7 +15,7 @@ herr_t keepFirst(unsigned, const H5E_error2_t* error, void* kept) {
 std::string hdf5Reason() {
   std::string text;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keepFirst, &text);
-  return text.empty() ? "HDF5 gives no reason" : text;
+  return text.empty() ? "HDF5 reports no reason" : text;
 }
 
 }  // namespace tushar::output

@@ -28,7 +28,7 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// While it lives, HDF5 prints no errors, and no other thread can call HDF5, which supports only one.
+/// While it exists, HDF5 prints no errors, and no other thread can call HDF5, which supports only one.
 class Silence {
  public:
   Silence() : alone_(mutex_) {

@@ -29,7 +29,7 @@ Number typeOfNumber(const std::vector<Number>&) {
   return {};
 }
 
-/// Takes over a text that HDF5 has allocated.
+/// Takes ownership of a text that HDF5 has allocated.
 std::string taken(char* characters) {
   const std::string text = characters ? characters : "";
   H5free_memory(characters);
@@ -45,7 +45,7 @@ Result Hdf5Input::checked(Result result, const std::string& what) const {
   throw FileError(fmt::format("cannot read {} '{}': {}", what, path_.string(), hdf5Reason()));
 }
 
-/// An open dataset, its type, and how many numbers it has, whatever its shape.
+/// An open dataset, its type, and its number of values, for any shape.
 struct Hdf5Input::Dataset {
   Handle data, space, type;
   std::size_t numbers;

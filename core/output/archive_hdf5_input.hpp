@@ -19,20 +19,20 @@ class Hdf5Input {
   Hdf5Input& operator=(const Hdf5Input&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Whether there is a group or dataset with that path.
+  /// Whether there is a group or dataset with this path.
   bool has(const std::string& name) const;
   /// Whether an existing path is a group.
   bool isGroup(const std::string& name) const;
-  /// The place in the file at which a group or dataset begins; later ones have larger places.
+  /// The offset in the file at which a group or dataset begins; later ones have larger offsets.
   std::uint64_t placeOf(const std::string& name) const;
   /// Names in a group, sorted; none if there is no such group.
   std::vector<std::string> names(const std::string& group) const;
-  /// The numbers of a dataset, whatever its shape, as they were written.
+  /// The values of a dataset of any shape, as they were written.
   Array::Values dataset(const std::string& name) const;
   /// The place of a dataset in the file.
   struct Placed {
     Array::Values type;        ///< no values, but their type
-    std::size_t count = 0;     ///< number of values, whatever the shape
+    std::size_t count = 0;     ///< number of values, for any shape
     std::int64_t offset = -1;  ///< of the first value; -1 if the layout differs from that in memory
   };
   Placed placed(const std::string& name) const;

@@ -17,7 +17,7 @@ namespace tushar::output {
 
 namespace {
 
-/// The file, open for reading while this lives.
+/// The file, open for reading while this object exists.
 class OpenFile {
  public:
   explicit OpenFile(const std::filesystem::path& path) : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
@@ -31,7 +31,7 @@ class OpenFile {
   const int descriptor;
 };
 
-constexpr std::size_t mostAtOnce = 256;  ///< number of parts; Linux takes 1024
+constexpr std::size_t mostAtOnce = 256;  ///< number of parts; the limit of Linux is 1024
 
 }  // namespace
 
@@ -57,7 +57,8 @@ void Hdf5Parts::read(std::vector<Part> parts) const {
   });
 }
 
-/// Reads ascending parts; numbers that the part reaching farthest so far shares with another are copied from it.
+/// Reads ascending parts; numbers that a part shares with the part that has extended farthest so far are copied from
+/// the latter.
 void Hdf5Parts::readOnce(const std::vector<Part>& parts) const {
   struct Copy {
     const std::byte* from;
@@ -97,7 +98,7 @@ void Hdf5Parts::readWhole(const std::vector<Part>& parts) const {
   for (const Part& part : parts) std::memcpy(part.to, from + part.first * bytes_, part.count * bytes_);
 }
 
-/// Reads parts that follow one another in the file.
+/// Reads parts that are consecutive in the file.
 void Hdf5Parts::readRun(int descriptor, const Part* first, const Part* last) const {
   std::array<iovec, mostAtOnce> to{};
   std::size_t count = 0;

@@ -17,7 +17,7 @@ class Hdf5Parts {
 
   /// No values, but the type of those in the dataset.
   const Array::Values& type() const { return type_; }
-  /// Number of values in the dataset, whatever its shape.
+  /// Number of values in the dataset, for any shape.
   std::size_t count() const { return count_; }
 
   /// Numbers of the dataset, in the order of the file, and their destination in memory.

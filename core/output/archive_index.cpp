@@ -60,11 +60,11 @@ std::string ArchiveIndex::refusalOf(const std::string& text) {
   document.load_string(text.c_str());
   const pugi::xml_node root = document.child(rootName);
   const int found = root.attribute("format").as_int();
-  return found <= format
-             ? ""
-             : fmt::format(
-                   "the archive has format {}, but this sus reads formats up to {}; it was written by version {}",
-                   found, format, root.attribute("version").as_string());
+  return found <= format ? ""
+                         : fmt::format(
+                               "the archive has format {}, but this sus supports only formats up to {}; it was written "
+                               "by version {}",
+                               found, format, root.attribute("version").as_string());
 }
 
 std::vector<std::string> ArchiveIndex::globals() const {

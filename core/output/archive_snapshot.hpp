@@ -26,8 +26,8 @@ class SnapshotInFlight {
                    const Writers& writers, Behind& behind);
   ~SnapshotInFlight();
   SnapshotInFlight(SnapshotInFlight&&) noexcept;
-  /// Waits until the file is complete, and gives it its name. Collective on `ranks`: those of the writers, or the first
-  /// alone where it is the only writer.
+  /// Waits until the file is complete, and renames it to its final name. Collective on `ranks`: those of the writers,
+  /// or the first alone where it is the only writer.
   void finish(const mpi::Communicator& ranks);
   /// Time and bytes of compression on this rank, once the file is finished.
   PackingUse packing() const;

@@ -47,7 +47,7 @@ std::vector<ParticleBlock> particlesOf(const Hdf5Input& file, const ArchiveIndex
   return blocks;
 }
 
-/// Fields by their place in the file, which is the order in which they were made.
+/// Fields by their offset in the file, which is the order in which they were made.
 using PlacedFields = std::map<std::uint64_t, FieldBlock>;
 
 /// Adds the fields of an HDF5 group: of a material, or, for the root, of no material and of each group in it.

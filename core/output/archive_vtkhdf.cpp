@@ -109,8 +109,8 @@ void writeParticles(Hdf5File& file, const Times& times) {
 
 using Image = VtkHdfIndex::Image;
 
-/// The corners of the cells of a grid; along an axis that is not in use, there is one layer of nodes, in the middle,
-/// but two of corners.
+/// The corners of the cells of a grid; along an axis that is not in use there are two layers of corners, but only one
+/// of nodes, in the middle.
 Image imageOf(const pugi::xml_node& grid) {
   Image image{numbersIn<std::uint64_t>(grid.child("Topology").attribute("Dimensions").as_string())};
   const pugi::xml_node origin = grid.child("Geometry").child("DataItem");

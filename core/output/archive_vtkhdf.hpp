@@ -13,9 +13,9 @@
 namespace tushar::output {
 
 /// The VTKHDF files that show an archive, next to its XDMF file `sod.xdmf` and derived from its entries: `sod.vtkhdf`
-/// with the cells and nodes, an image, or with the boxes of a refined grid, and `sod.<material>.vtkhdf` for each
-/// material, points. They hold times, counts and virtual datasets of the outputs `t*.h5`; no value is copied. An output
-/// takes some 100 bytes of memory here. Layout: VTKHDF 2.0,
+/// contains an image of the cells and nodes, or the boxes of a refined grid; `sod.<material>.vtkhdf` contains the
+/// particles of a material as points. They hold times, counts and virtual datasets of the outputs `t*.h5`; no value is
+/// copied. An output takes some 100 bytes of memory here. Layout: VTKHDF 2.0,
 /// https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format.
 class VtkHdfIndex {
  public:

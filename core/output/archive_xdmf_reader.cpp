@@ -31,7 +31,8 @@ pugi::xml_document parsed(const std::string& text) {
   return document;
 }
 
-/// The position of a reader: `depth` elements are open, and `text` is what it has of the output there.
+/// The position of a reader: `depth` elements are open, and `text` is the part of the current output that has been
+/// read.
 struct Place {
   const TakeOutput& take;
   unsigned depth = 0;

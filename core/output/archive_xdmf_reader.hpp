@@ -16,7 +16,7 @@ std::string nameAtStep(const std::string& block, int step);
 /// The tag that begins the temporal collection of a block in the file.
 std::string headOfBlock(const std::string& name);
 
-/// A function that gets each output of a block in an XDMF file: the name of the block, the step, and the grid.
+/// A function that is called for each output of a block in an XDMF file: the name of the block, the step, and the grid.
 using TakeOutput = std::function<void(const std::string& block, int step, const pugi::xml_node& grid)>;
 
 /// Reads an XDMF file of an archive, with one output in memory at a time. False where the file is missing or

@@ -26,7 +26,7 @@ class Behind {
   void setMost(std::size_t bytes);
   std::size_t most() const { return most_; }
 
-  /// Waits until there is room for a buffer of at least `bytes` bytes for the next job, and returns it.
+  /// Waits until there is space for a buffer of at least `bytes` bytes for the next job, and returns it.
   std::vector<std::byte> buffer(std::size_t bytes);
   /// Queues a job, which may use the bytes of its buffer until it is done. Returns its number.
   long put(std::vector<std::byte> buffer, std::function<void()> job);
@@ -37,7 +37,7 @@ class Behind {
   void waitFor(long job);
   /// Waits for all jobs; rethrows the first exception.
   void wait();
-  /// How long the caller has waited, s.
+  /// Time that the caller has waited, s.
   double waited() const { return waited_; }
 
  private:

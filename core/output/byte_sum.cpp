@@ -41,7 +41,8 @@ std::uint64_t wordAt(const std::byte* from, std::size_t number) {
   return word;
 }
 
-/// The sum of w_k r^k over words, from k = 0 on: by Horner's rule for every fourth, so that none waits for the others.
+/// The sum of w_k r^k over words, starting with k = 0: by Horner's rule for every fourth word, so that no sum waits for
+/// the others.
 std::uint64_t sumOfWords(const std::byte* words, std::size_t count) {
   constexpr std::size_t lanes = 4;
   static const std::uint64_t stride = powerOf(base, lanes);
@@ -86,7 +87,7 @@ std::uint64_t ByteSum::power(std::uint64_t number) {
   return last_power_;
 }
 
-/// Adds a part of a word; its other bytes count as 0.
+/// Adds a part of a word; its other bytes are treated as 0.
 void ByteSum::addWord(std::uint64_t number, std::span<const std::byte> bytes, std::uint64_t before) {
   if (bytes.empty()) return;
   std::array<std::byte, wordBytes> word{};

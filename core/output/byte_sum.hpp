@@ -11,11 +11,11 @@
 
 namespace tushar::output {
 
-/// A checksum of bytes of a file that several ranks find together, each from the bytes that it has read, in any order:
-/// the sum of w_k r^k modulo the prime 2^61 - 1, where w_k is the k-th word of 8 bytes of the file, 0 at bytes that do
-/// not belong to it. So sums of different bytes add up to that of all. A changed byte always changes it; of other
-/// changes, one in 2e18 goes unnoticed (Karp and Rabin, Efficient randomized pattern-matching algorithms, IBM J. Res.
-/// Dev. 31 (1987) 249-260).
+/// A checksum of the bytes of a file. Several ranks compute it together, each from the bytes that it has read, in any
+/// order: the sum of w_k r^k modulo the prime 2^61 - 1, where w_k is the k-th word of 8 bytes of the file, 0 at bytes
+/// that do not belong to it. So sums of different bytes add up to that of all. A changed byte always changes it; of
+/// other changes, one in 2e18 goes unnoticed (Karp and Rabin, Efficient randomized pattern-matching algorithms, IBM J.
+/// Res. Dev. 31 (1987) 249-260).
 class ByteSum {
  public:
   /// Adds the bytes of the file from a place on. Fastest where places ascend by equal steps.

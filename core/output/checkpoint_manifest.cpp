@@ -177,8 +177,8 @@ Inspection inspectList(const fs::path& folder, std::string& lines) {
   if (lines.empty() || *text != lines + lastLine(lines))
     return {fmt::format("the content of {} has changed", manifestName)};
   if (formatOf(lines) > manifestFormat)
-    return {fmt::format("manifest has {}, but this sus reads formats up to {}", lines.substr(0, lines.find('\n')),
-                        manifestFormat),
+    return {fmt::format("manifest has {}, but this sus supports only formats up to {}",
+                        lines.substr(0, lines.find('\n')), manifestFormat),
             true};
   for (const Line& line : linesOf(lines)) {
     if (line.isOfPart()) continue;

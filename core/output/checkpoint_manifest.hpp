@@ -11,7 +11,7 @@
 
 namespace tushar::output {
 
-/// Bytes of a file with a checksum of their own, which can be checked while they are read.
+/// Bytes of a file with their own checksum, which can be checked while they are read.
 struct FilePart {
   std::string file;  ///< its name
   ByteRange bytes;
@@ -32,7 +32,7 @@ void writeManifest(const std::filesystem::path& folder, const Writers& writers =
 /// The result of inspecting a folder with a manifest.
 struct Inspection {
   std::string damage;             ///< which file is missing, or has a different size or content; empty if none
-  bool isNewer = false;           ///< whether a newer version has written it; then `damage` says so
+  bool isNewer = false;           ///< whether a newer version has written it, which `damage` then states
   std::vector<FilePart> parts{};  ///< parts that have not been read
 };
 

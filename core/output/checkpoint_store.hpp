@@ -24,10 +24,10 @@ class CheckpointStore {
   /// `cycle` is the number of checkpoints to keep, at least 1. Nothing is made before the first write().
   explicit CheckpointStore(const std::filesystem::path& archive, int cycle, const Writers& writers = {});
 
-  /// Writes a checkpoint: `fill` puts its files into the folder that it is given, and returns their parts that are to
-  /// be checked while they are read. All ranks of the writers call it. Throws FileError on a rank that cannot,
-  /// FailedElsewhere on the others, or what `fill` throws, which must throw on all ranks if on any; no trace of the
-  /// checkpoint is left then.
+  /// Writes a checkpoint: `fill` writes its files to the given folder, and returns those parts of them that are checked
+  /// while they are read. All ranks of the writers call it. Throws FileError on a rank that cannot, FailedElsewhere on
+  /// the others, or what `fill` throws, which must throw on all ranks if on any; no trace of the checkpoint is left
+  /// then.
   void write(int step, const std::function<std::vector<FilePart>(const std::filesystem::path& folder)>& fill) const;
   /// Makes the checkpoint of a step the latest, and removes those after it.
   void goBackTo(int step) const;

@@ -24,8 +24,8 @@ std::size_t mostOfPiece(const Writers& writers);
 std::size_t entryBytes(const Array& array);
 std::uint64_t bytesOf(const Array& array);
 
-/// Sends the pieces of an array that is distributed over the ranks to the writers, one to each at a time, so that a
-/// writer needs memory for one piece only, and a rank for its parts of the others.
+/// Sends the pieces of a distributed array to the writers, one piece at a time to each writer. So a writer needs memory
+/// for only one piece, and a rank for its parts of the other pieces.
 class Pieces {
  public:
   /// `writers` must outlive it.

@@ -59,8 +59,8 @@ std::string RunLog::refusalOf(const std::string& text) {
   if (!found.is_object() || !found.contains("format")) return "";
   const Json& number = found["format"];
   if (number.is_number_integer() && number.get<double>() <= format) return "";
-  return fmt::format("the archive has format {} of run.json, but this sus reads formats up to {}", number.dump(),
-                     format);
+  return fmt::format("run.json of the archive has format {}, but this sus supports only formats up to {}",
+                     number.dump(), format);
 }
 
 RunLog::RunLog(const fs::path& folder, const RunRecord& record) : file_(folder / "run.json") {

@@ -120,7 +120,7 @@ class FileInFlight::Chunks {
     long job;  ///< the job that packs it
   };
 
-  /// Packs the entries of a chunk; `share` is the size of the numbers in the file over that in memory.
+  /// Packs the entries of a chunk; `share` is the ratio of the size of the numbers in the file to that in memory.
   static PackedChunk packed(ChunkPacker& packer, std::span<const std::byte> entries, double share, PackingUse& use) {
     const Stopwatch watch(use.packing);
     PackedChunk chunk = packer.pack(entries);

@@ -29,11 +29,11 @@ struct Storage {
   int compression = 0;         ///< gzip level, 0 (none) to 9
 };
 
-/// An HDF5 file that ranks write together: rank 0 makes it, calls `header` for what it alone has, and writes the
-/// datasets whose values are in memory; all ranks contribute the values of those that have a source. No byte depends on
-/// the number of ranks and writers, or on steps taken meanwhile: the constructor takes the values over, and `behind`
-/// brings them to the file. Collective: all have the same datasets. Both functions throw FileError on a rank that
-/// cannot write, and FailedElsewhere on the others; the caller then removes the incomplete file.
+/// An HDF5 file that ranks write together: rank 0 creates it, calls `header` for contents that only it has, and writes
+/// the datasets whose values are in memory; all ranks contribute the values of datasets that have a source. No byte
+/// depends on the number of ranks and writers, or on steps taken meanwhile: the constructor takes the values over, and
+/// `behind` brings them to the file. Collective: all have the same datasets. Both functions throw FileError on a rank
+/// that cannot write, and FailedElsewhere on the others; the caller then removes the incomplete file.
 class FileInFlight {
  public:
   /// `writers` and `behind` must outlive it.
@@ -46,7 +46,7 @@ class FileInFlight {
   /// Waits until the file is complete, and closes it. Collective on `ranks`: those of the writers, or the first alone
   /// where it is the only writer.
   void finish(const mpi::Communicator& ranks);
-  /// The places in the file of the values of datasets with a source; none if they are compressed.
+  /// The offsets in the file of the values of datasets with a source; none if they are compressed.
   const std::vector<ByteRange>& places() const { return places_; }
   /// Time and bytes of compression on this rank, once the file is complete.
   PackingUse packing() const;

@@ -20,7 +20,7 @@ inline constexpr std::uint64_t slabCut = std::uint64_t{1} << 20;
 /// The part of a range that one of the writers writes. The parts are contiguous, and as equal as the cuts allow.
 ByteRange slabOf(const ByteRange& all, int writer, int writers);
 
-/// An array with a source, and its place in a file.
+/// An array with a source, and its position in a file.
 struct Slab {
   std::string name;          ///< name of the dataset
   const Array* array;        ///< contains real numbers, if `asFloat`

@@ -66,8 +66,8 @@ struct GridInfo {
   Vec3 spacing = Vec3::Ones();  ///< cell widths, m
   Index3 cells = Index3::filled(1);
   int dimension = 0;  ///< number of axes that the scene uses
-  /// Where the run may have several levels, the boxes of cells that tile the domain, those of the coarsest level first;
-  /// none if it has one.
+  /// If the run may have several levels, the boxes of cells that tile the domain, those of the coarsest level first;
+  /// otherwise none.
   std::vector<GridBox> boxes{};
   int levels = 1;  ///< number of levels: at least one more than the finest level of any box
 };

@@ -11,15 +11,15 @@ struct Stretch {
   std::uint32_t first, count;
 };
 
-/// Makes the values of an array while they are written, so that they are never all in memory. If an array is spread
+/// Generates the values of an array while they are written, so that they are never all in memory. If an array is spread
 /// over several ranks, each has a source for its own entries.
 class Source {
  public:
   virtual ~Source() = default;
   /// Number of entries, on all ranks together.
   virtual std::size_t entries() const = 0;
-  /// Writes the entries from `first` to `first + count` that are on this rank to their places in `to`; other places are
-  /// left unchanged.
+  /// Writes the entries from `first` to `first + count` that are on this rank to their positions in `to`; other
+  /// positions are left unchanged.
   virtual void read(std::size_t first, std::size_t count, std::byte* to) const = 0;
   /// Those of these entries that are on this rank, ascending; by default all.
   virtual std::vector<Stretch> stretches(std::size_t, std::size_t count) const {

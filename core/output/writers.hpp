@@ -6,7 +6,7 @@
 
 namespace tushar::output {
 
-/// Ranks that write files together, and those among them that write the bytes. The first of these is rank 0.
+/// Ranks that write files together, and the writers among them, which write the bytes. The first of these is rank 0.
 class Writers {
  public:
   /// A single process.
@@ -22,7 +22,7 @@ class Writers {
   const mpi::Communicator& ranks() const { return *ranks_; }
   int count() const { return static_cast<int>(writers_.size()); }
   int rankOf(int writer) const { return writers_[writer]; }
-  /// Index of this rank among the writers; -1 if it is none.
+  /// Index of this rank among the writers; -1 if it is not a writer.
   int mine() const { return mine_; }
 
  private:

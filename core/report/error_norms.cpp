@@ -38,8 +38,9 @@ std::optional<std::string> unmeasurable(const std::vector<ErrorNorms>& errors) {
   for (const ErrorNorms& error : errors)
     for (const auto& [norm, value] : error.norms)
       if (!std::isfinite(value))
-        return fmt::format("no errors at the end of the run: the {} norm of the error of {}, {}, is not finite", norm,
-                           error.field, error.place);
+        return fmt::format(
+            "the report has no errors at the end of the run, because the {} norm of the error of {}, {}, is not finite",
+            norm, error.field, error.place);
   return std::nullopt;
 }
 

@@ -12,8 +12,8 @@ namespace tushar::report {
 /// and those relative to a field that is 0 everywhere.
 ErrorNorms normsOf(const MeasuredError& error, const std::vector<double>& values);
 
-/// A sentence about the first norm that is not finite, as such a run has no valid errors; none if all are finite. None
-/// if all are.
+/// A message about the first norm that is not finite, since such a run has no valid errors; none if all are finite.
+/// None if all are.
 std::optional<std::string> unmeasurable(const std::vector<ErrorNorms>& errors);
 
 }  // namespace tushar::report

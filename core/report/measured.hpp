@@ -7,7 +7,7 @@
 
 namespace tushar::report {
 
-/// An error norm that an analysis module measures: `density` at the `particle`s, by the reduction `label` of type
+/// An error norm that an analysis module computes: `density` at the `particle`s, by the reduction `label` of type
 /// data::Norm, or data::Maximum for max alone. `norms` lists those that mean something, of L1, L2, max and relative.
 struct MeasuredError {
   std::string field, place;

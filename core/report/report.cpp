@@ -134,7 +134,7 @@ std::string energyTable(const Report& report) {
                             energies.greatest() > 0 ? energies.unaccounted() / energies.greatest() : 0.0);
 }
 
-/// The shares of the threads' time during the time loop and its outputs.
+/// The fractions of the threads' time during the time loop and its outputs.
 std::string useLine(const Report& report) {
   const TimeUse& use = report.use;
   const double all = use.task + use.message + use.output + use.wait;
@@ -175,14 +175,17 @@ std::string uniformLine(const Report& report) {
                   report.uniformUpdates, saved);
   if (saved > cost) return text;
   return text +
-         fmt::format("  it would probably be faster: on levels an update takes about {:g} times as long\n", cost);
+         fmt::format(
+             "  it would probably be faster, because an update takes about {:g} times as long on several levels\n",
+             cost);
 }
 
 /// The cell updates of each level, if finer levels take smaller steps.
 std::string updatesLine(const Report& report) {
   std::string updates;
   for (const double one : report.levelUpdates) updates += fmt::format("{}{:.4g}", updates.empty() ? "" : " + ", one);
-  return updates.empty() ? "" : fmt::format("  cell updates of each level, with time steps of its own: {}\n", updates);
+  return updates.empty() ? ""
+                         : fmt::format("  cell updates of each level, which takes its own time steps: {}\n", updates);
 }
 
 /// The cells of each level, and the cost of updating and regridding them.
@@ -199,16 +202,16 @@ std::string rebalancingLine(const Report& report) {
   const Rebalancing& change = report.rebalancing;
   if (change.times == 0) return "";
   return fmt::format(
-      "  patches changed ranks {} time{}, last after step {}: the busiest rank had {:.2f} times its share, "
-      "then {:.2f}\n",
+      "  patches changed ranks {} time{}, last after step {}: this reduced the load of the busiest rank from {:.2f} to "
+      "{:.2f} times its share\n",
       change.times, change.times == 1 ? "" : "s", change.step, change.before, change.after);
 }
 
 std::string compressionLine(const Compression& use) {
   if (use.bytes <= 0) return "";
   return fmt::format(
-      "  compression: {:.4g} MB became {:.4g}; packing took {:.2f} ms on all ranks together, and writing about {:.2f} "
-      "ms less\n",
+      "  compression: from {:.4g} to {:.4g} MB; packing took {:.2f} ms in total on all ranks, and shortened writing by "
+      "about {:.2f} ms\n",
       1e-6 * use.bytes, 1e-6 * use.packed, 1e3 * use.packing, 1e3 * (use.savedSeconds() + use.packing));
 }
 
@@ -267,6 +270,7 @@ std::string toJson(const Report& report) {
   json["failure"] = report.failure;
   json["particles"] = report.particles;
   json["particles_dropped"] = report.dropped;
+  json["particles_removed"] = report.removed;
   json["particle_steps_per_second"] = report.wallLoop > 0 ? report.particleSteps / report.wallLoop : 0;
   json["memory"] = {{"resident", report.memory.now},
                     {"peak", report.memory.peak},
@@ -285,12 +289,25 @@ std::string toJson(const Report& report) {
   return json.dump(2) + "\n";
 }
 
+namespace {
+
+/// In parentheses, the particles that a run has lost; empty if none.
+std::string lossesOf(const Report& report) {
+  std::string text;
+  if (report.dropped > 0) text = fmt::format("{} left the grid", report.dropped);
+  if (report.removed > 0)
+    text += fmt::format("{}{} removed: turned inside out, or thrown through a symmetry plane", text.empty() ? "" : ", ",
+                        report.removed);
+  return text.empty() ? "" : " (" + text + ")";
+}
+
+}  // namespace
+
 std::string toText(const Report& report) {
   std::string text = fmt::format("{} to t = {:.6g} s ({}), {}", counted(report.steps, "step"), report.time,
                                  report.ended, counted(report.cells, "cell"));
-  if (report.particles > 0 || report.dropped > 0) {
-    text += ", " + counted(report.particles, "particle");
-    if (report.dropped > 0) text += fmt::format(" ({} left the grid)", report.dropped);
+  if (report.particles > 0 || report.dropped > 0 || report.removed > 0) {
+    text += ", " + counted(report.particles, "particle") + lossesOf(report);
     if (report.wallLoop > 0)
       text += fmt::format(", {:.3g} million particle-steps/s", 1e-6 * report.particleSteps / report.wallLoop);
   }

@@ -42,8 +42,9 @@ struct EnergyBudget {
 /// Changes of the distribution of patches over the ranks during a run.
 struct Rebalancing {
   int times = 0;
-  int step = 0;                  ///< the last step after which patches changed ranks
-  double before = 1, after = 1;  ///< the largest cost of a rank over the mean, before and after the last change
+  int step = 0;  ///< the last step after which patches changed ranks
+  double before = 1,
+         after = 1;  ///< the ratio of the largest cost of a rank to the mean, before and after the last change
 };
 
 /// The time and the bytes of compressing the values of outputs, summed over ranks.
@@ -51,8 +52,8 @@ struct Compression {
   double bytes = 0, packed = 0;     ///< without compression, and with it
   double packing = 0, writing = 0;  ///< s spent on compressing, and on writing the result
 
-  /// The extra time for writing all bytes at that speed, less the time for compressing, s; negative if compression did
-  /// not pay off.
+  /// The additional time for writing all bytes at the same speed, minus the time for compressing, s; negative if
+  /// compression did not pay off.
   double savedSeconds() const { return packed > 0 ? writing * (bytes / packed - 1) - packing : 0; }
 };
 
@@ -66,7 +67,9 @@ struct TaskTime {
 struct Report {
   std::string scene, title, component, version, build;
   int dimension = 0, patches = 0, ranks = 1, threads = 1;
-  long cells = 0, particles = 0, dropped = 0;
+  long cells = 0, particles = 0;
+  long dropped = 0;            ///< particles that left the grid
+  long removed = 0;            ///< particles that could not be continued
   double spacing = 0;          ///< smallest cell width, m
   int steps = 0, retries = 0;  ///< steps taken; undone and repeated
   std::vector<std::pair<std::string, int>>
@@ -85,7 +88,7 @@ struct Report {
   std::vector<long> levels;          ///< cells of each level at the end, the coarsest first; 0 for a single level
   double updates = 0;                ///< cell updates: the sum over steps of the cells of all levels
   std::vector<double> levelUpdates;  ///< cell updates of each level; empty if all take the same steps
-  double uniformUpdates = 0;         ///< the same if all cells were as fine as the finest
+  double uniformUpdates = 0;         ///< the same if all cells were on the finest level
   int regrids = 0;                   ///< number of regrids
   double wallRegrid = 0;             ///< s of the loop spent on regridding
   std::vector<TaskTime> tasks;

@@ -11,7 +11,7 @@ struct TimeUse {
   double message = 0;    ///< packing, unpacking and copying ghosts
   double output = 0;     ///< writing, while the other threads wait
   double wait = 0;       ///< the rest: waiting for others, or between loops
-  double imbalance = 1;  ///< time of all loops, over the time with perfectly balanced threads
+  double imbalance = 1;  ///< ratio of the time of all loops to the time with perfectly balanced threads
 
   TimeUse() = default;
   /// The use since `before`, in `wall` seconds, of which `outputSeconds` were spent on output. Every rank makes it.

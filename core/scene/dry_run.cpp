@@ -24,7 +24,7 @@ double residentMegabytes() {
   return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// The rank that has the cell at the centre of the grid.
+/// The rank that owns the cell at the centre of the grid.
 int rankInTheMiddle(const grid::Grid& grid) {
   for (int number = 0; number < grid.levels(); ++number) {
     grid::Box middle = grid.level(number).cells();
@@ -114,14 +114,14 @@ DryRun dryRun(const std::string& scene, const std::vector<std::string>& override
 std::string toText(const DryRun& result) {
   std::string limits;
   if (result.isAdaptive)
-    limits += "  of the grid of the scene: criteria refine it when the run begins, and more patches come and go\n";
+    limits += "  this is the grid before criteria refine it; during the run the number of patches changes\n";
   if (result.hasSmallerSteps)
-    limits += "  of all levels once: finer ones take several steps in one, each with its messages\n";
+    limits +=
+        "  for one step of all levels; finer levels take several steps in this time, each with its own messages\n";
   return fmt::format(
       "rank {} of {}: {} of {} patches\n{}"
-      "  a step: {} tasks, run {} times; {} messages to {} neighbours, {:.4g} kB and particles; {} agreements of all "
-      "ranks\n"
-      "  compiled in {:.2f} ms of processor time with {:.2f} MB\n",
+      "  per step: {} tasks, run {} times; {} messages to {} neighbours with {:.4g} kB plus particles; {} "
+      "synchronisations of all ranks\n  compiled in {:.2f} ms of processor time with {:.2f} MB\n",
       result.rank, result.ranks, result.patches, result.patchesOfAll, limits, result.tasks, result.placements,
       result.messages, result.neighbours, 1e-3 * result.bytes, result.agreements, 1e3 * result.seconds,
       result.megabytes);

@@ -17,15 +17,15 @@ struct DryRun {
   int neighbours = 0;                 ///< ranks that it sends ghosts to
   int messages = 0;                   ///< sent in a step, with ghosts and with particles that move
   int agreements = 0;                 ///< of all ranks, in a step
-  bool isAdaptive = false;            ///< criteria change the grid once the run has begun, of which this is the start
-  bool hasSmallerSteps = false;       ///< finer levels take several steps in one, which exchanges ghosts in each
-  double bytes = 0;                   ///< upper bound, without particles: as if all nodes were near some
+  bool isAdaptive = false;            ///< criteria change the grid during the run, and this is the initial grid
+  bool hasSmallerSteps = false;       ///< finer levels take several smaller steps, each with a ghost exchange
+  double bytes = 0;                   ///< upper bound, without particles: computed as if all nodes were near particles
   double seconds = 0;                 ///< processor time to read the scene and compile
   double megabytes = 0;               ///< memory taken by this
 };
 
-/// Reads a scene as if this rank were the one of `workers.ranks` that has the centre of the grid. Throws what readScene
-/// throws.
+/// Reads a scene as if this rank were the one of `workers.ranks` that owns the centre of the grid. Throws what
+/// readScene throws.
 DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides,
               const simulation::Catalogue& catalogue, const grid::Workers& workers);
 

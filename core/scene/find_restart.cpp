@@ -40,11 +40,11 @@ fs::path folderOf(const fs::path& uda) {
   return folder;
 }
 
-/// The steps of checkpoints to try in turn: the chosen one alone, or those from LATEST backwards.
+/// The steps of checkpoints to try in order: only the chosen one, or those from LATEST backwards.
 std::vector<int> candidatesOf(const std::string& uda, const fs::path& archive, std::optional<int> chosen) {
   const output::CheckpointStore store(archive, 1);
   const std::vector<int> steps = store.steps();
-  if (steps.empty()) refuse(uda, "there are no checkpoints; ask for them with <checkpoint .../> in <DataArchiver>");
+  if (steps.empty()) refuse(uda, "there are no checkpoints; <checkpoint .../> in <DataArchiver> requests them");
   if (!chosen)
     return {std::make_reverse_iterator(std::upper_bound(steps.begin(), steps.end(), store.latest())), steps.rend()};
   if (!std::binary_search(steps.begin(), steps.end(), *chosen))

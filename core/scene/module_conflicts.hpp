@@ -18,12 +18,12 @@ struct TakenByModules {
   std::set<std::string> measured, computed;
 };
 
-/// Throws InputError for a module that measures or computes the same as an earlier one; otherwise adds its quantities.
-/// A report has one place for the errors of a field, and for an energy budget; a variable has one task that computes
-/// it.
+/// Throws InputError for a module that measures or computes the same quantity as an earlier one; otherwise adds its
+/// quantities. A report has one place for the errors of a field, and for an energy budget; a variable has one task that
+/// computes it.
 void refuseTwice(const simulation::Analysis& analysis, const input::Element& module, TakenByModules& taken);
 
-/// Reports files of an archive that two modules would write, or a module and the archive itself.
+/// Reports files that would be written by two modules, or by a module and the archive itself.
 void refuseSharedFiles(const std::vector<std::unique_ptr<simulation::Analysis>>& analyses,
                        const std::vector<simulation::SaveRequest>& saves, input::Diagnostics& diagnostics);
 

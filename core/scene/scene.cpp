@@ -190,8 +190,8 @@ Element whereOfLevels(const Element& grid, const AmrSettings& amr) {
   return levels.size() > 1 ? levels[1] : *amr.tag;
 }
 
-/// Refuses several levels for a component that runs on one. The message does not list components that run on several,
-/// as their modules may not be built yet.
+/// Refuses several levels for a component that supports only one. The message does not list components that run on
+/// several, as their modules may not be built yet.
 void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrSettings& amr,
                       Diagnostics& diagnostics) {
   if (!kind.takesLevels)
@@ -230,9 +230,9 @@ Trial tryOut(const MakeComponent& make) {
   return {};
 }
 
-/// Checks the labels even if other parts of the scene are invalid, as those of a component and its modules do not
-/// depend on the grid. Returns false if it cannot: some components and modules cannot be made on the small grid that it
-/// uses.
+/// Checks the labels even if other parts of the scene are invalid, since the labels of a component and its modules do
+/// not depend on the grid. Returns false if it cannot: some components and modules cannot be made on the small grid
+/// that it uses.
 bool checkLabelsWithoutGrid(const MakeComponent& make, const std::vector<ReadModule>& modules,
                             std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   const auto [level, component] = tryOut(make);
@@ -291,14 +291,14 @@ std::optional<Location> smallerStepsOn(const grid::Grid& grid, const AmrSettings
 
 const std::vector<std::pair<std::string, std::string>>& idleSections() {
   static const std::vector<std::pair<std::string, std::string>> sections{
-      {"LoadBalancer", "does nothing here: patches and tasks are placed without it"},
-      {"Scheduler", "does nothing here: patches and tasks are placed without it"},
-      {"ParallelOptions", "does nothing here: patches and tasks are placed without it"},
-      {"SimulationController", "does nothing here: sus has options of its own"},
+      {"LoadBalancer", "does nothing here: it does not affect the distribution of patches and tasks"},
+      {"Scheduler", "does nothing here: it does not affect the distribution of patches and tasks"},
+      {"ParallelOptions", "does nothing here: it does not affect the distribution of patches and tasks"},
+      {"SimulationController", "does nothing here: use the options of sus instead"},
       {"Debug", "does nothing here: see sus --trace and --schedule"},
-      {"ParticlePosition", "does nothing here: the <res> of a body says where its particles start"},
-      {"InitialConditions", "does nothing here: no component reads it"},
-      {"CFD", "does nothing here: no component reads it"}};
+      {"ParticlePosition", "does nothing here: the <res> of a body determines where its particles start"},
+      {"InitialConditions", "does nothing here: no component uses it"},
+      {"CFD", "does nothing here: no component uses it"}};
   return sections;
 }
 

@@ -18,8 +18,8 @@ simulation::Problem readScene(const std::string& path, const std::vector<std::st
                               const simulation::Catalogue& catalogue, const grid::Workers& workers = {},
                               grid::Share share = {});
 
-/// The manual of the sections that every component shares: Time, DataArchiver, Grid, AMR; the last has those of all
-/// components.
+/// The manual of the sections that all components share: Time, DataArchiver, Grid, AMR; the last includes the sections
+/// of all components.
 void describeSharedSections(std::ostream& out, const simulation::Catalogue& catalogue);
 
 /// The `Time` section.
@@ -46,12 +46,12 @@ AmrSettings readAmr(const input::Element& section, const simulation::ComponentKi
 /// component lacks.
 simulation::RegridSettings settled(AmrSettings amr, const simulation::Component& component,
                                    input::Diagnostics& diagnostics);
-/// Removes variables of nodes, which have no values between levels, with a note.
+/// Removes node variables, which are not defined between levels, with a note.
 void dropSavedNodes(std::vector<simulation::SaveRequest>& saves, input::Diagnostics& diagnostics);
 /// The boundary conditions that a component supports.
 struct SideWords {
   std::vector<grid::BoundaryVariable> labels = {};
-  bool takesParts = false;     ///< whether parts of a side may have conditions of their own
+  bool takesParts = false;     ///< whether parts of a side may have their own conditions
   bool takesFormulas = false;  ///< whether Dirichlet values may be formulas
   simulation::ConditionWords own = {};
 };
@@ -74,7 +74,7 @@ const input::SchemaBase& gridForm(const simulation::ComponentKind& kind);
 /// The tag SimulationComponent; its `type` says which component.
 const input::SchemaBase& componentForm();
 
-/// Uintah's sections that have no effect here, and why.
+/// Uintah's sections that have no effect in Tushar, with the reasons.
 const std::vector<std::pair<std::string, std::string>>& idleSections();
 
 }  // namespace tushar::scene

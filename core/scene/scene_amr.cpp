@@ -60,7 +60,7 @@ struct AmrSection {
 bool isLower(Indicator indicator) { return indicator == Indicator::below; }
 bool isValue(Indicator indicator) { return indicator == Indicator::above || indicator == Indicator::below; }
 
-/// The threshold for coarsening: half that for refining; for values, half their magnitude beyond it.
+/// The threshold for coarsening: half that for refining; for values, beyond it by half their magnitude.
 double coarsenOf(const VariableTag& tag, double refine) {
   if (tag.coarsen) return *tag.coarsen;
   return isLower(tag.indicator) ? refine + 0.5 * std::abs(refine) : refine - 0.5 * std::abs(refine);
@@ -76,9 +76,9 @@ void noteIdle(const Element& particles, Diagnostics& diagnostics) {
 void checkThresholds(const VariableTag& tag, const Element& element, Diagnostics& diagnostics) {
   if (tag.name == cellsWithParticles) return noteIdle(element, diagnostics);
   if (!tag.refine)
-    return diagnostics.error(element, fmt::format("missing attribute 'value' of <{}> (finer cells where the indicator "
-                                                  "is above this)",
-                                                  element.name()));
+    return diagnostics.error(
+        element, fmt::format("missing attribute 'value' of <{}> (cells are refined where the indicator is above this)",
+                             element.name()));
   const double refine = *tag.refine;
   const auto refuse = [&](const char* attribute, double found, const std::string& expected) {
     diagnostics.error(element.whereOf(attribute), element.path(),
@@ -86,7 +86,7 @@ void checkThresholds(const VariableTag& tag, const Element& element, Diagnostics
   };
   if (!isValue(tag.indicator) && refine <= 0) return refuse("value", refine, "a value greater than 0");
   if (tag.indicator == Indicator::secondDerivative && refine >= 1)
-    return refuse("value", refine, "a value less than 1, which no second_derivative exceeds");
+    return refuse("value", refine, "a value less than 1, since the indicator second_derivative is at most 1");
   if (!tag.coarsen) return;
   if (!isValue(tag.indicator) && *tag.coarsen < 0) refuse("coarsen", *tag.coarsen, "a value of at least 0");
   if (isLower(tag.indicator) ? *tag.coarsen < refine : *tag.coarsen > refine)
@@ -104,7 +104,7 @@ const Schema<VariableTag>& variableSchema() {
           .optionalAttribute("value", &VariableTag::refine, "1",
                              "cells are refined where the indicator is above this (for type below: where it is below); "
                              "required, except for particles")
-          .attributeValue("matl", &VariableTag::material, "all", "1", "name or number of the material, or all")
+          .attributeValue("matl", &VariableTag::material, "all", "1", "name or index of the material, or all")
           .choiceAttribute(
               "type", &VariableTag::indicator,
               {{"jump", Indicator::jump},
@@ -113,9 +113,9 @@ const Schema<VariableTag>& variableSchema() {
                {"above", Indicator::above},
                {"below", Indicator::below}},
               Indicator::jump,
-              "the indicator. jump: half the difference of the neighbours over the smallest magnitude in the three "
-              "cells (for quantities that stay away from 0); second_derivative: Löhner's, from 0 to 1; gradient: in "
-              "the unit of the variable per m, as in Uintah; above, below: the value itself")
+              "the indicator. jump: half the difference between the neighbours, divided by the smallest magnitude in "
+              "the three cells (for quantities that are never near 0); second_derivative: Löhner's, from 0 to 1; "
+              "gradient: in the unit of the variable per m, as in Uintah; above, below: the value itself")
           .ours()
           .optionalAttribute("coarsen", &VariableTag::coarsen, "1",
                              "cells are not coarsened where the indicator is above this (for type below: where it is "
@@ -127,9 +127,9 @@ const Schema<VariableTag>& variableSchema() {
 
 const Schema<CriteriaSection>& criteriaSchema() {
   static const Schema<CriteriaSection> schema =
-      Schema<CriteriaSection>(
-          "Refinement_Criteria_Thresholds",
-          "Where finer cells are needed; of several criteria, the one that requests the finest cells decides.")
+      Schema<CriteriaSection>("Refinement_Criteria_Thresholds",
+                              "Where finer cells are needed; if there are several criteria, the one that requests the "
+                              "finest cells prevails.")
           .list("Variable", &CriteriaSection::variables, variableSchema(), "a refinement criterion");
   return schema;
 }
@@ -139,14 +139,14 @@ const Schema<ThresholdsSection>& thresholdsSchema() {
     Schema<ThresholdsSection> section("component", "How a component runs on several levels.");
     section
         .value("do_Refluxing", &ThresholdsSection::refluxes, true, "1",
-               "the flux out of coarse cells equals that into finer ones, to round-off; otherwise totals drift")
+               "whether the flux out of coarse cells equals that into finer ones, to round-off; otherwise totals drift")
         .section("Refinement_Criteria_Thresholds", &ThresholdsSection::criteria, criteriaSchema());
     const std::string order = "interpolation between levels is of second order";
     input::noteTag(section, "orderOfInterpolation", order);
     input::noteTag(section, "orderOf_CFI_Interpolation", order);
     input::noteTag(section, "CFI_interpolator", order);
-    section.ignored("ClampSpecificVolume", "Uintah does not read it here either");
-    const std::string region = "where cells are finer is specified by a further <Level> of <Grid>";
+    section.ignored("ClampSpecificVolume", "Uintah does not use it here either");
+    const std::string region = "use a further <Level> of <Grid> to specify where cells are finer";
     for (const char* tag : {"min_grid_level", "max_grid_level", "manualGrid", "Refine_Regions"})
       input::noteTag(section, tag, region);
     return section;
@@ -161,7 +161,7 @@ void noteOldRegridderTags(Schema<RegridderSection>& section) {
   for (const char* tag :
        {"cell_regrid_dilation", "cell_deletion_dilation", "min_boundary_cells", "dynamic_dilation", "max_dilation"})
     input::noteTag(section, tag, buffer);
-  const std::string cost = "the refinement does not depend on its cost";
+  const std::string cost = "the cost of a refinement is not considered";
   for (const char* tag : {"amr_overhead_low", "amr_overhead_high"}) input::noteTag(section, tag, cost);
   input::noteTag(section, "patches_per_level_per_proc", "patches are boxes of blocks; --layout sets their size");
 }
@@ -172,15 +172,16 @@ const Schema<RegridderSection>& regridderSchema() {
     section
         .choiceAttribute("type", &RegridderSection::type, {{"Tiled", "Tiled"}, {"BNR", "BNR"}}, "Tiled",
                          "Uintah's algorithms for choosing patches; both mean blocks here")
-        .elsewhere("SingleLevel", "the patches of a single level are set by <patches> in its Box, or by --layout")
+        .elsewhere("SingleLevel",
+                   "<patches> in the Box of a level, or --layout, determines the patches of a single level")
         .optional("adaptive", &RegridderSection::adaptive, "1",
                   "whether the refinement follows the state; true by default if there is a <Variable> or, for mpm, if "
                   "<max_levels> is above 1. Without a <Variable>, euler refines at jumps of c.density, c.pressure and "
                   "c.mach above 0.02; mpm needs none, as the finest level follows its particles")
         .value("regrid_once", &RegridderSection::once, false, "1", "refine only at the start")
         .optional("max_levels", &RegridderSection::maxLevels, "1",
-                  "largest number of levels, including the coarsest; by default the number that the Levels of Grid "
-                  "make, but at least 2 if the grid is adaptive",
+                  "largest number of levels, including the coarsest; by default the number that follows from the "
+                  "Levels of Grid, but at least 2 if the grid is adaptive",
                   input::between(1, 16))
         .optional("cell_refinement_ratio", &RegridderSection::ratios, "1",
                   "ratio of cell widths from each level to the next; the last one also holds for further levels. 2, 4, "
@@ -216,13 +217,14 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
     for (const std::string& name : names)
       for (const Element& given : element.children(name)) read.components.push_back(readThresholds(given, diagnostics));
   };
-  section.ignoredAttribute("type", "a grid is adaptive where <Regridder> says so")
+  section.ignoredAttribute("type", "<Regridder> determines whether a grid is adaptive")
       .check([](const AmrSection&, const Element& given, Diagnostics& diagnostics) {
-        input::noteAttribute(given, "type", "a grid is adaptive where <Regridder> says so", diagnostics);
+        input::noteAttribute(given, "type", "<Regridder> determines whether a grid is adaptive", diagnostics);
       })
       .value("useLockStep", &AmrSection::usesLockStep, true, "1",
              "true: all levels take the same time step; false: finer levels take several smaller steps for each step "
-             "of the next coarser level, if no task of a step needs new values of other cells or sums over the grid")
+             "of the next coarser level; not available if a task of a step needs new values of other cells or sums "
+             "over the grid")
       .section("Regridder", &AmrSection::regridder, regridderSchema());
   if (!names.empty()) {
     input::TagForm form = input::sectionForm(names, [] {
@@ -234,7 +236,7 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
                 [](std::ostream& out, int indent) { thresholdsSchema().describeContents(out, indent); })
         .forms({std::move(form)});
   }
-  input::noteTag(section, "doMultiTaskgraphing", "all levels are in one graph of tasks");
+  input::noteTag(section, "doMultiTaskgraphing", "the tasks of all levels are in one graph");
   input::noteTag(section, "FineCoarseInterfaces", "interpolation between levels is of second order");
   return section;
 }
@@ -349,7 +351,7 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
     if (criteria.empty() && !estimatesErrors(component))
       diagnostics.error(
           *amr.tag->child("Regridder")->child("adaptive"),
-          "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where to refine");
+          "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which specifies where to refine");
     return amr.regrid;
   }
   const simulation::OtherNames otherNames = component.otherNames();

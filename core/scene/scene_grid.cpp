@@ -23,7 +23,7 @@ struct GridSection {
   std::vector<LevelSection> levels;
 };
 
-/// <BoundaryConditions>, with the sections of a component's own.
+/// <BoundaryConditions>, with the component's own sections.
 Schema<FacesSection> facesTag(const Schema<FaceSection>& face, const std::vector<simulation::SectionForm>& own) {
   Schema<FacesSection> tags("BoundaryConditions",
                             "The conditions at the sides of the grid; a side without conditions is free.");
@@ -57,7 +57,7 @@ struct GridTags {
   Schema<GridSection> grid;
 };
 
-/// <Grid> as it is read, for components with these sections of their own.
+/// <Grid> as it is read, for components with these own sections.
 const Schema<GridSection>& gridSchema(const std::vector<simulation::SectionForm>& own = {}) {
   static std::map<std::vector<std::string>, GridTags> all;
   return all.try_emplace(namesOf(own), conditionSchema(), own).first->second.grid;
@@ -78,14 +78,14 @@ void checkSize(const grid::Domain& domain, const Element& element, Diagnostics& 
   for (int axis = 0; axis < 3; ++axis) {
     cells *= domain.resolution[axis];
     if (domain.upper[axis] == domain.lower[axis] && domain.resolution[axis] > 1)
-      diagnostics.error(element, fmt::format("there are {} cells along {}, where the box has no extent",
+      diagnostics.error(element, fmt::format("there are {} cells along {}, but the box has no extent along this axis",
                                              domain.resolution[axis], "xyz"[axis]));
   }
   if (domain.upper == domain.lower) diagnostics.error(element, "the box has no extent along any axis");
   if (cells > mostCells)
     diagnostics.error(element,
-                      fmt::format("resolution [{},{},{}] makes {:.3g} cells; the most is {:.3g}", domain.resolution[0],
-                                  domain.resolution[1], domain.resolution[2], cells, mostCells));
+                      fmt::format("resolution [{},{},{}] gives {:.3g} cells; at most {:.3g} are possible",
+                                  domain.resolution[0], domain.resolution[1], domain.resolution[2], cells, mostCells));
 }
 
 /// The domain of a grid of one level.

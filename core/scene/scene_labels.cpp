@@ -19,7 +19,7 @@ using simulation::SaveRequest;
 
 namespace {
 
-/// Replaces Uintah's names of variables by those used here, with a note; each is saved once.
+/// Replaces Uintah's names of variables by Tushar's, with a note; each variable is saved once.
 void renameLabels(const simulation::OtherNames& names, std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   std::vector<SaveRequest> kept;
   for (SaveRequest& save : saves) {
@@ -47,7 +47,7 @@ void checkLabels(const Component& component, const std::vector<std::unique_ptr<A
                            !phases.saveable().contains(save.label);
     if (isLacking)
       diagnostics.note(save.where, "DataArchiver/save",
-                       fmt::format("'{}' is not saved: no task computes it here", save.label));
+                       fmt::format("'{}' is not saved, since no task computes it in this scene", save.label));
     return isLacking;
   });
   for (const SaveRequest& save : saves)

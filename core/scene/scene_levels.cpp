@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/scene/scene_blocks.hpp"
+
 namespace tushar::scene {
 
 using input::Diagnostics, input::Element, input::Schema;
@@ -20,10 +22,10 @@ const Schema<GridBox>& boxSchema() {
           .required("upper", &GridBox::upper, "m", "upper corner")
           .optional("resolution", &GridBox::resolution, "1", "cells along x, y, z (or give <spacing> of the Level)",
                     input::atLeast(1))
-          .optional(
-              "patches", &GridBox::patches, "1",
-              "patches along x, y, z; if neither this nor autoPatch is given, as many as the threads and ranks need",
-              input::atLeast(1))
+          .optional("patches", &GridBox::patches, "1",
+                    "number of patches along x, y, z; if neither this nor autoPatch is given, it depends on the number "
+                    "of threads and ranks",
+                    input::atLeast(1))
           .optional("autoPatch", &GridBox::autoPatch, "1", "approximate number of patches, instead of <patches>",
                     input::atLeast(1))
           .value(
@@ -47,11 +49,11 @@ const Schema<LevelSection>& levelSchema() {
       Schema<LevelSection>(
           "Level", "A grid of cells of one size; each further Level has boxes in which the grid is at least as fine.")
           .list("Box", &LevelSection::boxes, boxSchema(),
-                "the box that is divided into cells; further Levels may have any number of them, each grown to whole "
-                "blocks (see AMR/Regridder/min_patch_size)",
+                "the box that is divided into cells; further Levels may have any number of boxes, each enlarged to "
+                "whole blocks (see AMR/Regridder/min_patch_size)",
                 1)
-          .optional("spacing", &LevelSection::spacing, "m", "cell widths, instead of the resolution of the Box",
-                    input::positive())
+          .optional("spacing", &LevelSection::spacing, "m",
+                    "cell widths along x, y, z, instead of the resolution of the Box", input::positive())
           .value("periodic", &LevelSection::periodic, Index3{}, "1", "1 along periodic axes; the same for all Levels",
                  input::between(0, 1))
           .check([](const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
@@ -79,16 +81,8 @@ Index3 resolutionOf(const GridBox& box, const LevelSection& level, const Element
 
 namespace {
 
-constexpr int fewestCells = 4;        ///< smallest number of cells of a block along an axis in use
-constexpr int mostLevels = 16;        ///< largest number of levels of a tree of blocks,
-constexpr int mostBlocks = 1 << 20;   ///< and of its finest blocks along an axis
-
-/// A tag of `Regridder` if it is given, otherwise another place for messages.
-Element tagOr(const AmrSettings& amr, const std::string& tag, const Element& other) {
-  const auto regridder = amr.tag ? amr.tag->child("Regridder") : std::nullopt;
-  const auto given = regridder ? regridder->child(tag) : std::nullopt;
-  return given ? *given : other;
-}
+constexpr int mostLevels = 16;       ///< largest number of levels of a tree of blocks,
+constexpr int mostBlocks = 1 << 20;  ///< and of its finest blocks along an axis
 
 /// Reads the Boxes of further Levels, and chooses their blocks.
 class Refiner {
@@ -109,10 +103,11 @@ class Refiner {
     if (diagnostics_.size() > before) return;
     refinement_.levels = countLevels();
     if (refinement_.levels == 1 || diagnostics_.size() > before) return;
-    for (int d = 0; d < coarsest_.dimension(); ++d) chooseBlock(coarsest_.axis(d));
+    chooseBlocks(elements_.front(), amr_, coarsest_, refinement_, diagnostics_);
     if (diagnostics_.size() > before) return;
     for (int d = 0; d < coarsest_.dimension(); ++d) checkCount(coarsest_.axis(d));
     noteWhatGrows();
+    noteOverlaps();
   }
 
  private:
@@ -123,16 +118,17 @@ class Refiner {
     if (element.child("periodic") && !(section.periodic == levels_.front().periodic))
       diagnostics_.error(
           *element.child("periodic"),
-          fmt::format("found {}, but the first Level has {}; all Levels are periodic along the same axes",
+          fmt::format("found {}, but the first Level has {}; all Levels must be periodic along the same axes",
                       input::toText(section.periodic), input::toText(levels_.front().periodic)));
     std::optional<int> number;
     for (std::size_t b = 0; b < boxes.size(); ++b) {
       const GridBox& box = section.boxes[b];
       const std::optional<int> of = checkPlace(box, boxes[b]) ? levelOf(box, section, boxes[b]) : std::nullopt;
       if (of && number && of != number)
-        diagnostics_.error(boxes[b], fmt::format("its cells are {:g} times as fine as those of the first Level, but "
-                                                 "{:g} times in a Box above; give it a Level of its own",
-                                                 std::ldexp(1, *of), std::ldexp(1, *number)));
+        diagnostics_.error(boxes[b],
+                           fmt::format("its cells are {:g} times smaller than those of the first Level, but those of a "
+                                       "Box above are {:g} times smaller; put this Box into a separate Level",
+                                       std::ldexp(1, *of), std::ldexp(1, *number)));
       if (!of) continue;
       number = of;
       refinement_.regions.push_back({*of, box.lower, box.upper});
@@ -143,13 +139,16 @@ class Refiner {
 
   void checkOrder(std::size_t k, int number) {
     if (number <= finest_)
-      diagnostics_.error(elements_[k], fmt::format("this Level is not finer than the one before, at {}; Levels go from "
-                                                   "coarse to fine",
-                                                   elements_[k - 1].where().text()));
+      diagnostics_.error(
+          elements_[k],
+          fmt::format("this Level is not finer than the previous one, at {}; give Levels from coarse to fine",
+                      elements_[k - 1].where().text()));
     else if (number >= mostLevels)
-      diagnostics_.error(elements_[k],
-                         fmt::format("its cells are {:g} times as fine as those of the first Level; the most is {:g}",
-                                     std::ldexp(1, number), std::ldexp(1, mostLevels - 1)));
+      diagnostics_.error(
+          elements_[k],
+          fmt::format(
+              "its cells are {:g} times smaller than those of the first Level; the largest possible ratio is {:g}",
+              std::ldexp(1, number), std::ldexp(1, mostLevels - 1)));
     finest_ = std::max(finest_, number);
   }
 
@@ -186,14 +185,14 @@ class Refiner {
       const double ratio = coarsest_.cellWidth(axis) * cells[axis] / (box.upper[axis] - box.lower[axis]);
       const auto halvings = static_cast<int>(std::lround(std::log2(ratio)));
       if (std::abs(ratio - std::ldexp(1, halvings)) > 1e-6 * ratio)
-        diagnostics_.error(element, fmt::format("its cells are {:g} times as fine along {} as those of the first "
-                                                "Level, expected 2, 4, 8 or another power of two",
+        diagnostics_.error(element, fmt::format("its cells are {:g} times smaller along {} than those of the first "
+                                                "Level; the ratio must be 2, 4, 8 or another power of two",
                                                 ratio, "xyz"[axis]));
       else if (first && *first != halvings)
         diagnostics_.error(
             element,
-            fmt::format("its cells are {:g} times as fine along {}, but {:g} times along {}; refine all axes alike, "
-                        "and add another Level where one axis needs finer cells",
+            fmt::format("its cells are {:g} times smaller along {}, but {:g} times smaller along {}; refine all axes "
+                        "equally, and add another Level where one axis needs finer cells",
                         std::ldexp(1, *first), "xyz"[coarsest_.axis(0)], std::ldexp(1, halvings), "xyz"[axis]));
       if (!first) first = halvings;
     }
@@ -212,7 +211,7 @@ class Refiner {
       for (int d = 0; d < coarsest_.dimension(); ++d) {
         const int axis = coarsest_.axis(d), wanted = ratio[coarsest_.axis(0)];
         if (ratio[axis] == wanted && wanted >= 2 && std::has_single_bit(static_cast<unsigned>(wanted))) continue;
-        diagnostics_.error(tagOr(amr_, "cell_refinement_ratio", elements_.front()),
+        diagnostics_.error(regridderTagOr(amr_, "cell_refinement_ratio", elements_.front()),
                            fmt::format("found {} along {}, expected 2, 4, 8 or another power of two, the same along "
                                        "each axis that the grid uses",
                                        ratio[axis], "xyz"[axis]));
@@ -235,114 +234,31 @@ class Refiner {
   int countLevels() {
     const int given = finest_ + 1;
     const bool isAdaptive = amr_.regrid.adaptive;
-    const Element place = tagOr(amr_, "max_levels", elements_.front());
+    const Element place = regridderTagOr(amr_, "max_levels", elements_.front());
     const int said = amr_.maxLevels.value_or(isAdaptive ? 2 : 1);
     const int asked = amr_.maxLevels ? levelsOfTwos(said) : std::max(levelsOfTwos(said), given);
     if (asked < given)
-      diagnostics_.error(place, fmt::format("found {}, but the Levels of <Grid> make {}", asked, given));
+      diagnostics_.error(
+          place, fmt::format("found {}, but there are {} levels according to the Levels of <Grid>", asked, given));
     else if (isAdaptive && asked < 2)
       diagnostics_.error(place, "found 1, expected at least 2, since the grid is <adaptive>");
     else if (!isAdaptive && asked > given)
       diagnostics_.note(place,
                         "does nothing: the grid is not <adaptive>, so its Levels alone determine what is refined");
     if (asked > mostLevels)
-      diagnostics_.error(place, fmt::format("found {}, which by <cell_refinement_ratio> are {} levels of ratio 2; the "
-                                            "most is {}",
+      diagnostics_.error(place, fmt::format("found {}, which corresponds to {} levels of ratio 2 because of "
+                                            "<cell_refinement_ratio>; at most {} are possible",
                                             said, asked, mostLevels));
     return isAdaptive ? std::min(asked, mostLevels) : given;
-  }
-
-  void chooseBlock(int axis) {
-    const int cells = coarsest_.domain().resolution[axis];
-    const int wanted = coarsest_.dimension() == 1 ? 16 : 8;
-    const std::vector<int> sizes = blockSizes(cells);
-    if (amr_.block) return checkBlock(axis, cells, sizes);
-    const int most = wanted + 2;  // rather than none, where a grid has 10 cells
-    const auto above = std::upper_bound(sizes.begin(), sizes.end(), wanted);
-    if (above != sizes.begin() || (!sizes.empty() && sizes.front() <= most)) {
-      refinement_.blockCells[axis] = above != sizes.begin() ? *(above - 1) : sizes.front();
-      return;
-    }
-    const std::string instead = sizes.empty() ? "choose another <resolution>"
-                                              : fmt::format("choose another <resolution>, or give <min_patch_size> {}",
-                                                            namesOfNearest(sizes, wanted));
-    diagnostics_.error(
-        elements_.front().children("Box").front(),
-        fmt::format("its {} along {} cannot be cut into blocks of an even number of cells from {} to {}; "
-                    "{}",
-                    counted(cells, "cell"), "xyz"[axis], amr_.fewestCellsOfBlock, most, instead));
-  }
-
-  void checkBlock(int axis, int cells, const std::vector<int>& sizes) {
-    const int size = (*amr_.block)[axis];
-    const Element place = tagOr(amr_, "min_patch_size", elements_.front());
-    refinement_.blockCells[axis] = size;
-    if (size < fewestCells || size % 2 != 0)
-      diagnostics_.error(place, fmt::format("found {} along {}, expected an even number of cells, at least {}", size,
-                                            "xyz"[axis], fewestCells));
-    else if (cells % size == 0 && size >= amr_.fewestCellsOfBlock)
-      return;
-    else if (sizes.empty())
-      diagnostics_.error(
-          place, fmt::format("{}; no even number of at least {} divides the grid: choose another <resolution>",
-                             problemOfBlock(axis, cells, size), amr_.fewestCellsOfBlock));
-    else
-      takeNearestBlock(axis, cells, size, sizes);
-  }
-
-  std::string problemOfBlock(int axis, int cells, int size) const {
-    if (size < amr_.fewestCellsOfBlock)
-      return fmt::format("blocks of {} cells along {} are too small for the tasks of this scene, which need {}", size,
-                         "xyz"[axis], amr_.fewestCellsOfBlock);
-    return fmt::format("blocks of {} cells do not divide the {} of the grid along {}", size, counted(cells, "cell"),
-                       "xyz"[axis]);
-  }
-
-  /// Chooses blocks that divide the cells instead of those that the scene requests.
-  void takeNearestBlock(int axis, int cells, int size, const std::vector<int>& sizes) {
-    const auto distance = [&](int a, int b) { return std::abs(a - size) < std::abs(b - size); };
-    const int nearest = *std::min_element(sizes.begin(), sizes.end(), distance);
-    refinement_.blockCells[axis] = nearest;
-    diagnostics_.note(
-        tagOr(amr_, "min_patch_size", elements_.front()),
-        fmt::format("{}; blocks of {} are used along this axis", problemOfBlock(axis, cells, size), nearest));
-  }
-
-  /// The even divisors of a number of cells, from the smallest block upwards.
-  std::vector<int> blockSizes(int cells) const {
-    std::vector<int> sizes;
-    const auto add = [&](int size) {
-      if (size % 2 == 0 && size >= amr_.fewestCellsOfBlock) sizes.push_back(size);
-    };
-    for (int size = 1; static_cast<long>(size) * size <= cells; ++size) {
-      if (cells % size != 0) continue;
-      add(size);
-      if (size * size != cells) add(cells / size);
-    }
-    std::sort(sizes.begin(), sizes.end());
-    return sizes;
-  }
-
-  /// The sizes nearest to a wanted one, in words: `4, 10 or 20`.
-  static std::string namesOfNearest(std::vector<int> sizes, int wanted) {
-    constexpr std::size_t most = 6;
-    std::stable_sort(sizes.begin(), sizes.end(),
-                     [&](int a, int b) { return std::abs(a - wanted) < std::abs(b - wanted); });
-    sizes.resize(std::min(sizes.size(), most));
-    std::sort(sizes.begin(), sizes.end());
-    std::string text;
-    for (std::size_t k = 0; k < sizes.size(); ++k)
-      text += (k == 0 ? "" : k + 1 == sizes.size() ? " or " : ", ") + std::to_string(sizes[k]);
-    return text;
   }
 
   void checkCount(int axis) {
     const double cells = std::ldexp(coarsest_.domain().resolution[axis], refinement_.levels - 1);
     const double blocks = cells / refinement_.blockCells[axis];
     if (cells <= mostCells && blocks <= mostBlocks) return;
-    const Element place = tagOr(amr_, "max_levels", elements_.back());
-    diagnostics_.error(place, fmt::format("{} levels make {:.3g} cells in {:.3g} blocks along {}; the most is {:.3g} "
-                                          "cells, and {} blocks",
+    const Element place = regridderTagOr(amr_, "max_levels", elements_.back());
+    diagnostics_.error(place, fmt::format("with {} levels there would be {:.3g} cells in {:.3g} blocks along {}; at "
+                                          "most {:.3g} cells and {} blocks are possible",
                                           refinement_.levels, cells, blocks, "xyz"[axis], mostCells, mostBlocks));
   }
 
@@ -367,6 +283,29 @@ class Refiner {
             fmt::format("is enlarged to whole blocks: from [{:g},{:g},{:g}] to [{:g},{:g},{:g}] m", grown.lower[0],
                         grown.lower[1], grown.lower[2], grown.upper[0], grown.upper[1], grown.upper[2]));
     }
+  }
+
+  /// Boxes of one level may share cells, which is seldom meant.
+  void noteOverlaps() {
+    for (std::size_t b = 0; b < boxes_.size(); ++b)
+      for (std::size_t a = 0; a < b; ++a) {
+        if (!overlap(refinement_.regions[a], refinement_.regions[b])) continue;
+        diagnostics_.note(boxes_[b],
+                          fmt::format("overlaps the Box of the same level at {}; the cells that both contain "
+                                      "are refined once",
+                                      boxes_[a].where().text()));
+        break;
+      }
+  }
+
+  bool overlap(const grid::FineRegion& a, const grid::FineRegion& b) const {
+    if (a.level != b.level) return false;
+    for (int d = 0; d < coarsest_.dimension(); ++d) {
+      const int axis = coarsest_.axis(d);
+      const double slack = 1e-6 * coarsest_.cellWidth(axis);
+      if (std::min(a.upper[axis], b.upper[axis]) - std::max(a.lower[axis], b.lower[axis]) <= slack) return false;
+    }
+    return true;
   }
 
   std::vector<Element> elements_;

@@ -26,7 +26,7 @@ struct Known {
   simulation::OtherNames names;
   tasks::Names labels;
   std::set<std::string> foreign;
-  std::vector<std::string> materials;  ///< names of materials, by their numbers in the scene
+  std::vector<std::string> materials;  ///< names of materials, by their indices in the scene
   std::set<std::string> noted;         ///< names of materials that a note is about
 
   Known(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses)
@@ -39,7 +39,7 @@ struct Known {
   }
 };
 
-/// The number of a material by its name or number; -1, with an error, if there is none.
+/// The index of a material, given by name or index; -1, with an error, if there is none.
 int numberOf(const std::string& word, const Known& known, std::string& problem) {
   const auto& all = known.materials;
   if (const auto named = std::find(all.begin(), all.end(), word); named != all.end())
@@ -50,12 +50,12 @@ int numberOf(const std::string& word, const Known& known, std::string& problem) 
   if (number.value && *number.value >= 0 && *number.value < count) return *number.value;
   problem = number.value ? fmt::format("there is no material {}; materials are numbered from 0 to {}", word, count - 1)
             : all.empty()
-                ? fmt::format("there is no material '{}': the variables of this component belong to none", word)
+                ? fmt::format("there is no material '{}': the variables of this component belong to no material", word)
                 : fmt::format("there is no material '{}'{}; available: {}", word, didYouMean(word, all), allOf(all));
   return -1;
 }
 
-/// Whether a word may refer to the only material, whatever its name.
+/// Whether a word may refer to the only material, even if it has another name.
 bool isLoneMaterial(const std::string& word, const Known& known) {
   return known.materials.size() == 1 && !input::parse<int>(word).value;
 }
@@ -68,7 +68,7 @@ void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagno
     if (known.noted.insert(request.material).second)
       diagnostics.note(
           request.whereOfMaterial, path,
-          fmt::format("'{}' is understood as the only material, '{}'", request.material, known.materials[0]));
+          fmt::format("'{}' is taken to mean the only material, '{}'", request.material, known.materials[0]));
     variable.material = 0;
     problem.clear();
   }
@@ -81,7 +81,7 @@ void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagno
   } else if (variable.material >= static_cast<int>(bodies.size())) {
     diagnostics.error(
         request.where, path,
-        fmt::format("'{}' is not a variable of the gas '{}'; give matl, the number of a body from 0 to {}",
+        fmt::format("'{}' is not a variable of the gas '{}'; set matl to the index of a body, from 0 to {}",
                     variable.called, known.materials[variable.material], bodies.size() - 1));
   } else {
     request.material = bodies[variable.material];
@@ -95,13 +95,15 @@ bool settle(SampledVariable& variable, Known& known, Diagnostics& diagnostics) {
   simulation::SaveRequest& request = variable.request;
   request.label = nameHere(known.names, request.label);
   if (known.foreign.contains(request.label) && !known.labels.contains(request.label)) {
-    diagnostics.note(request.where, path, fmt::format("'{}' is left out: no task computes it here", variable.called));
+    diagnostics.note(request.where, path,
+                     fmt::format("'{}' is left out, since no task computes it in this scene", variable.called));
     return false;
   }
   if (!known.labels.contains(request.label)) return true;  // Phases reports it
   if (!request.label.starts_with("c.") && !request.label.starts_with("g."))
-    diagnostics.error(request.where, path,
-                      fmt::format("found '{}', expected a variable of cells (c.) or nodes (g.)", variable.called));
+    diagnostics.error(
+        request.where, path,
+        fmt::format("found '{}', expected a cell variable (c.) or a node variable (g.)", variable.called));
   settleMaterial(variable, known, diagnostics);
   return true;
 }

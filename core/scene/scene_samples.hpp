@@ -17,9 +17,8 @@ simulation::OtherNames otherNames(const simulation::Component& component,
 /// The name in Tushar of a variable that a scene may call by Uintah's name; other names are returned unchanged.
 std::string nameHere(const simulation::OtherNames& names, const std::string& name);
 
-/// Replaces the names and materials of sampled variables by those used here, and removes, with a note, variables of
-/// Uintah that no task computes here. Reports materials that do not exist, and variables that are neither of cells nor
-/// of nodes.
+/// Replaces the names and materials of sampled variables by Tushar's, and removes, with a note, variables of Uintah
+/// that no task computes. Reports materials that do not exist, and variables that are neither of cells nor of nodes.
 void settleSamples(const simulation::Component& component,
                    const std::vector<std::unique_ptr<simulation::Analysis>>& analyses, input::Diagnostics& diagnostics);
 

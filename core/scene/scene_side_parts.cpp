@@ -47,15 +47,15 @@ std::optional<Vec3> pointOf(const std::optional<std::string>& text, const Elemen
   }
   if (numbers.size() == 3 && std::none_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); }))
     return Vec3(numbers[0], numbers[1], numbers[2]);
-  diagnostics.error(
-      tag.whereOf(attribute), tag.path(),
-      fmt::format("attribute '{}': found '{}', expected three numbers, as 0 0.5 0.5", attribute, text.value_or("")));
+  diagnostics.error(tag.whereOf(attribute), tag.path(),
+                    fmt::format("attribute '{}': found '{}', expected three numbers, such as 0 0.5 0.5", attribute,
+                                text.value_or("")));
   return {};
 }
 
 std::string called(const FaceWord& word) { return word.name == "side" ? "whole side" : "part with " + word.name; }
 
-/// Whether a tag has all the attributes of a word, and no others.
+/// Whether a tag has exactly the attributes that belong to a word.
 bool hasAttributesOf(const FaceWord& word, const Element& tag, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const auto& own = word.attributes;
@@ -87,7 +87,7 @@ bool spansArea(const Vec3& lower, const Vec3& upper, int across, const Element& 
   return true;
 }
 
-/// Whether one length is no larger than another; reports it otherwise.
+/// Whether one length is at most another; reports it otherwise.
 bool areInOrder(double smaller, double larger, const FaceWord& word, const Element& tag, Diagnostics& diagnostics) {
   if (smaller <= larger) return true;
   diagnostics.error(tag, fmt::format("{} is greater than {}: {:g} > {:g} m", word.attributes[1], word.attributes[2],
@@ -147,7 +147,7 @@ bool liesInSide(const GivenPart& part, const grid::Domain& domain, Diagnostics& 
   return diagnostics.size() == before;
 }
 
-/// The kernel axis of an axis, or -1 if it is left out.
+/// The kernel axis of an axis, or -1 if the grid does not use it.
 int kernelAxisOf(const grid::Level& level, int axis) {
   for (int d = 0; d < level.dimension(); ++d)
     if (level.axis(d) == axis) return d;
@@ -185,7 +185,7 @@ std::size_t countFaces(const GivenPart& part, const std::vector<GivenPart>& all,
     const auto shared = std::find_if(middles.begin(), middles.end(),
                                      [&](const Vec3& middle) { return shapes[other.part].shape.holds(middle); });
     if (shared == middles.end()) continue;
-    diagnostics.error(part.tag, fmt::format("overlaps the part at {}: both have the face at ({:g}, {:g}, {:g})",
+    diagnostics.error(part.tag, fmt::format("overlaps the part at {}: both contain the face at ({:g}, {:g}, {:g})",
                                             other.tag.where().text(), (*shared)[0], (*shared)[1], (*shared)[2]));
     break;
   }
@@ -199,7 +199,7 @@ bool checkFaceWords(const Element& tag, Diagnostics& diagnostics) {
     if (tag.attribute(word.name)) return hasAttributesOf(word, tag, diagnostics);
   std::vector<std::string> names;
   for (const FaceWord& word : faceWords()) names.push_back(word.name);
-  diagnostics.error(tag, "missing attribute 'side' of <Face>, or that of a part of a side: " +
+  diagnostics.error(tag, "missing attribute 'side' of <Face>, or one of the attributes for a part of a side: " +
                              allOf({names.begin() + 1, names.end()}));
   return false;
 }
@@ -216,10 +216,11 @@ std::optional<grid::SidePart> readShape(const FaceSection& face, const Element& 
 void refuseParts(const Element& tag, Diagnostics& diagnostics) {
   for (const FaceWord& word : faceWords())
     if (const auto side = tag.attribute(word.name); side && word.name != "side")
-      diagnostics.error(tag.whereOf(word.name), tag.path(),
-                        fmt::format("conditions on a part of a side ({}) are not available; give side=\"{}\" to have "
-                                    "them on all of it",
-                                    word.name, *side));
+      diagnostics.error(
+          tag.whereOf(word.name), tag.path(),
+          fmt::format(
+              "conditions on a part of a side ({}) are not available; use side=\"{}\" to apply them to the whole side",
+              word.name, *side));
 }
 
 void checkParts(const std::vector<GivenPart>& parts, const grid::Domain& domain, Diagnostics& diagnostics) {
@@ -241,8 +242,7 @@ void checkParts(const std::vector<GivenPart>& parts, const grid::Domain& domain,
   for (std::size_t k = 0; k < parts.size(); ++k)
     if (faces[k] == 0)
       diagnostics.note(parts[k].tag,
-                       fmt::format("does nothing: no face of the finest cells on side {} has its middle in "
-                                   "this part",
+                       fmt::format("does nothing: no face of the finest cells on side {} has its centre in this part",
                                    sideNames[parts[k].face]));
 }
 

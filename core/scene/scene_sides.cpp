@@ -18,14 +18,14 @@ namespace {
 
 const std::vector<std::string> conditionKinds(grid::boundaryKindNames.begin(), grid::boundaryKindNames.end());
 
-/// The kind that `var`, one of `conditionKinds`, names.
+/// The kind with the name `var`, which is one of `conditionKinds`.
 grid::BoundaryKind kindOf(const std::string& var) {
   return static_cast<grid::BoundaryKind>(std::find(conditionKinds.begin(), conditionKinds.end(), var) -
                                          conditionKinds.begin());
 }
 bool isSymmetry(const std::string& var) { return var == nameOf(grid::BoundaryKind::symmetry); }
 
-/// Labels of Uintah's flow components, which appear in scenes of other components, too.
+/// Labels of Uintah's flow components, which also appear in scenes of other components.
 const std::vector<std::string> labelsOfFlow{"Density", "Pressure", "SpecificVol"};
 bool isOfFlow(const std::string& label) {
   return std::find(labelsOfFlow.begin(), labelsOfFlow.end(), label) != labelsOfFlow.end();
@@ -39,7 +39,7 @@ void errorOf(const std::string& attribute, const Element& element, const std::st
 
 Schema<ConditionSection> conditionTag() {
   return Schema<ConditionSection>("BCType", "The condition for a variable at a face.")
-      .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material for which it holds, or all");
+      .attributeValue("id", &ConditionSection::id, "all", "1", "index of the material to which it applies, or all");
 }
 
 /// The words that `var` may have: those of all components, and further ones.
@@ -76,7 +76,7 @@ const Schema<ConditionSection>& conditionSchema() {
                     "a number or a vector; for some components also formulas")
           .check([](const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
             if (const auto number = input::parse<int>(condition.id); condition.id != "all" && !(number && *number >= 0))
-              errorOf("id", element, "found '" + condition.id + "', expected 'all' or the number of a material",
+              errorOf("id", element, "found '" + condition.id + "', expected 'all' or the index of a material",
                       diagnostics);
           });
   return schema;
@@ -101,9 +101,9 @@ Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>&
 Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
   input::Choices<int> sides;
   for (const std::string_view name : sideNames) sides.emplace_back(name, static_cast<int>(sides.size()));
-  const auto point = [](const char* what) { return std::string(what) + ", as 0 0.5 0.5"; };
+  const auto point = [](const char* what) { return std::string(what) + ", such as 0 0.5 0.5"; };
   return Schema<FaceSection>("Face", "A side of the grid, or a part of one.")
-      .optionalChoiceAttribute("side", &FaceSection::side, sides, "all of this side except its parts")
+      .optionalChoiceAttribute("side", &FaceSection::side, sides, "the whole of this side except its parts")
       .optionalChoiceAttribute("circle", &FaceSection::circle, sides, "the part of this side inside a circle")
       .optionalChoiceAttribute("annulus", &FaceSection::annulus, sides, "the part between two circles")
       .optionalChoiceAttribute("ellipse", &FaceSection::ellipse, sides, "the part inside an ellipse")
@@ -121,8 +121,8 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
       .optionalAttribute("major_radius", &FaceSection::majorRadius, "m", "longer semi-axis of an ellipse",
                          input::positive())
       .optionalAttribute("angle", &FaceSection::angle, "degree",
-                         "angle of the longer axis of an ellipse, seen from outside, with y on x+ and x-, z on y+ and "
-                         "y-, x on z+ and z-")
+                         "angle of the longer axis of an ellipse, seen from outside, measured from y on x+ and x-, "
+                         "from z on y+ and y-, from x on z+ and z-")
       .optionalAttribute("lower", &FaceSection::lower, "m", point("a corner of a rectangle"))
       .optionalAttribute("upper", &FaceSection::upper, "m", point("the opposite corner"))
       .optionalAttribute("inner_lower", &FaceSection::innerLower, "m", point("a corner of the hole of a rectangulus"))
@@ -135,7 +135,7 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
 
 namespace {
 
-/// Reads a value, which may be a formula if the component takes formulas.
+/// Reads a value, which may be a formula if the component supports formulas.
 template <class T, class Formula>
 std::string readValue(const std::string& text, bool mayVary, T& value, std::optional<Formula>& formula) {
   const auto plain = input::parse<T>(text);
@@ -172,7 +172,7 @@ void takeValue(const ConditionSection& given, const Element& tag, bool mayVary, 
   condition.formula = std::make_shared<const input::VectorExpression>(*std::move(formula));
 }
 
-/// Why a condition contradicts itself or a plane of symmetry; empty if it does not.
+/// Why a condition contradicts itself or a symmetry plane; empty if it does not.
 std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPlane) {
   const bool symmetry = condition.kind == grid::BoundaryKind::symmetry;
   if (symmetry != (condition.variable == grid::symmetric))
@@ -180,12 +180,12 @@ std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPl
                        condition.variable.name, nameOf(condition.kind));
   if (!symmetry && onOddPlane &&
       (condition.kind == grid::BoundaryKind::dirichlet || condition.formula || condition.value != Vec3::Zero()))
-    return "this face is a plane of symmetry: the only other condition that it allows is a Neumann condition of 0";
+    return "this face is a symmetry plane: the only other condition that it allows is a Neumann condition of 0";
   return {};
 }
 
-/// Whether a value may be given on a plane of symmetry: a vector must lie in the plane, so that its mirror image is the
-/// same.
+/// Whether a value may be given on a symmetry plane: a vector must be parallel to the plane, so that its mirror image
+/// is the same.
 bool fitsPlane(const grid::BoundaryVariable& label, const grid::BoundaryCondition& condition, int axis) {
   return label.isEven && condition.kind == grid::BoundaryKind::dirichlet &&
          (!label.isVector || (!condition.formula && condition.value[axis] == 0));
@@ -218,7 +218,7 @@ void noteSeen(const ConditionSection& given, const Element& tag, const ReadFace&
         tag, fmt::format("{} already has a condition on this face, at {}; keep one", given.label, first->text()));
 }
 
-/// Adds the meaning of a condition in a component's own words.
+/// Adds the conditions that a component's own condition type stands for.
 void readOwnCondition(const ConditionSection& given, const Element& tag, const ReadFace& face,
                       Diagnostics& diagnostics) {
   noteSeen(given, tag, face, diagnostics);
@@ -239,7 +239,7 @@ void readCondition(const ConditionSection& given, const Element& tag, bool onPla
     return;
   }
   if (!label && isOfFlow(given.label))
-    diagnostics.note(tag, given.label + " is for flow components: nothing here depends on it");
+    diagnostics.note(tag, given.label + " is for flow components: it has no effect here");
   else if (!label && !labels.empty())
     errorOf("label", tag, input::choiceProblem(given.label, namesOf(labels)), diagnostics);
   const auto& further = face.words.own.vars;
@@ -248,7 +248,7 @@ void readCondition(const ConditionSection& given, const Element& tag, bool onPla
   if (label && isOwn) return readOwnCondition(given, tag, face, diagnostics);
   if (!label || !input::choiceProblem(given.var, conditionKinds).empty()) return;
   const bool isPlane = isSymmetry(given.var);
-  if (isPlane && given.value) diagnostics.note(tag, "<value> does nothing on a plane of symmetry");
+  if (isPlane && given.value) diagnostics.note(tag, "<value> does nothing on a symmetry plane");
   grid::BoundaryCondition condition{*label, kindOf(given.var), Vec3::Zero(),
                                     input::parse<int>(given.id).value.value_or(-1)};
   const bool mayVary = face.words.takesFormulas && condition.kind == grid::BoundaryKind::dirichlet;

@@ -11,7 +11,7 @@
 
 namespace tushar::scene {
 
-/// The sides of a grid by their numbers.
+/// The names of the sides of a grid, by index.
 inline constexpr std::array<std::string_view, 6> sideNames{"x-", "x+", "y-", "y+", "z-", "z+"};
 
 /// The tag `BCType`.
@@ -27,7 +27,7 @@ struct FaceSection {
   std::optional<std::string> origin, lower, upper, innerLower, innerUpper, outerLower, outerUpper;
   std::vector<ConditionSection> conditions;
 
-  /// The side that the face is, or to which it belongs.
+  /// The side that the face is, or of which it is a part.
   int face() const {
     for (const auto& given : {side, circle, annulus, ellipse, rectangle, rectangulus})
       if (given) return *given;
@@ -51,7 +51,7 @@ input::Schema<FaceSection> faceTag(const input::Schema<ConditionSection>& condit
 struct GivenPart {
   input::Element tag;
   int face = 0;          ///< the side, 0 to 5
-  std::size_t part = 0;  ///< number of the part on that side
+  std::size_t part = 0;  ///< index of the part on this side
 };
 
 /// Whether a face is one side or one part of a side, with the right attributes.
@@ -59,14 +59,14 @@ bool checkFaceWords(const input::Element& tag, input::Diagnostics& diagnostics);
 /// The shape of a face that is a part of a side; none, with an error, if its numbers are invalid.
 std::optional<grid::SidePart> readShape(const FaceSection& face, const input::Element& tag,
                                         input::Diagnostics& diagnostics);
-/// Refuses parts of sides for components that do not take them.
+/// Refuses parts of sides for components that do not support them.
 void refuseParts(const input::Element& tag, input::Diagnostics& diagnostics);
 /// The conditions of a `Grid` section. Returns the parts of sides that have some.
 std::vector<GivenPart> readFaces(const input::Element& section, const FacesSection& faces, const SideWords& words,
                                  grid::BoundaryConditions& boundaries, input::Diagnostics& diagnostics);
 /// Reports conditions at sides of periodic axes, which have no effect, as in Uintah.
 void checkPeriodic(const input::Element& section, const grid::Domain& domain, input::Diagnostics& diagnostics);
-/// Checks that parts of sides lie in their sides, do not overlap, and have faces.
+/// Checks that parts of sides lie in their sides, do not overlap, and contain faces.
 void checkParts(const std::vector<GivenPart>& parts, const grid::Domain& domain, input::Diagnostics& diagnostics);
 
 }  // namespace tushar::scene

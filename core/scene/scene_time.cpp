@@ -75,7 +75,7 @@ const Schema<SaveRequest>& saveSchema() {
           .requiredAttribute("label", &SaveRequest::label, "1", "its name, such as p.x or KineticEnergy")
           .attributeValue("material", &SaveRequest::material, "", "1", "save it for this material only")
           .ignoredAttribute("levels", "all levels are saved")
-          .ignoredAttribute("compression", "<compression> in <DataArchiver> holds for all variables")
+          .ignoredAttribute("compression", "<compression> in <DataArchiver> applies to all variables")
           .ignoredAttribute("table_lookup", "belongs to components that read tables")
           .location(&SaveRequest::where, "label")
           .location(&SaveRequest::whereOfMaterial, "material")
@@ -91,7 +91,7 @@ bool covers(const SaveRequest& one, const SaveRequest& other) {
   return one.label == other.label && (one.material.empty() || one.material == other.material);
 }
 
-/// Removes saves that another save includes.
+/// Removes save requests that another one includes.
 void takeOutRepeated(std::vector<SaveRequest>& saves, const std::vector<Element>& tags, Diagnostics& diagnostics) {
   if (saves.size() != tags.size()) return;
   std::vector<SaveRequest> kept;
@@ -113,9 +113,11 @@ void checkCheckpointIntervals(const CheckpointSettings& checkpoint, const Elemen
   const int given = checkpoint.interval.has_value() + checkpoint.timestepInterval.has_value() +
                     checkpoint.walltimeInterval.has_value() + checkpoint.walltimeIntervalHours.has_value();
   if (given != 1)
-    diagnostics.error(element, fmt::format("gives {} of interval, timestepInterval, walltimeInterval and "
-                                           "walltimeIntervalHours; give one",
-                                           given == 0 ? "none" : "more than one"));
+    diagnostics.error(
+        element,
+        fmt::format(
+            "gives {} of interval, timestepInterval, walltimeInterval and walltimeIntervalHours; give exactly one",
+            given == 0 ? "none" : "more than one"));
   else if (checkpoint.walltimeStart && !checkpoint.walltimeInterval)
     diagnostics.error(element, "gives walltimeStart without walltimeInterval");
   else if (checkpoint.walltimeStartHours && !checkpoint.walltimeIntervalHours)
@@ -171,7 +173,7 @@ const Schema<ArchiveSettings>& archiveSchema() {
   static const Schema<ArchiveSettings> schema =
       Schema<ArchiveSettings>("DataArchiver", "What is saved, where and how often.")
           .required("filebase", &ArchiveSettings::filebase, "1",
-                    "name of the folder, such as sod.uda; of an absolute path, only the last part counts")
+                    "name of the folder, such as sod.uda; if it is an absolute path, only the last part is used")
           .value("outputInterval", &ArchiveSettings::outputInterval, 0, "s", "time between outputs",
                  input::nonNegative())
           .value("outputTimestepInterval", &ArchiveSettings::outputTimestepInterval, 0, "1", "steps between outputs",
@@ -220,8 +222,9 @@ void checkInterval(double interval, const TimeSettings& time, const Element& ele
   const double least = simulation::timeResolution * std::max(std::abs(time.initTime), std::abs(time.maxTime));
   if (interval > 0 && interval <= least)
     diagnostics.error(
-        element, fmt::format("{}found {:g} s, expected more than {:g} s: times up to maxTime cannot resolve less", what,
-                             interval, least));
+        element,
+        fmt::format("{}found {:g} s, expected more than {:g} s, which is the resolution of times up to maxTime", what,
+                    interval, least));
 }
 void describeTime(std::ostream& out) { timeSchema().describe(out); }
 const input::SchemaBase& timeForm() { return timeSchema(); }

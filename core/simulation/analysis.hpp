@@ -17,12 +17,12 @@ namespace tushar::simulation {
 using report::EnergyTerm;
 using report::MeasuredError;
 
-/// A variable of cells or nodes that a module samples, of one material or of none. The scene replaces Uintah's names of
+/// A cell or node variable that a module samples, of one material or of none. The scene replaces Uintah's names of
 /// variable and material by those used here.
 struct SampledVariable {
   SaveRequest request;
   std::string called;  ///< its name in the scene
-  int material = 0;    ///< the number of the material in the scene
+  int material = 0;    ///< the index of the material in the scene
 };
 
 /// A file of the archive that a module writes, or a folder.
@@ -31,7 +31,7 @@ struct OwnFile {
   Location where;    ///< the place in the scene that requires it
 };
 
-/// A `DataAnalysis/Module`: it measures the state of a run by diagnostic tasks.
+/// A `DataAnalysis/Module`, which measures the state of a run with diagnostic tasks.
 class Analysis {
  public:
   virtual ~Analysis() = default;
@@ -43,9 +43,9 @@ class Analysis {
   virtual std::vector<MeasuredError> errors() const { return {}; }
   /// The terms of the energy budget, which the report adds up.
   virtual std::vector<EnergyTerm> energies() const { return {}; }
-  /// Why errors are meaningless at the current time, in a sentence; empty if they are valid.
+  /// Why errors are not valid at the current time; empty if they are.
   virtual std::string whyUnmeasured() const { return {}; }
-  /// Variables that sample() needs, and their places in the scene.
+  /// Variables that sample() needs, and their positions in the scene.
   virtual std::vector<SaveRequest> samples() const { return {}; }
   /// The variables among samples() in which the scene replaces Uintah's names, and from which it removes those that no
   /// task computes. Null if there are none.

@@ -26,8 +26,8 @@ class Balance {
 
   /// Counts a step. Returns whether to measure the costs now.
   bool isDue() { return ranks_ > 1 && ++steps_ >= next_; }
-  /// A new distribution, if it pays off: if the busiest rank gets at least a tenth less, and if that saves more than
-  /// the change takes, by `costs` (of each patch of the grid).
+  /// A new distribution if it pays off. According to `costs` (of each patch of the grid), the load of the busiest rank
+  /// must fall by at least a tenth, and this must save more time than the change takes.
   std::optional<grid::RankOffsets> better(const std::vector<double>& costs, const grid::RankOffsets& now, int step);
   /// Notes the duration of the change on the slowest rank [s].
   void noteChange(double seconds) { change_ = seconds; }

@@ -55,7 +55,7 @@ const Kind* Catalogue::find(const Entries<Kind>& entries, std::string_view name)
   if (found == entries.end()) return nullptr;
   if (const auto* load = std::get_if<std::shared_ptr<LoadModule>>(&found->second)) take(*std::shared_ptr(*load));
   const Kind* kind = std::get_if<Kind>(&found->second);
-  if (!kind) throw std::runtime_error(fmt::format("the module that should define '{}' does not", name));
+  if (!kind) throw std::runtime_error(fmt::format("the module that should define '{}' does not define it", name));
   return kind;
 }
 

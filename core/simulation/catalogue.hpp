@@ -27,12 +27,12 @@ struct SectionForm {
   std::vector<input::Demand> demands = {};  ///< further conditions for the schema to apply
 };
 
-/// Conditions at sides of the grid in words of a component's own.
+/// A component's own types of conditions at sides of the grid.
 struct ConditionWords {
   std::vector<std::string> vars = {};  ///< further `var`s of a BCType
   /// Tags of BoundaryConditions with values for such conditions.
   std::vector<SectionForm> sections = {};
-  /// The conditions that a BCType with such a word stands for; `sides` is its BoundaryConditions. Problems go to the
+  /// The conditions that a BCType of such a type stands for; `sides` is its BoundaryConditions. Problems go to the
   /// diagnostics.
   std::function<std::vector<grid::BoundaryCondition>(const input::Element& sides, const input::Element& condition,
                                                      input::Diagnostics&)>
@@ -49,20 +49,20 @@ struct ComponentKind {
   /// Reads the component's sections from the root of the scene; reports every problem to the diagnostics.
   std::function<MakeComponent(const input::Element& root, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;  ///< its manual
-  /// Layers of nodes that the scene needs beyond the sides of the grid; an empty function means none.
+  /// Number of layers of nodes that the scene needs outside the grid; an empty function means none.
   std::function<int(const input::Element& root)> nodesBeyond;
   /// The smallest number of cells of a block along an axis that the tasks of a scene allow (see
   /// tasks::fewestCellsOfBlock); an empty function means 4. Smaller blocks of a scene are replaced, with a note.
   std::function<int(const input::Element& root)> cellsOfBlocks;
-  /// The sections of a scene, for each way to write one; if the function is empty, `sections` may hold anything.
+  /// The sections of a scene, for each way to write one; if the function is empty, `sections` may contain anything.
   std::function<std::vector<std::vector<SectionForm>>()> forms;
   bool takesLevels = false;           ///< whether its tasks run on grids of several levels
   bool refinesByItself = false;       ///< whether <max_levels> above 1 makes the grid adaptive without a <Variable>
-  bool takesPartsOfSides = false;     ///< whether a part of a side may have conditions of its own
+  bool takesPartsOfSides = false;     ///< whether a part of a side may have its own conditions
   bool takesFormulasAtSides = false;  ///< whether values of its conditions may be formulas
   /// Tags of AMR with its thresholds, in addition to the one with its name.
   std::vector<std::string> amrSections;
-  /// Paths of tags whose labelled shapes their siblings can use, even those further up: `MaterialProperties/MPM`.
+  /// Paths of tags whose labelled shapes their siblings can use, even siblings further up: `MaterialProperties/MPM`.
   std::vector<std::string> readFirst;
 };
 
@@ -79,7 +79,7 @@ struct AnalysisKind {
       {};  ///< schema of the tag; if it is empty, the tag may contain anything
 };
 
-/// The entry with that name, or null.
+/// The entry with this name, or null.
 template <class Kind>
 const Kind* findKind(const std::vector<Kind>& kinds, std::string_view name) {
   for (const Kind& kind : kinds)
@@ -112,9 +112,9 @@ class Catalogue {
 
   std::vector<std::string> componentNames() const;
   std::vector<std::string> analysisNames() const;
-  /// The component of that name, for as long as the catalogue lives; null if there is none. Loads its module.
+  /// The component of this name, valid as long as the catalogue exists; null if there is none. Loads its module.
   const ComponentKind* component(std::string_view name) const;
-  /// The analysis of that name, as component().
+  /// The analysis of this name, like component().
   const AnalysisKind* analysis(std::string_view name) const;
   /// All entries in the order of their names; loads all modules.
   std::vector<const ComponentKind*> components() const;

@@ -5,8 +5,8 @@
 
 namespace tushar::simulation {
 
-/// Adds checkpoints every `interval` s of wall time, if the scene has checkpoints: instead of its own interval of wall
-/// time, and in addition to intervals of steps or simulated time.
+/// Adds checkpoints every `interval` s of wall time, if the scene has checkpoints: they replace its own interval of
+/// wall time, and are in addition to intervals of steps or simulated time.
 void addWallTimeInterval(std::optional<CheckpointSettings>& settings, double interval);
 
 /// Decides when checkpoints are due. They never change a run: no time step is shortened for them.

@@ -39,7 +39,7 @@ void readTree(const output::Hdf5Input& file, RunState& run) {
   const bool isRefined = file.has("/grid/leaves");
   if (isRefined != (grid.levels() > 1) || (isRefined && (file.integer("/grid", "levels") != grid.levels() ||
                                                          !(file.index("/grid", "blockCells") == grid.blockCells()))))
-    refuse(file, "the checkpoint has different levels or blocks from the scene");
+    refuse(file, "the checkpoint has other levels or blocks than the scene");
   if (!isRefined) return;
   Index3 periodic;
   for (int d = 0; d < grid.dimension(); ++d) periodic[d] = grid.level().isPeriodic(d);
@@ -61,15 +61,16 @@ bool isSameGrid(const output::Hdf5Input& file, const output::GridInfo& grid) {
 
 void checkScene(const output::Hdf5Input& file, const Problem& problem) {
   if (const int found = file.integer("/", "format"); found != format)
-    refuse(file, fmt::format("the checkpoint has format {}, and this sus reads format {}; it was written by version {}",
-                             found, format, file.text("/", "version")));
+    refuse(file, fmt::format(
+                     "the checkpoint has format {}, but this sus supports only format {}; it was written by version {}",
+                     found, format, file.text("/", "version")));
   if (const int found = file.integer("/", "step"); found != problem.restart->step)
     refuse(file, fmt::format("the checkpoint is of step {}; rename its folder to {}", found, output::stepName(found)));
   if (const std::string found = file.text("/", "component"); found != problem.componentName)
     refuse(file,
            fmt::format("the checkpoint is of component '{}', but the scene has '{}'", found, problem.componentName));
   if (!isSameGrid(file, collect::gridInfo(problem.grid->level())))
-    refuse(file, "the checkpoint has a different grid from the scene; patches may change, cells may not");
+    refuse(file, "the checkpoint has a different grid from the scene; a restart may change patches, but not cells");
 }
 
 collect::StateNames stateNames(const RunState& run) { return {run.phases.lasting(), run.phases.materials()}; }
@@ -80,7 +81,8 @@ void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTa
   file.attribute("/", "step", run.time.step());
   file.attribute("/", "time", run.time.time());
   file.attribute("/", "delT", run.time.delT());
-  file.attribute("/", "dropped", static_cast<std::uint64_t>(target.dropped));
+  file.attribute("/", "dropped", static_cast<std::uint64_t>(target.lost.left));
+  file.text("/removed", std::to_string(target.lost.removed));
   file.attribute("/", "version", std::string(TUSHAR_VERSION));
   file.attribute("/", "component", run.problem.componentName);
   writeGrid(file, collect::gridInfo(run.problem.grid->level()));
@@ -106,6 +108,16 @@ std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTar
   return parts;
 }
 
+namespace {
+
+/// Checkpoints of older versions have no removed particles.
+tasks::LostParticles lostIn(const output::Hdf5Input& file) {
+  return {.left = static_cast<long>(file.count("/", "dropped")),
+          .removed = file.has("/removed") ? std::stol(file.text("/removed")) : 0};
+}
+
+}  // namespace
+
 void readCheckpoint(RunState& run) {
   const output::Hdf5Input file(run.problem.restart->state());
   checkScene(file, run.problem);
@@ -113,7 +125,9 @@ void readCheckpoint(RunState& run) {
   output::CheckedParts checks(run.problem.restart->state().parent_path(), run.problem.restart->parts, run.ranks);
   collect::readState(file, run.warehouse, stateNames(run), run.phases.state(), checks);
   run.time.resume(file.integer("/", "step"), file.real("/", "time"), file.real("/", "delT"));
-  if (run.ranks.isFirst()) run.scheduler.relocation().setDropped(static_cast<long>(file.count("/", "dropped")));
+  tasks::LostParticles lost = lostIn(file);
+  if (!run.ranks.isFirst()) lost.left = 0;
+  run.scheduler.relocation().setLost(lost);
   for (const ConservedTotal& total : run.phases.totals())
     run.totalsAtStart.push_back(std::get<std::vector<double>>(file.dataset("/totals/" + total.name())));
 }

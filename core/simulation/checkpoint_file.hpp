@@ -16,13 +16,14 @@ namespace tushar::simulation {
 //     /scene             the scene with its overrides
 //     /archive/index     what index.xml of the archive said
 //     /totals/<name>     mass, momentum and energy at the very start, for the drift of the report
+//     /removed           particles that were removed; `dropped` has those that left the grid
 //     and the state: see core/collect/stored_state.hpp
 
-/// The place of a checkpoint file, and its content apart from the state.
+/// The location of a checkpoint file, and its content except the state.
 struct CheckpointTarget {
   std::filesystem::path path;
   output::ArchivePoint point;  ///< extent of the archive; on rank 0 only
-  long dropped = 0;            ///< particles that have left the grid, on all ranks
+  tasks::LostParticles lost;   ///< on all ranks
 };
 
 /// Writes the current state of a run; returns where its values are in the file. All ranks call it. Throws FileError on

@@ -63,13 +63,13 @@ void Checkpoints::write() {
   const auto started = Clock::now();
   const trace::Span span(trace::Kind::output, "checkpoint");
   const PeakGrowth growth(memory_);
-  const long dropped = run_.ranks.sum(run_.scheduler.relocation().dropped());
+  const tasks::LostParticles lost = run_.lostParticles();
   output::ArchivePoint point;
   run_.ranks.onFirst([&] { point = outputs_.sync(); });
   const int cycle = run_.problem.archive.checkpoint.value_or(CheckpointSettings{}).cycle;
   output::CheckpointStore(outputs_.folder(), cycle, run_.writers)
       .write(run_.time.step(), [&](const std::filesystem::path& folder) {
-        return writeCheckpoint(run_, {folder / stateFile, point, dropped});
+        return writeCheckpoint(run_, {folder / stateFile, point, lost});
       });
   run_.clock.agree(run_.ranks);
   last_ = run_.time.step();

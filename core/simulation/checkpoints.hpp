@@ -18,8 +18,8 @@ class Checkpoints {
 
   /// Sets a function that is called on rank 0 with messages about damaged checkpoints.
   void setWarning(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
-  /// Reads the checkpoint from which the run continues; if that is damaged, the one before it. Throws InputError
-  /// where there is none, or for one that does not fit the scene.
+  /// Reads the checkpoint from which the run continues; if it is damaged, the previous one. Throws InputError where
+  /// there is none, or for one that does not fit the scene.
   void resume();
   /// Writes a checkpoint at the start, if the scene has checkpoints.
   void writeFirst();
@@ -36,7 +36,7 @@ class Checkpoints {
   double memory() const { return memory_; }
 
  private:
-  /// Reads the checkpoint; false if it is damaged: then the previous one is to be read.
+  /// Reads the checkpoint; returns false if it is damaged, so that the previous one must be read.
   bool read();
 
   RunState& run_;

@@ -9,7 +9,7 @@
 
 namespace tushar::simulation {
 
-/// The values of reductions before a step that may fail, as a step overwrites the only value of each.
+/// The values of reductions before a step that may fail, since a step overwrites the only value of each.
 class KeptReductions {
  public:
   KeptReductions(data::Warehouse& warehouse, const std::vector<int>& numbers) : warehouse_(&warehouse) {

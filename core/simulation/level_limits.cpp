@@ -17,7 +17,7 @@ std::string blockProblem(const tasks::Task& task, const tasks::Access& access, c
   for (int d = 0; d < grid.dimension(); ++d)
     if (const int cells = grid.blockCells()[d]; cells < fewest)
       return fmt::format(
-          "task {} reads {} up to {} beyond a patch, so blocks need {} cells along each axis, but have {} along {}; "
+          "task {} reads {} up to {} outside a patch, so blocks need {} cells along each axis, but have {} along {}; "
           "give <min_patch_size> in <Regridder> of <AMR>",
           task.name, access.label->name, counted(access.ghost, "cell"), fewest, cells, "xyz"[grid.level().axis(d)]);
   return "";
@@ -30,7 +30,7 @@ std::string accessProblem(const tasks::Task& task, const tasks::Access& access, 
     return fmt::format("task {} reads {} of nodes from the previous step, which needs a grid of one level", task.name,
                        access.label->name);
   if (centring == Centring::node && access.ghost > 0 && !task.perMaterial())
-    return fmt::format("task {} reads {} of nodes beyond a patch, which needs a grid of one level", task.name,
+    return fmt::format("task {} reads {} of nodes outside a patch, which needs a grid of one level", task.name,
                        access.label->name);
   return "";
 }
@@ -49,7 +49,7 @@ std::string accessAgainstSmallerSteps(const tasks::Access& access) {
       return fmt::format("reads {}, which is computed over the whole grid", name);
     case Centring::cell:
       if (access.isNew() && access.reads() && access.ghost > 0)
-        return fmt::format("reads the new {} beyond a patch, where another level does not have it yet", name);
+        return fmt::format("reads the new {} outside a patch, where another level may not have computed it yet", name);
       return "";
     default:
       return "";

@@ -115,8 +115,8 @@ double LevelSteps::longestStep(double rest, const tasks::StepInfo& next) const {
   constexpr double most = 1000;  // steps in one of the coarser level: signals do not get so much faster
   const double stable = run_.problem.time.timestepMultiplier * stable_[static_cast<std::size_t>(next.level)]->value;
   if (!(stable * most > rest))
-    throw NumericalError(fmt::format("the time step of level {} fell to {:.6g} s, with {:.6g} s left of the next "
-                                     "coarser level's step (step {}, time {:.6g} s)",
+    throw NumericalError(fmt::format("the time step of level {} fell to {:.6g} s, while {:.6g} s of the next coarser "
+                                     "level's step remain (step {}, time {:.6g} s)",
                                      next.level, stable, rest, next.step, next.time),
                          "a setting that keeps speeds finite, or useLockStep true in <AMR>");
   return stable;

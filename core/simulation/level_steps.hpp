@@ -22,7 +22,7 @@ class LevelSteps {
   explicit LevelSteps(RunState& run) : run_(run) {}
 
   /// The longest step of the coarsest level [s] for which two steps of each level per step of the next coarser one are
-  /// stable, and what limits it.
+  /// stable, and the limit that determines it.
   data::Minimum stable();
   /// Advances the old state of all levels by the step of the coarsest, `whole.delT`; the new state has stable steps. If
   /// a task requests a smaller one, returns its factor and reason; then, and if a NumericalError comes out, the old
@@ -36,7 +36,7 @@ class LevelSteps {
   /// Makes a step of a level, and the steps of finer levels within it.
   std::optional<data::Minimum> advanceLevel(const tasks::StepInfo& at);
   std::optional<data::Minimum> advanceFiner(const tasks::StepInfo& coarser);
-  /// Computes what the state of a level allows, unless that is known.
+  /// Computes the stable step for the state of a level, unless it is known.
   std::optional<data::Minimum> findStable(const tasks::StepInfo& at);
   std::optional<data::Minimum> findStableOfAll(tasks::StepInfo at);
   /// The longest step of a level [s] with the scene's multiplier. Throws NumericalError if it is far below the rest of
@@ -48,13 +48,14 @@ class LevelSteps {
   RunState& run_;
   std::optional<grid::BlockTree> tree_;               ///< of the state that `stable_` is of
   int levels_ = 1;                                    ///< that have cells
-  std::vector<std::optional<data::Minimum>> stable_;  ///< by level, s: of its state as it is now, where that is known
+  std::vector<std::optional<data::Minimum>> stable_;  ///< by level, s: for its current state, if known
   std::vector<int> steps_;
 };
 
-/// How many equal steps fill `rest` [s] where `stable` [s] is the longest: for a rest that begins with the coarser step
-/// (`isFirst`) one if it is stable, two up to an eighth beyond; for a later rest, up to an eighth beyond it is still
-/// one, as signals may have become faster since the coarser step was chosen.
+/// The number of equal steps that fill `rest` [s] if `stable` [s] is the longest step: for a rest that begins with the
+/// coarser step (`isFirst`), one if it is stable, and two if they are at most an eighth longer than stable; for a later
+/// rest, also one if it is at most an eighth longer, because signals may have become faster since the coarser step was
+/// chosen.
 int stepsThatFill(double rest, double stable, bool isFirst);
 
 }  // namespace tushar::simulation

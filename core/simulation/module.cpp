@@ -33,7 +33,7 @@ OwnModules& ownModules() {
   return modules;
 }
 
-/// Why a file cannot be a shared library; nothing if it may be one, or cannot be read, which dlopen then explains.
+/// Why a file cannot be a shared library; empty if it may be one, or if it cannot be read, which dlopen then reports.
 std::string whyNoLibrary(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return "";
@@ -42,7 +42,7 @@ std::string whyNoLibrary(const fs::path& file) {
   if (!std::equal(head.e_ident, head.e_ident + SELFMAG, ELFMAG)) return "it is not a shared library";
   // The table of sections is the last thing in a file. dlopen would end the program by SIGBUS where pages are missing.
   const std::uintmax_t end = head.e_shoff + std::uintmax_t(head.e_shnum) * head.e_shentsize;
-  return !in || fs::file_size(file) < end ? "the file is cut off" : "";
+  return !in || fs::file_size(file) < end ? "the file is truncated" : "";
 }
 
 /// Opens a shared library and returns its card. Throws std::runtime_error if it is no module, or does not fit.
@@ -127,12 +127,12 @@ std::string misfitOf(const ModuleAbi& module) {
   if (Text(module.version) != own.version)
     return fmt::format("it was built for Tushar {}, but this is {}", module.version, own.version);
   if (Text(module.compiler) != own.compiler)
-    return fmt::format("it was compiled by {}, but this program by {}", module.compiler, own.compiler);
+    return fmt::format("it was compiled by {}, but this program was compiled by {}", module.compiler, own.compiler);
   if (module.checks != own.checks)
-    return fmt::format("it was compiled with{} TUSHAR_CHECKS, but this program with{} it", module.checks ? "" : "out",
-                       own.checks ? "" : "out");
+    return fmt::format("it was compiled with{} TUSHAR_CHECKS, but this program was compiled with{} it",
+                       module.checks ? "" : "out", own.checks ? "" : "out");
   if (module.alignment != own.alignment)
-    return fmt::format("it was compiled for vectors of {} bytes, but this program for {}: use the same -march",
+    return fmt::format("it was compiled for vectors of {} bytes, but this program for {} bytes: use the same -march",
                        module.alignment, own.alignment);
   if (Text(module.interface) != own.interface) return "it was built with different headers of the same version";
   return "";

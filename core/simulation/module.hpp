@@ -5,12 +5,12 @@
 
 namespace tushar::simulation {
 
-/// Why this program cannot load a module with that ABI; empty if it can.
+/// Why this program cannot load a module with this ABI; empty if it can.
 std::string misfitOf(const ModuleAbi& module);
 
-/// A catalogue of all modules of this program, each loaded when it is first needed, and of those of the user: the files
-/// named here and in the folders that TUSHAR_PLUGINS names, joined by `:`. Throws std::runtime_error with a sentence
-/// for each that cannot be loaded.
+/// A catalogue of all modules of this program and of the user, each loaded when it is first needed. Those of the user
+/// are the given files, and the files in the folders of TUSHAR_PLUGINS, which are separated by `:`. Throws
+/// std::runtime_error with a sentence for each that cannot be loaded.
 Catalogue openModules(const std::vector<std::string>& files);
 
 /// Loads a module of this program, which then registers itself. Does nothing in a program without openModules(), which

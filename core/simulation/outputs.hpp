@@ -14,7 +14,7 @@
 
 namespace tushar::simulation {
 
-/// The archive of a run, and what is saved in its folder: outputs, globals, and the samples of analysis modules. All
+/// The archive of a run, with the contents of its folder: outputs, globals, and the samples of analysis modules. All
 /// ranks make the same calls; rank 0 writes, with the writers of the run for outputs.
 class Outputs {
  public:
@@ -37,10 +37,10 @@ class Outputs {
   void saveGlobals();
   /// Begins an output after a step, if one is due; completes the previous one if it has been written.
   void saveIfDue();
-  /// Begins to write an output, if the scene has any and this step has none yet; steps may continue meanwhile.
+  /// Begins to write an output, if the scene has any and this step has none yet; further steps may run meanwhile.
   void save();
-  /// If something has failed on rank 0 only, since the ranks last agreed by the run's clock, throws its exception
-  /// there, and FailedElsewhere on the others.
+  /// If only rank 0 has failed since the ranks last synchronised with the clock of the run, throws its exception there,
+  /// and FailedElsewhere on the others.
   void throwIfFailed();
   /// Waits for the output in progress.
   void finishOutput();
@@ -55,7 +55,7 @@ class Outputs {
   double nextTime() const { return times_.next(); }
   /// The folder of the archive; empty if there is none.
   const std::string& folder() const { return folder_; }
-  /// The archive; null if there is none, and on all ranks but rank 0.
+  /// The archive; null if there is none, and on all ranks except rank 0.
   output::Archive* archive() const { return archive_.get(); }
   /// Wall time spent collecting and writing, s, apart from writing during steps.
   double seconds() const { return seconds_; }
@@ -72,7 +72,8 @@ class Outputs {
     output::SnapshotInFlight file;
     output::Snapshot listed;  ///< without values
   };
-  /// Gives the output in progress its name when it is written, and lists it; `ranks` as for SnapshotInFlight::finish().
+  /// Renames the output in progress to its final name once it is written, and lists it; `ranks` as for
+  /// SnapshotInFlight::finish().
   void finish(const mpi::Communicator& ranks);
   void finishIfWritten();
   /// Calls a function with the archive on rank 0. If it fails, throwIfFailed() throws later, on all ranks.
@@ -88,7 +89,7 @@ class Outputs {
   void appendGlobals(output::Archive& archive) const;
 
   RunState& run_;
-  mpi::Communicator meeting_;  ///< the ranks of the run, for meeting at its end
+  mpi::Communicator meeting_;  ///< the ranks of the run, which synchronise at its end
   std::filesystem::path parent_;
   std::optional<output::FolderLock> lock_;    ///< lock on the archive's folder
   std::unique_ptr<output::Archive> archive_;  ///< on rank 0

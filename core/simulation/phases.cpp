@@ -75,7 +75,7 @@ std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>&
   return samples;
 }
 
-/// The variables of the old state that lists read, and what a step itself always needs.
+/// The variables of the old state that lists read, and those that a step always needs.
 Names requiredByAll(std::initializer_list<const Pruned*> lists) {
   Names names{std::string(data::recomputeTimeStep.name)};
   for (const Pruned* list : lists) names.merge(requiredOfState(list->kept));
@@ -310,7 +310,7 @@ void checkOnLevels(std::initializer_list<const Pruned*> lists, const grid::Grid&
   throwIfAny(std::move(problems));
 }
 
-/// Throws InputError if tasks cannot run on one level after the other.
+/// Throws InputError if tasks cannot run level by level.
 void refuseSmallerSteps(std::initializer_list<const Pruned*> lists, const Location& where) {
   std::vector<tasks::Task> all;
   for (const Pruned* list : lists) all.insert(all.end(), list->kept.begin(), list->kept.end());

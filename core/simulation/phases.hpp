@@ -41,11 +41,11 @@ class Phases {
 
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
   tasks::TaskGraph refinement;  ///< where criteria require finer cells
-  tasks::TaskGraph refined;     ///< tasks of the component for cells that have become finer
+  tasks::TaskGraph refined;     ///< tasks of the component for newly refined cells
   tasks::TaskGraph refluxing;   ///< refluxing on a level after the smaller steps of the next finer one
 
-  /// Sorted names of the variables from the previous step that a step and the totals need: the state of a run, whatever
-  /// else is saved and measured.
+  /// Sorted names of the variables from the previous step that a step and the totals need: the state of a run,
+  /// independent of what else is saved and measured.
   const std::vector<std::string>& state() const { return state_; }
   /// Names of the variables in the fingerprint: the state or, if no step needs variables of the previous one, the saved
   /// and measured variables.
@@ -74,8 +74,8 @@ class Phases {
   void validateAll() const;
   void noteMaterials();
   bool isMaterial(const std::string& name) const;
-  /// The requests with names of materials instead of numbers; as in Uintah, the number after the last means all, and
-  /// higher ones mean none.
+  /// The requests with names of materials instead of indices; as in Uintah, an index one above the last means all
+  /// materials, and higher ones mean none.
   std::vector<SaveRequest> named(const std::vector<SaveRequest>& saves) const;
   /// The diagnostics, followed by the task that marks cells to refine; nothing if the grid does not change. Throws
   /// InputError for a criterion whose variable is not one of cells.

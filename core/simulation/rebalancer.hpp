@@ -12,7 +12,7 @@ class Rebalancer {
  public:
   explicit Rebalancer(RunState& run) : run_(run), balance_(run.ranks.size()) {}
 
-  /// By the cells and particles of each patch, before the first step.
+  /// Balances by the cells and particles of each patch, before the first step.
   void balanceAtStart();
   /// Balances by the time that tasks have taken on each patch, after a step.
   void balanceIfDue();

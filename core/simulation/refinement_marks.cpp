@@ -33,7 +33,7 @@ double halfJump(const Neighbours& near, int components) {
   return 0.5 * std::sqrt(sum);
 }
 
-/// Half the difference of the outer two, over the smallest magnitude of the three; infinite if that is 0.
+/// Half the difference between the outer two, divided by the smallest magnitude of the three; infinite if that is 0.
 double relativeJump(double below, double middle, double above) {
   const double jump = 0.5 * std::abs(above - below);
   return jump == 0 ? 0 : jump / std::min(std::min(std::abs(below), std::abs(middle)), std::abs(above));

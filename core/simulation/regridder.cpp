@@ -31,18 +31,19 @@ std::string textOf(std::vector<BlockId> blocks) {
 }
 
 void addBlocks(const std::string& text, std::vector<BlockId>& blocks) {
+  if (text.empty()) return;
   const std::size_t before = blocks.size(), count = text.size() / sizeof(BlockId);
   blocks.resize(before + count);
   std::memcpy(blocks.data() + before, text.data(), count * sizeof(BlockId));
 }
 
-/// Cells of a patch along an axis that are as near to the same blocks.
+/// Cells of a patch along an axis that are near the same blocks.
 struct CellRun {
-  int first, last;             ///< places in the patch, [first, last)
+  int first, last;             ///< indices in the patch, [first, last)
   std::pair<int, int> blocks;  ///< [lower, upper)
 };
 
-/// Raises marks of blocks, from `origin` on, to those of a row of cells; returns whether there are any.
+/// Raises marks of blocks, starting at `origin`, to those of a row of cells; returns whether there are any.
 bool raiseMarksOfBlocks(const int* cells, const std::vector<CellRun>& runs, int origin, std::vector<int>& blocks) {
   std::fill(blocks.begin(), blocks.end(), 0);
   int any = 0;
@@ -88,8 +89,8 @@ void MarkedBlocks::add(const grid::Level& level, const Index3& cell, int mark) {
     });
 }
 
-/// Cells of a row mark blocks along the first axis, which then count for all rows of blocks near that row of cells: so
-/// each block is marked once, however many cells are near it.
+/// Cells of a row mark blocks along the first axis; the marks then apply to all rows of blocks near that row of cells.
+/// So each block is marked once, for any number of cells near it.
 void MarkedBlocks::add(const grid::Patch& patch, const int* marks, const Box& stored) {
   const grid::Level& level = patch.level();
   const Box& cells = patch.cells();
@@ -106,9 +107,10 @@ void MarkedBlocks::add(const grid::Patch& patch, const int* marks, const Box& st
     reached.lower[d] = blocksOf(d, cells.lower[d]).first;
     reached.upper[d] = blocksOf(d, cells.upper[d] - 1).second;
   }
-  std::vector<int> found(reached.size(), 0), row(static_cast<std::size_t>(reached.extent(0)));
+  std::vector<int> found, row(static_cast<std::size_t>(reached.extent(0)));
   grid::forEachRow<3>(cells, [&](const Index3& first, int) {
     if (!raiseMarksOfBlocks(marks + stored.offset(first), runs, reached.lower[0], row)) return;
+    if (found.empty()) found.assign(reached.size(), 0);
     Box rows = reached;
     for (const int d : {1, 2}) std::tie(rows.lower[d], rows.upper[d]) = blocksOf(d, first[d]);
     grid::forEachRow<3>(rows, [&](const Index3& start, int count) {
@@ -116,6 +118,7 @@ void MarkedBlocks::add(const grid::Patch& patch, const int* marks, const Box& st
       for (int k = 0; k < count; ++k) to[k] = std::max(to[k], row[static_cast<std::size_t>(k)]);
     });
   });
+  if (found.empty()) return;
   grid::forEach<3>(reached, [&](const Index3& at) {
     if (const int mark = found[reached.offset(at)]; mark > 0) ask({level.number(), at}, mark);
   });
@@ -135,10 +138,12 @@ void MarkedBlocks::ask(const BlockId& image, int mark) {
 
 void MarkedBlocks::addParticles(const grid::Level& level, const Index3& cell, int margin) {
   const int finest = grid_.levels() - 1, dimension = level.dimension();
-  if (level.number() < finest) return add(level, cell, 2);
-  const Box blocks = blocksNear(level, cell, crossed(level) + margin);
+  const bool isFinest = level.number() == finest;
+  const Box blocks = blocksNear(level, cell, crossed(level) + (isFinest ? margin : dilation_));
   const auto& [lower, upper] = blocks;
-  if (!near_particles_.insert({lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]}).second) return;
+  if (!near_particles_.insert({level.number(), lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]}).second)
+    return;
+  if (!isFinest) return grid::forEach<3>(blocks, [&](const Index3& at) { ask({level.number(), at}, 2); });
   grid::forEach<3>(blocks, [&](const Index3& at) {
     BlockId block = wrapped({finest, at});
     ask(block, 1);

@@ -11,11 +11,11 @@
 
 namespace tushar::simulation {
 
-/// The blocks that marked cells require: those that must be refined, and those whose children must stay. Both follow
-/// from the tree and the marks alone.
+/// The blocks that marked cells require: those that must be refined, and those whose children must be preserved. Both
+/// follow from the tree and the marks alone.
 class MarkedBlocks {
  public:
-  /// A mark counts for all blocks within the distance that signals travel in `interval` steps (one cell of the finest
+  /// A mark applies to all blocks within the distance that signals travel in `interval` steps (one cell of the finest
   /// level per step) plus `dilation` cells.
   MarkedBlocks(const grid::Grid& grid, int interval, int dilation)
       : grid_(grid), interval_(std::min(interval, farthest)), dilation_(std::min(dilation, farthest)) {}
@@ -51,8 +51,8 @@ class MarkedBlocks {
 
   const grid::Grid& grid_;
   int interval_, dilation_;
-  std::set<std::array<int, 6>> near_particles_;  ///< corners of boxes of blocks of the finest level
-  std::vector<grid::BlockId> wanted_, kept_;     ///< some may be there twice
+  std::set<std::array<int, 7>> near_particles_;  ///< levels, and corners of boxes of their blocks
+  std::vector<grid::BlockId> wanted_, kept_;     ///< may contain duplicates
 };
 
 /// Refines the grid of a run by its criteria. All ranks make the same calls.
@@ -60,7 +60,7 @@ class Regridder {
  public:
   explicit Regridder(RunState& run) : run_(run) {}
 
-  /// Refines the grid for the state at the start; true if it changed, and then it has no values yet.
+  /// Refines the grid for the initial state; returns true if the grid changed, in which case it has no values yet.
   bool refinedStart();
   /// Changes the grid and its values between two steps, if that is due and the state requires it.
   void regridIfDue();

@@ -17,7 +17,7 @@ struct Restart {
   std::filesystem::path archive;          ///< the folder of the earlier run, such as `sod.uda.001`
   int step = 0;                           ///< step of the checkpoint
   bool isChosen = false;                  ///< whether the user chose it; otherwise it is the newest intact one
-  std::vector<std::string> notes;         ///< sentences about damaged checkpoints found on the way
+  std::vector<std::string> notes;         ///< messages about damaged checkpoints that were found
   std::vector<std::uint64_t> others;      ///< steps of checkpoints to use if this one is damaged, in that order
   std::vector<output::FilePart> parts{};  ///< parts of its file that are checked when they are read
 
@@ -31,7 +31,7 @@ struct Restart {
 
 /// Notes damage to the checkpoint.
 void noteDamage(Restart& restart, const std::string& damage);
-/// Selects the next of the others that is intact, as far as it is read now, and notes the damage to those skipped.
+/// Selects the next intact one of the others, as far as it can be checked now, and notes the damage to those skipped.
 /// False if none is. If a newer version wrote one, throws InputError on rank 0, and FailedElsewhere on the others.
 bool takeNext(Restart& restart, const mpi::Communicator& ranks);
 /// Throws InputError on the first rank, with all notes, and FailedElsewhere on the others.

@@ -26,9 +26,9 @@ class RunClock {
 
   /// Time since the process started, on this rank, s.
   double now() const { return secondsSince(started_at_); }
-  /// From now on this rank, which must be the first, looks for request files in the folder of the archive.
+  /// From now on, this rank, which must be the first, checks for request files in the folder of the archive.
   void watch(const std::filesystem::path& folder) { files_.emplace(folder); }
-  /// Reads the clock and the requests to any rank, together on all ranks. All ranks call it.
+  /// Reads the clock and the requests to any rank, collectively on all ranks. All ranks call it.
   void agree(const mpi::Communicator& ranks);
   /// Time since the process started, at the last reading of all ranks, s.
   double elapsed() const { return elapsed_; }
@@ -38,7 +38,7 @@ class RunClock {
   bool isStopped() const { return stopped_; }
   /// Notes a failure on this rank, of which the others are informed.
   void noteFailure() { failed_ = true; }
-  /// Whether a rank had noted a failure when they last agreed.
+  /// Whether any rank had reported a failure at the last synchronisation.
   bool hasFailed() const { return failed_; }
   /// Whether the state must be saved now; true once for each request.
   bool takeSaveRequest() { return std::exchange(save_asked_, false); }

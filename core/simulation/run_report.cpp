@@ -28,7 +28,8 @@ std::vector<long> RunReport::cellsOfLevels() const {
   return cells;
 }
 
-/// Notes the updates of levels; a finest level without cells would have taken twice the steps of the next coarser one.
+/// Counts the updates of levels; a finest level without cells would have taken twice as many steps as the next coarser
+/// one.
 void RunReport::noteLevels(const std::vector<int>& steps) {
   const std::vector<long> cells = cellsOfLevels();
   double finestSteps = 0;
@@ -72,7 +73,8 @@ Report RunReport::make(double fileMemory) {
   return report;
 }
 
-/// Adds the memory; the free memory after the last step is the amount that returning it to the system would save.
+/// Adds the memory; the free memory after the last step is the amount by which returning it to the system would reduce
+/// the total.
 void RunReport::addMemory(Report& report, double fileMemory) {
   const ResidentMemory memory = residentMemory();
   run_.warehouse.releaseFreeMemory();
@@ -106,7 +108,9 @@ void RunReport::addLayout(Report& report) {
 
 void RunReport::addProgress(Report& report) {
   report.particles = collect::particleCount(run_.warehouse, run_.materials());
-  report.dropped = run_.ranks.sum(run_.scheduler.relocation().dropped());
+  const tasks::LostParticles lost = run_.lostParticles();
+  report.dropped = lost.left;
+  report.removed = lost.removed;
   report.steps = run_.time.step();
   report.retries = run_.time.retries();
   for (const auto& [limit, steps] : run_.time.limits())

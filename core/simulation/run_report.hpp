@@ -7,7 +7,7 @@
 
 namespace tushar::simulation {
 
-/// Measures a run while it lasts, and its state at the end. All ranks make the same calls. `outputSeconds` is the wall
+/// Measures a run in progress, and its state at the end. All ranks make the same calls. `outputSeconds` is the wall
 /// time spent on outputs since the process started, s.
 class RunReport {
  public:
@@ -42,7 +42,7 @@ class RunReport {
   report::TimeUse use_;
   long particle_steps_ = 0;            ///< of this rank's particles
   double updates_ = 0;                 ///< updates of cells, over all ranks
-  double uniform_updates_ = 0;         ///< what they would be if all cells were as fine as the finest
+  double uniform_updates_ = 0;         ///< the same if all cells were on the finest level
   std::vector<double> level_updates_;  ///< of the cells of each level, where finer ones take smaller steps
 };
 

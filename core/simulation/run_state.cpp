@@ -48,6 +48,11 @@ Totals RunState::measureTotals(tasks::TaskGraph& graph) {
   return totals;
 }
 
+tasks::LostParticles RunState::lostParticles() {
+  const tasks::LostParticles& lost = scheduler.relocation().lost();
+  return {.left = ranks.sum(lost.left), .removed = lost.removed};
+}
+
 tasks::MigratedVariables RunState::migratedVariables() const {
   tasks::MigratedVariables migrated{materials(), {}};
   for (const std::string& name : phases.lasting())

@@ -37,14 +37,18 @@ struct RunState {
   /// The totals of the current state, computed by a graph.
   Totals measureTotals(tasks::TaskGraph& graph);
 
+  /// Particles that all ranks have lost since the start; all ranks call it.
+  tasks::LostParticles lostParticles();
+
   /// The variables that outlive a step.
   tasks::MigratedVariables migratedVariables() const;
 
   Problem problem;
   const mpi::Communicator& ranks;
-  mpi::Communicator files;                ///< the same ranks, for messages about files, separate from those of tasks
-  output::Writers writers;                ///< among these
-  std::optional<std::size_t> mostBehind;  ///< bytes of an output that a writer may keep; by default a suitable amount
+  mpi::Communicator files;  ///< the same ranks, for messages about files, separate from those of tasks
+  output::Writers writers;  ///< among these
+  std::optional<std::size_t>
+      mostBehind;  ///< bytes of an output that a writer may keep in memory; by default a suitable amount
   data::VariableTable table;
   Phases phases;
   data::Warehouse warehouse;
@@ -52,7 +56,7 @@ struct RunState {
   TimeControl time;
   RunClock clock;
   Progress progress;
-  Totals totalsAtStart;  ///< of the run, or of the one that it goes on from
+  Totals totalsAtStart;  ///< of the run, or of the one that it continues
 };
 
 }  // namespace tushar::simulation

@@ -11,7 +11,7 @@
 
 namespace tushar::simulation {
 
-/// Pairs of names of a variable: Uintah's, and the one used here.
+/// Pairs of names of a variable: Uintah's and Tushar's.
 using OtherNames = std::vector<std::pair<std::string, std::string>>;
 
 /// One `<save label= material=>`.
@@ -22,7 +22,7 @@ struct SaveRequest {
   Location whereOfMaterial;
 };
 
-/// The tag `checkpoint`: how many are kept, and one of the intervals.
+/// The tag `checkpoint`: the number of checkpoints to keep, and one of the intervals.
 struct CheckpointSettings {
   int cycle = 2;
   std::optional<double> interval = {};                                        ///< s of simulated time
@@ -47,9 +47,10 @@ struct ArchiveSettings {
 /// A criterion for refinement: an indicator of a cell variable, and thresholds.
 struct Criterion {
   enum class Indicator {
-    jump,  ///< |q(i+1) - q(i-1)| / 2 over the smallest |q| of the three, infinite if that is 0; the maximum over axes
+    jump,  ///< |q(i+1) - q(i-1)| / 2 divided by the smallest |q| of the three, infinite if that is 0; the maximum over
+           ///< axes
     secondDerivative,  ///< Löhner's, between 0 and 1
-    gradient,          ///< the magnitude of the gradient, unit of the variable over m
+    gradient,          ///< the magnitude of the gradient, in the unit of the variable per m
     above,             ///< the value itself
     below,             ///< the value itself; cells with smaller values are refined
   };

@@ -29,6 +29,20 @@ std::string adviceNearCoarser(const RegridSettings& regrid) {
   return "a smaller <min_timestep_interval> in <AMR>, so that the finest cells follow in time";
 }
 
+/// Throws NumericalError, on all ranks, if so many particles were removed that the rest says little about the scene.
+void refuseLosses(RunState& run) {
+  constexpr double most = 0.01;
+  const long removed = run.scheduler.relocation().lost().removed;
+  if (removed == 0) return;
+  const long left = collect::particleCount(run.warehouse, run.materials());
+  if (static_cast<double>(removed) > most * static_cast<double>(removed + left))
+    throw NumericalError(
+        fmt::format("{} of {} were removed, more than {:g} %: steps turned them inside out, or threw them through a "
+                    "symmetry plane; try smaller steps",
+                    removed, counted(removed + left, "particle"), 100 * most),
+        "");
+}
+
 }  // namespace
 
 Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt)
@@ -120,8 +134,8 @@ void Simulation::resume() {
   run_.setTimeOfAnalyses();  // what was due up to now, the run before has sampled
 }
 
-/// Initialises the state on finer and finer cells, as far as it requires them: finer cells resolve more of the state in
-/// the scene.
+/// Initialises the state on successively finer cells, as far as it requires them: finer cells resolve more of the
+/// initial state.
 void Simulation::initialize() {
   do {
     initializeOnce();
@@ -133,7 +147,7 @@ void Simulation::initialize() {
   if (hasParticles && collect::particleCount(run_.warehouse, run_.materials()) == 0)
     throw InputError({{{run_.problem.scenePath, 0, 0},
                        "MaterialProperties",
-                       "there are no particles: no geom_object has a point on the grid"}});
+                       "there are no particles: no geom_object overlaps the grid"}});
 }
 
 void Simulation::refuseCoarseParticles() {
@@ -195,6 +209,7 @@ void Simulation::step() {
 }
 
 void Simulation::advance() {
+  refuseLosses(run_);
   TimeControl& time = run_.time;
   tasks::TaskGraph& graph = run_.phases.timeAdvance;
   run_.warehouse.beginStep();

@@ -31,8 +31,8 @@ class Simulation {
 
   const Phases& phases() const { return run_.phases; }
   data::Warehouse& warehouse() { return run_.warehouse; }
-  /// Only makes the state at the start, or reads the checkpoint; returns the number of particles. Throws what a run
-  /// would throw there.
+  /// Only creates the initial state, or reads the checkpoint; returns the number of particles. Throws what a run would
+  /// throw there.
   long tryStart();
   /// The entry of run.json for the program and its command line.
   void setRecord(output::RunRecord record) { record_ = std::move(record); }
@@ -49,13 +49,13 @@ class Simulation {
   void resume();
   void initialize();
   void initializeOnce();
-  /// Throws InputError if there are particles where there must be none.
+  /// Throws InputError if there are particles where they are not allowed.
   void refuseCoarseParticles();
   void loop();
   void step();
   /// Advances the state by a time step, which is repeated with a shorter one if a task requires it.
   void advance();
-  /// The longest stable step for the state, and what limits it.
+  /// The longest stable step for the state, and the limit that determines it.
   data::Minimum stableStep();
   /// Tries the step; the factor for a smaller one, if a task requires it.
   std::optional<data::Minimum> tryStep(double dt);

@@ -21,7 +21,7 @@ output::Snapshot emptySnapshot(const RunState& run, output::GridInfo grid) {
   return snapshot;
 }
 
-/// An entry for every material with p.x, which holds p.x if the material is wanted.
+/// An entry for every material with p.x, which contains p.x if the material is requested.
 template <class IsWanted>
 output::Snapshot positions(const RunState& run, Gather& gather, const IsWanted& isWanted) {
   output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(*run.problem.grid));
@@ -60,7 +60,7 @@ void addField(RunState& run, const SaveRequest& save, const Stream& stream, outp
   }
 }
 
-/// The state on the whole grid, with the particles of the wanted materials.
+/// The state on the whole grid, with the particles of the requested materials.
 template <class IsWanted>
 output::Snapshot snapshotWith(RunState& run, const std::vector<SaveRequest>& requests, const IsWanted& isWanted) {
   Gather gather(run.warehouse);

@@ -31,7 +31,7 @@ double TimeControl::next(const data::Minimum& stable, double nextOutput) {
   if (step_ == 0 || time_ <= settings_.initialDeltRange) lower(dt, settings_.deltInit, "delt_init");
   if (!(dt > 0) || !std::isfinite(dt))
     throw NumericalError(fmt::format("the time step became {:.6g} s (step {}, time {:.6g} s)", dt, step_ + 1, time_),
-                         "a scene in which something moves or has a speed of sound, or <delt_max>");
+                         "a scene in which something moves or has a speed of sound, or a <delt_max>");
   if (time_ + dt == time_)
     throw NumericalError(fmt::format("the time step of {:.6g} s is too small to advance time from {:.6g} s (step {})",
                                      dt, time_, step_ + 1),

@@ -37,9 +37,9 @@ class TimeControl {
   bool done() const;
 
   /// The next time step [s]: timestep_multiplier times `stable`, limited by max_delt_increase, delt_min and delt_max;
-  /// at the start no longer than delt_init, even if that is below delt_min; and, if the scene requests it, exactly up
-  /// to maxTime or the next output. A rest up to maxTime that rounding alone would leave is part of the step. Throws
-  /// NumericalError for a step that is not positive or too small to move time on.
+  /// at the start no longer than delt_init, even if that is below delt_min; and, if the scene requests it, such that
+  /// the step ends exactly at maxTime or the next output. A rest up to maxTime that rounding alone would leave is part
+  /// of the step. Throws NumericalError for a step that is not positive or too small to move time on.
   double next(const data::Minimum& stable, double nextOutput);
   /// A shorter time step [s] from the same time: the previous one times the factor `asked`, which is limited to 0.1 to
   /// 0.9. Throws NumericalError for the 21st time in a step, for less than delt_min, and for a step too small to move
@@ -53,7 +53,7 @@ class TimeControl {
   /// Whether a step may be repeated with half the time step because of an invalid value: if the scene requests it, and
   /// `repeat` would not throw.
   bool mayHalve() const;
-  /// How often the step in progress was repeated.
+  /// Number of repetitions of the step in progress.
   int repeats() const { return repeats_; }
   /// Steps that were undone and repeated so far.
   int retries() const { return retries_; }
@@ -76,7 +76,7 @@ class TimeControl {
   std::map<data::Reason, int> limits_;
 };
 
-/// Times that differ by less than this, relative to their size, count as the same.
+/// Times that differ by less than this, relative to their size, are considered the same.
 inline constexpr double timeResolution = 1e-12;
 
 /// The times start + k interval, k = 1, 2, …, which a run passes in turn.

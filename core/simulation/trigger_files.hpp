@@ -4,7 +4,7 @@
 
 namespace tushar::simulation {
 
-/// Files by which a user can send requests to a run: `output_now` or `stop_now` in the folder of its archive.
+/// Files with which a user can send requests to a run: `output_now` or `stop_now` in the folder of its archive.
 class TriggerFiles {
  public:
   /// Removes files that an earlier run has left.
@@ -14,7 +14,7 @@ class TriggerFiles {
   struct Found {
     bool output = false, stop = false;
   };
-  /// Looks for the files, at most ten times per second, and removes those that it finds. `now` is the wall time, s.
+  /// Checks for the files, at most ten times per second, and removes those that it finds. `now` is the wall time, s.
   Found look(double now);
 
  private:

@@ -52,7 +52,7 @@ std::uint64_t CellNumbering::numberAmongAll(int level, const Index3& cell) const
 CellNumbering::Run CellNumbering::runAround(int level, const Index3& cell) const {
   const grid::BlockTiling& tiling = grid_->tiling();
   const grid::Tile tile = tiling.tileOf(level, cell);
-  if (tile.id < 0) throw data::AccessError("a cell that is refined, or part of a coarser one, has no number");
+  if (tile.id < 0) throw data::AccessError("a cell that is refined, or part of a coarser one, has no index");
   if (grid_->share().ranks > 1) return {level, tile.cells, tiling.cellsBefore(tile.id)};
   grid::BlockId block{level, {}};
   for (int d = 0; d < 3; ++d) block.at[d] = cell[d] / tiling.blockCells()[d];

@@ -9,18 +9,18 @@
 
 namespace tushar::solvers {
 
-/// Numbers the cells that a rank uses in a global system, as Unknowns requires: its own cells, then those of other
-/// ranks. On one rank the order is lexicographic, and on several levels that of blocks along the curve, so that the
-/// patches do not matter.
+/// Indices of the cells that a rank uses in a global system, as required by Unknowns: first its own cells, then those
+/// of other ranks. On one rank the order is lexicographic, and on several levels that of blocks along the curve, so
+/// that the patches do not matter.
 class CellNumbering {
  public:
   /// On one level, cells of other ranks that share a face with own ones are included from the start.
   explicit CellNumbering(const grid::Grid& grid);
 
   int owned() const { return owned_; }
-  /// The cells of other ranks: their numbers among those of all ranks.
+  /// The cells of other ranks, by their global indices.
   const std::vector<int>& ghosts() const { return ghosts_; }
-  /// Adds a cell of a grid of several levels, or its image, to those that this rank uses.
+  /// Adds a cell of a grid of several levels, or its image, to the cells that this rank uses.
   template <int D>
   void meet(int level, const Index<D>& image) {
     const std::uint64_t among = numberAmongAll(level, expanded(grid_->level(level).template wrapped<D>(image)));
@@ -28,8 +28,8 @@ class CellNumbering {
     if (numbers_.emplace(among, owned_ + static_cast<int>(ghosts_.size())).second)
       ghosts_.push_back(static_cast<int>(among));
   }
-  /// The number of a cell of the grid or, along periodic axes, of a periodic image; -1 beyond the grid and for cells of
-  /// other ranks that are not known.
+  /// The index of a cell of the grid or, along periodic axes, of a periodic image; -1 outside the grid and for unknown
+  /// cells of other ranks.
   template <int D>
   int operator()(int level, const Index<D>& image) const {
     const grid::Level& of = grid_->level(level);
@@ -60,7 +60,7 @@ class CellNumbering {
     const auto found = numbers_.find(key);
     return found == numbers_.end() ? -1 : found->second;
   }
-  /// Numbers the own cells patch by patch, so that every rank can compute the numbers of all.
+  /// Numbers the own cells patch by patch, so that every rank can compute the indices of all cells.
   void numberOwnPatches();
   void numberGhosts(const grid::Patch& patch, const std::vector<int>& firstOf);
   /// The global number of a cell on several levels: block by block on one rank, otherwise patch by patch. Throws
@@ -72,7 +72,7 @@ class CellNumbering {
   int owned_ = 0;
   std::uint64_t first_ = 0;  ///< global number of the first own cell, on several levels
   std::vector<int> ghosts_;
-  /// Numbers, by the cell's place; on several levels only those of other ranks' cells, by their global number.
+  /// Indices, by the position of the cell; on several levels, only those of other ranks' cells, by their global index.
   std::unordered_map<std::uint64_t, int> numbers_;
   mutable std::optional<Run> last_;  ///< the last run that was found
 };

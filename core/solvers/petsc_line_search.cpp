@@ -26,8 +26,8 @@ Trial tryStep(SNESLineSearch search, double length) {
   return trial;
 }
 
-/// Halves the length until the residual is finite and the slope is smaller than at the start, as steps in a perfectly
-/// plastic solid can be far too long. (The point where the secant of the slope is 0 would be too far back.)
+/// Halves the length until the residual is finite and the slope is smaller than at the start, because steps in a
+/// perfectly plastic solid can be far too long. (The point where the secant of the slope is 0 would be too far back.)
 Trial chooseStep(SNESLineSearch search, double slopeAtStart) {
   Trial trial = tryStep(search, 1);
   while (!(trial.isFinite && std::abs(trial.slope) <= 0.8 * std::abs(slopeAtStart)) && trial.length > 1e-3)

@@ -44,7 +44,7 @@ void balance(Outcome& outcome, MatNullSpace free, Vec b) {
   check(MatNullSpaceRemove(free, b));
 }
 
-/// The tolerance for the residual over |b|. What rounding leaves is not asked for.
+/// The tolerance for the ratio of the residual to |b|. What rounding leaves is not asked for.
 double toleranceOf(const LinearProblem& problem, const LinearSettings& settings, Vec b) {
   PetscReal size = 0;
   check(VecNorm(b, NORM_2, &size));

@@ -64,7 +64,7 @@ class PetscOptionsOfSolve {
 /// A matrix of PETSc that is assembled block by block.
 class PetscMatrix : public Matrix {
  public:
-  /// An empty matrix with room for the entries that the unknowns declare, and with their null spaces.
+  /// An empty matrix with space for the entries that the unknowns declare, and with their null spaces.
   explicit PetscMatrix(const Unknowns& unknowns);
 
   void add(std::span<const int> rows, std::span<const int> columns, std::span<const double> values) override;
@@ -98,7 +98,7 @@ class Balance {
   explicit Balance(Vec b);
   /// Chooses S and scales the matrix.
   void scale(PetscMatrix& matrix);
-  /// Lets `krylov`, whose matrix has been scaled, take the unscaled b and return the unscaled x.
+  /// Makes `krylov`, whose matrix has been scaled, accept the unscaled b and return the unscaled x.
   void attach(KSP krylov);
 
  private:
@@ -138,7 +138,7 @@ class GhostedVector {
 /// Sets method, preconditioner and tolerances, then applies the options.
 void configure(KSP krylov, const LinearSettings& settings);
 
-/// Runs `work`, called by PETSc; an exception waits until PETSc has returned.
+/// Runs `work`, called by PETSc; an exception is stored until PETSc has returned.
 template <class Work>
 PetscErrorCode guarded(std::exception_ptr& thrown, Work&& work) {
   try {
@@ -154,13 +154,13 @@ PetscErrorCode guarded(std::exception_ptr& thrown, Work&& work) {
 /// a std::exception_ptr.
 PetscErrorCode searchAlongStep(SNESLineSearch search, void* context);
 
-/// Why a solve ended, in words, and PETSc's word for it.
+/// Why a solve ended, in words, and PETSc's name for the reason.
 std::string reasonOf(KSPConvergedReason reason);
 std::string reasonOf(SNES snes);
 /// The residual norms that a Krylov method has recorded.
 std::vector<double> residualsOf(KSP krylov);
 
-/// Number of the unknown with the largest residual; -1 if another rank owns it.
+/// Index of the unknown with the largest residual; -1 if another rank owns it.
 int worstOf(Vec residual);
 
 Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,

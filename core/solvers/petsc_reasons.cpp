@@ -16,7 +16,7 @@ const char* wordsOf(KSPConvergedReason reason) {
       return "the residual grows";
     case KSP_DIVERGED_BREAKDOWN:
     case KSP_DIVERGED_BREAKDOWN_BICG:
-      return "the Krylov method broke down, as happens when the matrix is singular";
+      return "the Krylov method broke down, which happens if the matrix is singular";
     case KSP_DIVERGED_NONSYMMETRIC:
       return "the matrix is not symmetric, which the method requires";
     case KSP_DIVERGED_INDEFINITE_PC:
@@ -24,9 +24,9 @@ const char* wordsOf(KSPConvergedReason reason) {
     case KSP_DIVERGED_INDEFINITE_MAT:
       return "the matrix is not positive definite, which the method requires";
     case KSP_DIVERGED_NANORINF:
-      return "a number became infinite or NaN";
+      return "a value became infinite or NaN";
     case KSP_DIVERGED_PC_FAILED:
-      return "the preconditioner could not be built, as happens when the matrix is singular";
+      return "the preconditioner could not be built, which happens if the matrix is singular";
     default:
       return "";
   }
@@ -39,7 +39,7 @@ const char* wordsOf(SNESConvergedReason reason) {
     case SNES_DIVERGED_FNORM_NAN:
       return "the residual became infinite or NaN";
     case SNES_DIVERGED_LINE_SEARCH:
-      return "no fraction of the last step reduces the residual";
+      return "no fraction of the last Newton step reduces the residual";
     case SNES_DIVERGED_FUNCTION_DOMAIN:
       return "the residual is undefined after the last step";
     default:

@@ -11,9 +11,9 @@ namespace tushar::solvers {
 
 // The results of a solve that a scene may save.
 inline constexpr data::ReductionLabel<data::Maximum> assemblyTime{"AssemblyTime", "s",
-                                                                  "filling the matrix of the last solve"};
-inline constexpr data::ReductionLabel<data::Maximum> preconditionerTime{"PreconditionerTime", "s",
-                                                                        "making the preconditioner of the last solve"};
+                                                                  "time to fill the matrix of the last solve"};
+inline constexpr data::ReductionLabel<data::Maximum> preconditionerTime{
+    "PreconditionerTime", "s", "time to build the preconditioner of the last solve"};
 inline constexpr data::ReductionLabel<data::Maximum> solveTime{"SolveTime", "s", "iterations of the last solve"};
 
 inline void addTimes(const Outcome& outcome, data::Maximum& assembly, data::Maximum& preconditioner,
@@ -23,15 +23,15 @@ inline void addTimes(const Outcome& outcome, data::Maximum& assembly, data::Maxi
   solve.add(outcome.solve);
 }
 
-/// The final residual over the largest during the solve; 0 if there was none.
+/// The ratio of the final residual to the largest during the solve; 0 if there was none.
 inline double remainderOf(const Outcome& outcome) {
   const double greatest =
       outcome.residuals.empty() ? 0 : *std::max_element(outcome.residuals.begin(), outcome.residuals.end());
   return greatest > 0 ? outcome.residuals.back() / greatest : 0;
 }
 
-/// The place of the largest residual, as the end of a sentence; the same on all ranks: `mine` [m] on the rank that has
-/// it.
+/// The position of the largest residual, as the end of a sentence, on all ranks; `mine` [m] is the position on the rank
+/// that has it.
 std::string worstPlace(const mpi::Communicator& ranks, const std::optional<Vec3>& mine, const std::string& what);
 
 }  // namespace tushar::solvers

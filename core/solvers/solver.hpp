@@ -15,12 +15,12 @@ struct Unknowns {
   const mpi::Communicator* ranks = &mpi::Communicator::alone();  ///< the ranks that solve together
   int block = 1;                                                 ///< number of unknowns per cell or node
   int owned = 0;                                                 ///< number of blocks of this rank
-  std::vector<int> ghosts;   ///< global numbers of the blocks of other ranks; blocks are numbered rank after rank
+  std::vector<int> ghosts;   ///< global indices of the blocks of other ranks; blocks are numbered rank by rank
   std::vector<int> entries;  ///< for each owned block row, the largest number of nonzero blocks
-  /// The positions of the owned blocks, `block` numbers each [m]: gives multigrid the rigid motions of a solid. Empty:
-  /// none.
+  /// The positions of the owned blocks, `block` numbers each [m]: provide the rigid-body modes of a solid to multigrid.
+  /// Empty: none.
   std::vector<double> coordinates;
-  bool constantIsFree = false;  ///< adding a constant gives another solution: mean 0 is taken
+  bool constantIsFree = false;  ///< adding a constant gives another solution: the one with mean 0 is chosen
 };
 
 /// A matrix that is being assembled.
@@ -48,7 +48,7 @@ struct Outcome {
   std::vector<double> residuals;  ///< residual norms at the start and after each iteration; for a nonlinear solve,
                                   ///< after each Newton iteration
   std::vector<double> krylovResiduals;  ///< those of the linear solve whose failure ended Newton's method, if one did
-  int worst = -1;  ///< number of the unknown with the largest residual at the end; -1: on another rank
+  int worst = -1;  ///< index of the unknown with the largest residual at the end; -1: on another rank
   double assembly = 0, setup = 0, solve = 0;  ///< time for matrix, preconditioner and iterations, s
   /// If a constant is free: the sum of b, which was subtracted before the solve, and that of |b|.
   double unbalanced = 0, loads = 0;
@@ -114,7 +114,7 @@ std::string petscVersion();
 /// The solver; loads PETSc at the first call. Throws std::runtime_error where the library is missing.
 const Solver& solver();
 
-/// A sentence that `what` did not converge, with the history of the residuals and the reason.
+/// A message that `what` did not converge, with the history of the residuals and the reason.
 std::string sentenceOf(const std::string& what, const Outcome& outcome);
 
 }  // namespace tushar::solvers

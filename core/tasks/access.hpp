@@ -12,7 +12,7 @@ namespace tushar::tasks {
 /// The patches of a rank, in the order of their ids.
 using RankPatches = std::vector<const grid::Patch*>;
 
-/// An access as an argument of a task: it declares what is used, and becomes one parameter of the body.
+/// An access as an argument of a task: it declares the use of a variable, and becomes one parameter of the body.
 template <class Label, AccessKind Kind>
 struct FieldAccess;
 
@@ -62,7 +62,8 @@ struct PlainArgument {
   const T& bind(const TaskContext&) const { return value; }
 };
 
-/// For a task that runs once per rank: passes the ranks that run it together, that is, all with patches.
+/// For a task that runs once per rank: passes the communicator of the ranks that run it together, which are those with
+/// patches.
 struct RanksArgument {
   void declare(std::vector<Access>&) {}
   const mpi::Communicator& bind(const TaskContext& context) const { return context.ranks(); }
@@ -72,7 +73,8 @@ inline RanksArgument togetherOnRanks() { return {}; }
 /// The patches of a task that runs once per rank.
 RankPatches patchesOf(const TaskContext& context);
 
-/// Reads the state at the start of the step: a view of const T over the patch and `ghost` cells or nodes beyond it.
+/// Reads the state at the start of the step: a view of const T over the patch and `ghost` layers of cells or nodes
+/// around it.
 template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::requiresOld> requiresOld(const data::FieldLabel<C, T>& label,
                                                                          int ghost = 0) {
@@ -83,7 +85,8 @@ template <class R>
 FieldAccess<data::ReductionLabel<R>, AccessKind::requiresOld> requiresOld(const data::ReductionLabel<R>& label) {
   return {&label};
 }
-/// Reads what an earlier task computed: a view of const T over the patch and `ghost` cells or nodes beyond it.
+/// Reads values that an earlier task computed: a view of const T over the patch and `ghost` layers of cells or nodes
+/// around it.
 template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::requiresOld> requiresNew(const data::FieldLabel<C, T>& label,
                                                                          int ghost = 0) {
@@ -100,17 +103,17 @@ template <class T>
 FieldAccess<data::NodeLabel<T>, AccessKind::computes> computesOwn(const data::NodeLabel<T>& label) {
   return {&label, 0, true};
 }
-/// Adds to a number over the whole grid: a reference to the reducer R.
+/// Contributes to a value for the whole grid: a reference to the reducer R.
 template <class R>
 FieldAccess<data::ReductionLabel<R>, AccessKind::computes> computes(const data::ReductionLabel<R>& label) {
   return {&label};
 }
-/// Changes what an earlier task computed: a view of T.
+/// Changes values that an earlier task computed: a view of T.
 template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::modifies> modifies(const data::FieldLabel<C, T>& label) {
   return {&label};
 }
-/// Gives the new particles their values: a std::vector<T> to append to, in the order of ParticleMaker::add.
+/// Sets the values of the new particles: a std::vector<T> to append to, in the order of ParticleMaker::add.
 template <class T>
 FieldAccess<data::ParticleLabel<T>, AccessKind::creates> creates(const data::ParticleLabel<T>& label) {
   return {&label};
@@ -126,12 +129,13 @@ struct OptionalAccess {
   }
   auto bind(const TaskContext& context) const { return on ? std::optional(access.bind(context)) : std::nullopt; }
 };
-/// An access that is declared only if `on`: the body gets a std::optional view.
+/// An access that is declared only if `on` is true: the body gets a std::optional view.
 template <class Label, AccessKind Kind>
 OptionalAccess<FieldAccess<Label, Kind>> when(bool on, FieldAccess<Label, Kind> access) {
   using View = decltype(access.bind(std::declval<const TaskContext&>()));
-  static_assert(!std::is_reference_v<View>,
-                "when(...) takes accesses that become views; a reducer or a list of new values cannot be optional");
+  static_assert(
+      !std::is_reference_v<View>,
+      "when(...) accepts only accesses that become views; a reducer or a list of new values cannot be optional");
   return {on, access};
 }
 
@@ -152,7 +156,7 @@ OfferedAccess<FieldAccess<data::FieldLabel<C, T>, AccessKind::computes>> offers(
   return {{&label, 0, false, true}};
 }
 
-/// The fluxes of a variable of cells through the faces at which the patch's level ends.
+/// The fluxes of a cell variable through the faces at which the level of the patch ends.
 template <class T>
 struct FluxAccess {
   const data::CellLabel<T>* label;
@@ -165,13 +169,13 @@ struct FluxAccess {
     return context.isWanted(index) ? context.flux<T>(index) : data::RimFlux<T>();
   }
 };
-/// Keeps the fluxes of a variable at faces where the patch's level ends, so that the framework can make the fluxes of
-/// both levels equal: a RimFlux<T>, to which the body adds the amount of the variable per area and time through each
-/// face, along the axis. Where there is one level it is empty. For `computes` or `modifies` tasks of
+/// Stores the fluxes of a variable at faces where the level of the patch ends, so that the framework can make the
+/// fluxes of both levels equal: a RimFlux<T>, to which the body adds the amount of the variable per area and time
+/// through each face, along the axis. Where there is one level it is empty. For `computes` or `modifies` tasks of
 /// scheduleTimeAdvance whose change of a cell is dt times the difference of such fluxes over h.
 template <class T>
 FluxAccess<T> keepsFlux(const data::CellLabel<T>& label) {
-  static_assert(data::Stored<T>::number == data::Number::real, "keepsFlux(...) takes labels of real numbers");
+  static_assert(data::Stored<T>::number == data::Number::real, "keepsFlux(...) accepts only labels of real numbers");
   return {&label};
 }
 
@@ -226,7 +230,7 @@ struct WithoutMaterial {
 /// single group. perMaterial may only read such variables.
 template <class Argument>
 WithoutMaterial<Argument> withoutMaterial(Argument argument) {
-  static_assert(isOfMaterialAndPatch<Argument>, "withoutMaterial(...) takes an access to a variable of a patch");
+  static_assert(isOfMaterialAndPatch<Argument>, "withoutMaterial(...) accepts only an access to a variable of a patch");
   return {std::move(argument)};
 }
 template <class Argument>

@@ -8,7 +8,7 @@
 
 namespace tushar::tasks {
 
-/// Stands for a view while a group only declares its accesses.
+/// Placeholder for a view while a group only declares its accesses.
 template <class View>
 struct Blank {
   static View make() { return View{}; }
@@ -40,9 +40,11 @@ class DeclareEach {
 
   template <class Argument>
   decltype(auto) operator()(Argument argument) const {
-    static_assert(isOfLabel<Argument>,
-                  "take(...) takes accesses to labels; give a group other values as settings, all<Group>(value)");
-    static_assert(makesParticles || !isCreation<Argument>, "creates(...) belongs to newParticles, also in a group");
+    static_assert(
+        isOfLabel<Argument>,
+        "take(...) accepts only accesses to labels; pass other values to a group as settings, all<Group>(value)");
+    static_assert(makesParticles || !isCreation<Argument>,
+                  "creates(...) is allowed only in newParticles, even in a group");
     argument.declare(*accesses_);
     return Blank<decltype(argument.bind(std::declval<const TaskContext&>()))>::make();
   }

@@ -53,13 +53,13 @@ std::string textOf(const double* numbers, int count) {
   return count == 1 ? text : "(" + text + ")";
 }
 
-/// The order of values: by number of cell or node, and by id.
+/// The order of values: by index of the cell or node, then by id.
 using Order = std::array<std::uint64_t, 2>;
 
 /// The result of a search through all values of a variable.
 struct Found {
   long seen = 0, broken = 0;
-  Order first{};  ///< place of the first invalid value
+  Order first{};  ///< position of the first invalid value
   int patch = 0;
   Index3 at;
 
@@ -262,7 +262,7 @@ class Search {
   const Label& label_;
   int material_;
   Found found_;
-  std::size_t place_ = 0;  ///< place in memory, on the rank that has it
+  std::size_t place_ = 0;  ///< index in memory, on the rank that has it
 };
 
 }  // namespace

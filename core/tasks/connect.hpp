@@ -14,7 +14,7 @@ struct Dependency {
   friend bool operator==(const Dependency&, const Dependency&) = default;
 };
 
-/// Step 3 of compiling: orders the tasks by what they read and write.
+/// Step 3 of compiling: orders the tasks by the variables that they read and write.
 ///
 /// A reader follows the last writer of its variable, a writer follows the last writer and all readers since.
 /// The order of the list breaks ties, so that every rank derives the same graph.

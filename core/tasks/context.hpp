@@ -15,7 +15,7 @@ namespace tushar::tasks {
 
 /// A declared access of a placed task: its variable, and the set whose slots its particles are in.
 struct BoundAccess {
-  int variable = -1;  ///< -1 for an offered output that is left out
+  int variable = -1;  ///< -1 for an omitted offered output
   data::Generation generation = data::Generation::fresh;
   data::Generation set = data::Generation::old;  ///< the particle set to which the values belong
   int ghost = 0;
@@ -57,7 +57,7 @@ class TaskContext {
   data::Variable variable(int access) const;
   /// The faces at which the patch meets other levels.
   const std::vector<grid::RimPiece>& rims() const { return warehouse_->grid().rims(patch_->id()); }
-  /// The cells of the patch that regridding has just made from coarser ones.
+  /// The cells of the patch that regridding has just refined.
   const std::vector<grid::Box>& newCells() const { return warehouse_->grid().newCells(patch_->id()); }
   template <class T>
   data::RimFlux<T> flux(int access) const {

@@ -249,7 +249,7 @@ void Exchange::shareFaces(int variable, Generation set) {
   });
 }
 
-/// Links the sets of all patches to the particles around them that other patches of this rank have.
+/// Links the sets of all patches to the particles around them that belong to other patches of this rank.
 void Exchange::linkLocalGhosts(const BoundGhostFill& fill) {
   const int material = warehouse_->table()[fill.variable].material;
   const std::vector<Patch>& patches = warehouse_->grid().patches();
@@ -271,7 +271,7 @@ void Exchange::linkLocalGhosts(const BoundGhostFill& fill) {
   threads_->forEach(static_cast<int>(patches.size()), link, trace::Kind::message);
 }
 
-/// Gives places to copies of ghosts: of periodic images on this rank, and of particles from other ranks.
+/// Assigns indices to copies of ghosts: of periodic images on this rank, and of particles from other ranks.
 void Exchange::placeGhostCopies(const BoundGhostFill& fill, ReceivedMessages* messages) {
   if (!messages && !warehouse_->grid().level().isPeriodic()) return;
   const int material = warehouse_->table()[fill.variable].material;

@@ -25,8 +25,8 @@ class Exchange {
   Exchange(data::Warehouse& warehouse, Threads& threads)
       : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()), near_(warehouse, threads) {}
 
-  /// Fills the ghosts of variables in three parts; which particles are ghosts is determined on first use of their set.
-  /// All ranks run them for the same fills in the same order, all three of one before the next.
+  /// Fills the ghosts of variables in three parts; the set of ghost particles is determined on its first use. All ranks
+  /// run them for the same fills in the same order, all three of one before the next.
   ///
   /// From now on only patches of a level get ghosts, from coarser cells as they are at a part of their step; -1: those
   /// of all levels, from old values.
@@ -36,7 +36,7 @@ class Exchange {
   }
   /// Posts messages. A rank on which a task failed says so in place of its values (`hasStopped`).
   void send(std::span<const BoundGhostFill> fills, bool hasStopped);
-  /// Sends messages, and fills the ghosts that need none from other ranks, unless a task has failed.
+  /// Sends messages, and fills the ghosts that need no messages from other ranks, unless a task has failed.
   void begin(bool hasStopped);
   /// Waits for the messages of other ranks, and fills the remaining ghosts. False if another rank has stopped; then
   /// nothing more is filled, and this rank must stop too, before it reads values that are missing.
@@ -50,9 +50,9 @@ class Exchange {
   /// Copies the new values of a node variable between patches of this rank, from owners to patches that share the node;
   /// `set` contains the particles near which the values are defined, if this matters.
   void shareFaces(int variable, data::Generation set);
-  /// To be called when a list begins, and after tasks that change particles.
+  /// Must be called when a list begins, and after tasks that change particles.
   void forgetParticles() { near_.forget(); }
-  /// To be called when the distribution of patches has changed.
+  /// Must be called when the distribution of patches has changed.
   void forgetLayout() {
     plans_.forget();
     faces_.clear();

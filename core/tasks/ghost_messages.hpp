@@ -12,7 +12,7 @@
 
 namespace tushar::tasks {
 
-/// One ghost fill of a variable, by the variable's number.
+/// One ghost fill of a variable, by the index of the variable.
 struct BoundGhostFill {
   int variable;
   data::Generation generation;
@@ -47,9 +47,9 @@ class Packer {
       : warehouse_(warehouse), fill_(fill), name_(warehouse.table()[fill.variable]), part_(part), message_(message) {}
 
   void addGrid(const GhostCopy& copy);
-  /// Packs only rows of nodes near particles: their number, and the place, length and values of each.
+  /// Packs only rows of nodes near particles: their number, and the position, length and values of each.
   void addNear(const GhostCopy& copy, const data::TouchedRows& rows);
-  /// Packs the numbers of particles: how many cells have any, and the place and number for each.
+  /// Packs the numbers of particles: the number of cells that contain any, and the position and number for each.
   void addCounts(const GhostCopy& copy);
   void addParticles(const GhostCopy& copy);
 
@@ -71,11 +71,11 @@ class ReceivedMessages {
   void add(int from, mpi::Bytes bytes) { messages_[from] = {std::move(bytes), 0}; }
   /// The next `length` bytes of the message from a rank.
   const std::byte* next(int from, std::size_t length);
-  /// The cells packed by addCounts, with the places of their particles among those of the copy.
+  /// The cells packed by addCounts, with the indices of their particles among those of the copy.
   std::vector<std::pair<Index3, data::ParticleRange>> takeCounts(const GhostCopy& copy);
   /// Whether a rank has stopped, according to its message.
   bool readStopped(int from) { return *next(from, 1) != std::byte{0}; }
-  /// Copies the values packed by addGrid or addNear, of `bytes` bytes each, to their places.
+  /// Copies the values packed by addGrid or addNear, of `bytes` bytes each, to their positions.
   void takeGrid(const GhostCopy& copy, std::size_t bytes, const CellValues& to);
   void takeNear(const GhostCopy& copy, std::size_t bytes, const CellValues& to);
 

@@ -23,7 +23,7 @@ void forEachPartOutside(Box box, const Box& hole, Visit&& visit) {
   }
 }
 
-/// The nodes that other patches take from a patch: a node between patches comes from the upper one. On an image the
+/// The nodes that other patches copy from a patch: a node between patches comes from the upper one. On an image the
 /// last node of a periodic axis is left to the next image.
 Box nodesGiven(const Patch& patch, const Index3& shift) {
   const Level& level = patch.level();

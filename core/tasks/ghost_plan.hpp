@@ -58,14 +58,14 @@ constexpr int fewestCellsOfBlock(int width) { return 2 * std::max(width, (width 
 /// Each ghost comes from one patch, or from the coarser cells around it.
 GhostPlan planGhosts(const grid::Grid& grid, const GhostReach& reach);
 
-/// By patch of this rank, copies of the nodes that it has but does not own, from their owners.
+/// By patch of this rank: copies of its nodes that it does not own, from their owners.
 std::vector<std::vector<GhostCopy>> planFaces(const grid::Grid& grid);
 
-/// The plans of a layout, each made when it is first needed.
+/// The plans for a layout, each made when it is first needed.
 class GhostPlans {
  public:
   const GhostPlan& of(const grid::Grid& grid, GhostReach reach);
-  /// To be called when the distribution of patches has changed.
+  /// Must be called when the distribution of patches has changed.
   void forget() { plans_.clear(); }
 
  private:

@@ -11,12 +11,12 @@ namespace tushar::tasks {
 /// Whether this rank has memory for a cell variable.
 bool isHeld(data::Warehouse& warehouse, data::Generation generation, int variable);
 
-/// The memory of a cell variable on a patch of this rank, ghosts included.
+/// The memory of a cell variable on a patch of this rank, including ghosts.
 std::span<std::byte> valuesOn(data::Warehouse& warehouse, data::Generation generation, int variable,
                               const grid::Patch& patch);
 
-/// Copies of the old values of cell variables on all levels except the coarsest, from the time of its construction, as
-/// they are overwritten while the coarsest level still makes its step.
+/// Copies of the old values of cell variables on all levels except the coarsest, from the time of construction, because
+/// they are overwritten during the step of the coarsest level.
 class KeptLevels {
  public:
   KeptLevels(data::Warehouse& warehouse, const std::vector<int>& variables);

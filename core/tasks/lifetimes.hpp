@@ -7,8 +7,8 @@
 
 namespace tushar::tasks {
 
-/// Step 6 of compiling: `lifetimes[t]` names the new variables whose memory is free once task t is done: those whose
-/// last reader it was, and those it wrote that nothing reads.
+/// Step 6 of compiling: `lifetimes[t]` lists the new variables whose memory is freed after task t: those that it was
+/// the last to read, and those that it wrote but that nothing reads.
 std::vector<std::vector<std::string>> lifetimes(const Pruned& pruned);
 
 }  // namespace tushar::tasks

@@ -47,8 +47,8 @@ struct NewCellsAccess {
   void declare(std::vector<Access>&) {}
   const std::vector<grid::Box>& bind(const TaskContext& context) const { return context.newCells(); }
 };
-/// Passes the body the boxes of the cells that regridding has made from coarser ones: a const std::vector<Box>&.
-/// For tasks of Component::scheduleRefine.
+/// Passes the boxes of the newly refined cells to the body: a const std::vector<Box>&. For tasks of
+/// Component::scheduleRefine.
 inline NewCellsAccess newCells() { return {}; }
 
 }  // namespace tushar::tasks

@@ -10,8 +10,8 @@
 
 namespace tushar::tasks {
 
-/// The nodes of this rank's patches that are near particles: patches exchange no others of variables that are defined
-/// only there (data::Counts::nearParticles).
+/// The nodes of this rank's patches that are near particles: for variables that are defined only there
+/// (data::Counts::nearParticles), patches exchange no other nodes.
 ///
 /// A patch that computes a node sees all particles that touch it, so it alone can decide whether any does. Where ghosts
 /// of particles are not settled, all nodes count as near.
@@ -30,7 +30,7 @@ class NearRows {
   const data::TouchedRows& of(data::Generation set, int material, int patch) const {
     return *rows_.at({set, material})[patch - warehouse_->grid().firstPatch()];
   }
-  /// To be called when particles have been replaced or have moved.
+  /// Must be called when particles have been replaced or have moved.
   void forget() {
     rows_.clear();
     whole_.clear();

@@ -15,8 +15,9 @@ namespace tushar::tasks {
 ///
 /// A task that shortens the time step comes before one that breaks a bound, since what it computed is not used.
 struct Outcome {
-  /// If a task has several faults, the first in this order is kept, so that patches and ranks do not matter: first
-  /// those that bodies throw, by cell, then broken bounds, by the place of the variable among those of the task.
+  /// If a task has several faults, the first in this order is reported, which does not depend on patches and ranks:
+  /// first exceptions of bodies, by cell, then violated bounds, by the position of the variable among those of the
+  /// task.
   enum class Kind { shortensStep, throws, breaks };
   static constexpr int none = std::numeric_limits<int>::max();
 

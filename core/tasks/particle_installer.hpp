@@ -8,7 +8,7 @@
 
 namespace tushar::tasks {
 
-/// Installs the particles that a task has made on all patches of a rank as those of a material.
+/// Installs the new particles that a task has made on all patches of a rank as those of a material.
 class ParticleInstaller {
  public:
   using Work = std::function<void(const grid::Patch&, ParticleMaker&)>;
@@ -19,7 +19,7 @@ class ParticleInstaller {
 
   /// First, installs the particle sets, which then have slots.
   void makeSets(const OnPatches& onPatches);
-  /// Then installs the values of a created label, or drops those of a label that nothing reads.
+  /// Then installs the values of a created label, or discards those of a label that nothing reads.
   void write(int number, std::size_t access, bool isRead, const OnPatches& onPatches);
   void writeIds(const OnPatches& onPatches);
 

@@ -18,9 +18,10 @@ std::vector<std::size_t> ParticleMaker::sortedOrder(const grid::Patch& patch) co
     offsets[k] = patch.cells().offset(cells_[k]);
   }
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  const auto comesBefore = [&](std::size_t a, std::size_t b) {
     return offsets[a] != offsets[b] ? offsets[a] < offsets[b] : ids_[a] < ids_[b];
-  });
+  };
+  if (!std::is_sorted(order.begin(), order.end(), comesBefore)) std::sort(order.begin(), order.end(), comesBefore);
   return order;
 }
 
@@ -38,15 +39,17 @@ void ParticleMaker::makeSet(data::ParticleSet& set, const grid::Patch& patch, in
 
 void ParticleMaker::check(std::size_t access, const data::Label& label) const {
   if (columns_[access]->size() != ids_.size())
-    throw data::AccessError(
-        fmt::format("{} got {} values for {} particles made", label.name, columns_[access]->size(), ids_.size()));
+    throw data::AccessError(fmt::format("{} has {} values, but {} new particles were made", label.name,
+                                        columns_[access]->size(), ids_.size()));
 }
 
 void ParticleMaker::write(std::size_t access, const data::Label& label, std::byte* to) {
   check(access, label);
   const std::byte* values = columns_[access]->bytes();
-  for (std::size_t k = 0; k < order_.size(); ++k)
-    std::memcpy(to + k * label.bytes, values + order_[k] * label.bytes, label.bytes);
+  for (std::size_t k = 0, end = 0; k < order_.size(); k = end) {  // particles that were added in this order together
+    for (end = k + 1; end < order_.size() && order_[end] == order_[end - 1] + 1;) ++end;
+    std::memcpy(to + k * label.bytes, values + order_[k] * label.bytes, (end - k) * label.bytes);
+  }
   columns_[access].reset();
 }
 

@@ -67,7 +67,7 @@ class ParticleMaker {
   bool keeps_all_ = false;
   std::vector<Index3> cells_;
   std::vector<ParticleId> ids_;
-  std::vector<std::size_t> order_;  ///< for each place in the set, the index among the added particles
+  std::vector<std::size_t> order_;  ///< for each index in the set, the index among the added particles
   std::vector<std::unique_ptr<ColumnBase>> columns_;  ///< by access
 };
 

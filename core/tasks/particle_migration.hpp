@@ -18,7 +18,7 @@ struct Carried {
 struct MigratingParticle {
   ParticleId id;
   Index3 cell;       ///< its new cell
-  int patch, place;  ///< its previous patch and place
+  int patch, place;  ///< its previous patch and index
 };
 
 /// Migrates particles between ranks with all their values, in one message to each neighbour.
@@ -32,7 +32,7 @@ class ParticleMigration {
 
   explicit ParticleMigration(data::Warehouse& warehouse) : warehouse_(&warehouse), outbox_(warehouse.ranks()) {}
 
-  /// To be called when the distribution of patches has changed, and with it the neighbours.
+  /// Must be called when the distribution of patches has changed, and with it the neighbours.
   void forgetLayout();
   /// Starts a relocation: no particle leaves yet.
   void start();
@@ -40,8 +40,8 @@ class ParticleMigration {
   /// Whether a particle migrates to a rank that is not a neighbour.
   bool goesFar();
 
-  /// Exchanges migrating particles and all their carried values with all ranks or, if `goFar` is false, with the
-  /// neighbours only.
+  /// Exchanges migrating particles and all their carried values with all ranks or, if `goFar` is false, only with the
+  /// neighbours.
   void run(const std::vector<Carried>& carried, bool goFar);
   /// The particles that have arrived.
   const std::vector<MigratingParticle>& arrived() const { return arrived_; }

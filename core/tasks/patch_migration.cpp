@@ -21,8 +21,8 @@ using mpi::Bytes;
 
 namespace {
 
-/// Packs the values of patches: the particles of all patches by cell, then each variable, preceded by a byte that tells
-/// whether it has values.
+/// Packs the values of patches: the particles of all patches by cell, then each variable, preceded by a byte that is
+/// set if it has values.
 class PatchPacker {
  public:
   PatchPacker(data::Warehouse& warehouse, const MigratedVariables& migrated)

@@ -19,7 +19,7 @@ std::vector<Generation> particleSetsBefore(const std::vector<Task>& tasks) {
 
 namespace {
 
-/// Required ghosts: their values are complete after task `ready` (-1: from the start), and first read by `reader`.
+/// Required ghosts: their values are complete after task `ready` (-1: from the start), and are first read by `reader`.
 struct Need {
   GhostFill fill;
   int ready;

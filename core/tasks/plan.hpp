@@ -28,7 +28,7 @@ struct Stage {
 /// The particle set of each access: the old one until the list relocates or makes particles, then the new one.
 std::vector<data::Generation> particleSetsBefore(const std::vector<Task>& tasks);
 
-/// Step 5 of compiling: `plan[t]` is what is exchanged before task t.
+/// Step 5 of compiling: `plan[t]` lists the exchanges before task t.
 ///
 /// Ghosts of the old state are filled once, before the first task that needs any. Ghosts of new values are filled
 /// before their first reader, or with an earlier exchange if they are complete by then.

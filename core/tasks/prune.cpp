@@ -58,13 +58,13 @@ std::vector<Task> select(const std::vector<Task>& tasks, const std::vector<bool>
   return selected;
 }
 
-/// Leaves out the offered outputs of a task that nothing reads after it.
+/// Omits the offered outputs of a task that nothing reads after it.
 void leaveOutOffers(Task& task, const Names& liveAfter) {
   for (Access& access : task.accesses)
     if (access.offered && !liveAfter.contains(access.label->name)) access.kind = AccessKind::leftOut;
 }
 
-/// Particle variables that the list does not compute before it relocates, but needs afterwards.
+/// Particle variables that the list does not compute before a relocation, but needs afterwards.
 Names carriedFromState(const std::vector<Task>& tasks, const Sweep& swept) {
   Names carried, produced;
   for (std::size_t t = 0; t < tasks.size(); ++t) {

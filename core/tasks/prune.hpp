@@ -17,14 +17,14 @@ struct LeftOut {
 struct Pruned {
   std::vector<Task> kept;
   std::vector<LeftOut> leftOut;
-  /// Variables that must exist at the end: the wanted ones and, if the list is repeated, those that it reads from the
-  /// previous run.
+  /// Variables that must exist at the end: the requested ones and, if the list is repeated, those that it reads from
+  /// the previous run.
   Names needed;
   /// `liveAfter[t]`: variables of the current step that are read after kept task t.
   std::vector<Names> liveAfter;
 };
 
-/// Step 2 of compiling: leaves out each task whose results do not contribute to a wanted variable, and each offered
+/// Step 2 of compiling: omits each task whose results do not contribute to a requested variable, and each offered
 /// output of kept tasks that nothing reads (AccessKind::leftOut).
 ///
 /// `wanted` names what others read at the end of the list: saved variables, the state that other lists require,

@@ -11,7 +11,7 @@ namespace {
 /// Accesses of the task that changes a variable: the fluxes or their register, the variable, the time step.
 enum { fluxes, variable, timeStep };
 
-/// U += ± dt (F - mean of the finer F) / h; `dt` is 1 where the register has dt F.
+/// U += ± dt (F - mean of the finer F) / h; `dt` is 1 if the register contains dt F.
 void reflux(const TaskContext& context, int components, double dt) {
   const grid::Patch& patch = context.patch();
   const data::Variable rim = context.variable(fluxes), cells = context.variable(variable);
@@ -28,7 +28,7 @@ void reflux(const TaskContext& context, int components, double dt) {
   }
 }
 
-/// A variable with kept fluxes, and its materials, which are empty if it belongs to none.
+/// A variable with stored fluxes, and its materials, which are empty if it belongs to none.
 struct Flowing {
   const data::Label* label;
   std::vector<std::string> materials;
@@ -94,7 +94,7 @@ Task refluxTaskOfSteps(const Flowing& flowing) {
   return task;
 }
 
-/// The list in which the first task that keeps the fluxes of a variable sets them, and the others add to them. Calls
+/// The list in which the first task that stores the fluxes of a variable sets them, and the others add to them. Calls
 /// `behind(list, flowing)` after the last one.
 template <class Behind>
 TaskList withTasksBehindFluxes(const TaskList& list, const Behind& behind) {

@@ -6,8 +6,8 @@
 
 namespace tushar::tasks {
 
-/// The list with a task after the last one that keeps the fluxes of a variable, for each such variable: in a coarse
-/// cell beside finer ones, the flux through the face between them becomes the mean of the finer ones,
+/// Adds a task to the list for each variable whose fluxes are kept, after the last task that keeps them. In a coarse
+/// cell next to finer ones, it replaces the flux through the face between them by the mean of the finer fluxes,
 ///
 ///     U += ± dt / h (F - mean of the finer F),  + at upper faces,
 ///
@@ -22,7 +22,7 @@ inline constexpr data::ReductionLabel<data::Minimum> partOfStep{
 /// The lists of a step in which finer levels take several smaller steps.
 struct SteppedByLevel {
   /// The step of a level: after the last task that keeps the fluxes of a variable, a task adds the fluxes times the
-  /// step to a register, which sums over all steps within one of the next coarser level.
+  /// step to a register, which sums over all steps within one step of the next coarser level.
   TaskList advance;
   /// Runs on the coarser level after those steps: U += ± 1 / h (dt F - mean of the sums of dt F of the finer level).
   TaskList reflux;

@@ -114,7 +114,7 @@ void unpack(const data::Label& label, const Piece& piece, const Variable& to, co
   });
 }
 
-/// The variables that move, and their packing; particles are on the finest level only, and stay there.
+/// The variables that move, and their packing; particles are on the finest level only, and remain there.
 class Luggage {
  public:
   Luggage(data::Warehouse& warehouse, const MigratedVariables& variables)
@@ -155,7 +155,7 @@ class Luggage {
       forEachRange(piece, piece.from, number,
                    [&](std::byte* values, std::size_t length) { mpi::append(to, values, length); });
   }
-  /// Reads the counts; sets need all counts before particles get their places.
+  /// Reads the counts; sets need all counts before particles get their indices.
   void unpackCounts(const Piece& piece, const std::byte*& from) const {
     forEachSet(piece, piece.to, [&](ParticleSet& set) {
       grid::forEach<3>(piece.box, [&](const Index3& cell) {
@@ -197,7 +197,7 @@ class Luggage {
       for (const grid::Patch& patch : warehouse_.grid().patches())
         warehouse_.particles(Generation::old, material, patch.id()).reset(patch, warehouse_.table().reach(material));
   }
-  /// Gives the particles of each patch their places, cell after cell.
+  /// Assigns indices to the particles of each patch, cell by cell.
   void endSets() const {
     for (int material = 0; material < materials_; ++material)
       for (const grid::Patch& patch : warehouse_.grid().patches()) {
@@ -260,7 +260,7 @@ std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, co
   return parts;
 }
 
-/// The shares of ranks that cost the same; nothing if there are only cells, which are shared by number.
+/// A distribution with equal costs on all ranks; none if there are only cells, which are distributed by number.
 grid::RankOffsets sharesOf(const grid::Grid& grid, const grid::BlockTiling& next, const mpi::Communicator& ranks,
                            const Luggage& luggage, const PatchCosts& costs) {
   if (ranks.isAlone() || !luggage.hasMaterials()) return {};

@@ -15,6 +15,18 @@
 
 namespace tushar::tasks {
 
+/// Numbers of particles that are no longer in a run.
+struct LostParticles {
+  long left = 0;     ///< through free faces of the grid, from this rank
+  long removed = 0;  ///< from all ranks, where they could not be continued (`data::removed`)
+
+  LostParticles& operator+=(const LostParticles& other) {
+    left += other.left;
+    removed += other.removed;
+    return *this;
+  }
+};
+
 /// Assigns particles and their variables to the cells and patches of their new positions, in the order (cell, id).
 ///
 /// Keeps its working memory from step to step. Finding the moves, which may fail, is separate from making them: if
@@ -35,17 +47,17 @@ class Relocation {
   /// to it, in generation `to`. What is in that generation already moves within its memory. All ranks run it together.
   void apply(int material, const std::vector<Carried>& carried, data::Generation to);
 
-  /// To be called when the distribution of patches has changed.
+  /// Must be called when the distribution of patches has changed.
   void forgetLayout();
 
   /// Starts a step, possibly again.
-  void start() { leaving_ = 0; }
+  void start() { losing_ = {}; }
   /// Accepts the moves of the step.
-  void commit() { dropped_ += std::exchange(leaving_, 0); }
-  /// Number of particles that have left the grid from this rank since the start.
-  long dropped() const { return dropped_; }
-  /// Continues the count of another run.
-  void setDropped(long dropped) { dropped_ = dropped; }
+  void commit() { lost_ += std::exchange(losing_, {}); }
+  /// Particles lost since the start.
+  const LostParticles& lost() const { return lost_; }
+  /// Continues the count of another run; on all ranks.
+  void setLost(const LostParticles& lost) { lost_ = lost; }
   /// Advice for a particle that comes too close to coarser cells.
   void setAdviceNearCoarser(std::string advice) { advice_near_coarser_ = std::move(advice); }
 
@@ -64,9 +76,9 @@ class Relocation {
   struct Outgoing {
     ParticleId id;
     Index3 cell;
-    int from, departed;  ///< previous place, and index among the departed
+    int from, departed;  ///< previous index, and index among the departed
   };
-  /// A particle at an invalid place; if there are several, the first by cell and id.
+  /// A particle at an invalid position; if there are several, the first by cell and id.
   struct Escape {
     std::uint64_t cell;
     ParticleId id;
@@ -79,19 +91,21 @@ class Relocation {
     bool hasStopped, hasEscape, goFar;
     int rank;  ///< rank of the escaped particle
     Escape escape;
+    long removed = 0;  ///< particles of all ranks
 
     void merge(const Verdict& other);
   };
-  /// Particles that stay in their cells, consecutive before and after: `count` from place `from` on come to `to`.
+  /// Particles that stay in their cells, consecutive before and after: `count` particles move from index `from` to
+  /// index `to`.
   struct Run {
     int to, from, count;
   };
-  /// An incoming particle, and its new place.
+  /// An incoming particle, and its new index.
   struct Entry {
     int to, incoming;
   };
   struct PatchMoves {
-    std::vector<int> departed;       ///< places of the patch's particles that leave their cell, ascending
+    std::vector<int> departed;       ///< indices of the patch's particles that leave their cell, ascending
     std::vector<Outgoing> outgoing;  ///< those of them that move to other patches
     std::vector<Incoming> incoming;  ///< particles that enter a cell of the patch
     std::vector<Arrival> arrivals;
@@ -102,9 +116,9 @@ class Relocation {
     std::size_t packed = 0;          ///< index of the first departed particle among those of all patches
     int count = 0;                   ///< number of particles in the new set
     std::optional<Escape> escape;
-    long leaving = 0;  ///< number that leave through free faces of the grid
+    LostParticles losing;
 
-    /// Whether the patch keeps all its particles where they are.
+    /// Whether all particles of the patch keep their indices.
     bool staysAsItIs(data::Generation to) const {
       return to == data::Generation::old && departed.empty() && incoming.empty();
     }
@@ -116,7 +130,7 @@ class Relocation {
     std::vector<PatchMoves> patches;
     ParticleMigration migration;
     bool goFar = false;
-    int id = -1;               ///< number of the variable of ids, once it is known
+    int id = -1;               ///< index of the variable of ids, once it is known
     std::size_t departed = 0;  ///< number of particles that leave their cells, on all patches
   };
   /// A variable in transit: its memory before and after on each patch, and the values of departed particles.
@@ -139,7 +153,7 @@ class Relocation {
     });
   }
   Moves& movesOf(int material);
-  /// The number of the variable of a material's ids.
+  /// The index of the variable with the ids of a material.
   int idOf(int material);
   PatchMoves& of(Moves& moves, int patch) { return moves.patches[patch - warehouse_->grid().firstPatch()]; }
   static void forgetIncoming(const grid::Patch& patch, PatchMoves& moves);
@@ -154,7 +168,7 @@ class Relocation {
   /// Sorts the particles that left their patch into those that escaped, left the grid, or migrate to another rank.
   Verdict gather(Moves& moves, bool hasStopped);
   [[noreturn]] void refuseEscape(int position, const Verdict& verdict) const;
-  /// The error for a particle at an invalid place.
+  /// The error for a particle at an invalid position.
   template <int D>
   NumericalError refusal(int position, const Escape& escape) const;
   /// Passes particles to the patches that they enter.
@@ -163,7 +177,7 @@ class Relocation {
   void rebuild(const grid::Patch& patch, int material, PatchMoves& moves);
   static void keepAll(PatchMoves& moves, int count);
   static void keep(PatchMoves& moves, int first, int count);
-  /// Appends the cells from `from` to `end` up to the first that particles leave or enter, notes the places in `to`,
+  /// Appends the cells from `from` to `end` up to the first that particles leave or enter, records the indices in `to`,
   /// and returns the number of cells.
   static int keepCells(PatchMoves& moves, std::span<const data::ParticleRange> from, const int* firstIncoming,
                        std::size_t nextDeparted, data::ParticleRange* to);
@@ -172,7 +186,7 @@ class Relocation {
   void carry(const Carried& carried, std::size_t place, data::Generation to, int material, Moves& moves);
   /// Stores the values of departing particles.
   static void pack(const Move& move, std::size_t place, const PatchMoves& moves);
-  /// Moves the particles that stay to their new places, and inserts those that arrive.
+  /// Moves the particles that stay to their new indices, and inserts those that arrive.
   void moveOn(const Move& move, std::size_t place, Moves& moves);
 
   /// Whether a cell of the finest level is too close to coarser ones for a particle that comes from a patch.
@@ -182,8 +196,8 @@ class Relocation {
   int margin_ = 0;  ///< number of cells of the finest level required around particles
   Threads* threads_;
   std::deque<Moves> moves_;  ///< by material
-  long leaving_ = 0;         ///< in the current step
-  long dropped_ = 0;
+  LostParticles losing_;     ///< in the current step
+  LostParticles lost_;
   std::string advice_near_coarser_;
 };
 

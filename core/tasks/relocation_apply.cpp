@@ -17,7 +17,7 @@ using grid::Patch;
 
 namespace {
 
-/// Makes the old set the new one.
+/// Uses the old set as the new one.
 void keepSet(data::Warehouse& warehouse, int material, const Patch& patch) {
   ParticleSet& before = warehouse.particles(Generation::old, material, patch.id());
   before.forgetGhosts();
@@ -92,7 +92,7 @@ void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
   after.setOwnedOfClosedRows(moves.count);
 }
 
-/// Keeps all particles of a patch in their places.
+/// Keeps all particles of a patch at their indices.
 void Relocation::keepAll(PatchMoves& moves, int count) {
   moves.runs.clear();
   moves.entries.clear();

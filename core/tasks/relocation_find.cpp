@@ -34,7 +34,7 @@ bool isInside(const Vec<D>& x, const Vec<D>& lower, const Vec<D>& upper) {
   return inside;
 }
 
-/// Whether all of `count` positions in a row lie in the cell with these bounds.
+/// Whether all of `count` consecutive positions lie in the cell with these bounds.
 template <int D>
 bool areInside(const Vec<D>* x, int count, const Vec<D>& lower, const Vec<D>& upper) {
   for (; count >= Lanes::count; x += Lanes::count, count -= Lanes::count) {
@@ -59,7 +59,7 @@ void wrap(const grid::Level& level, Vec<D>& x) {
   }
 }
 
-/// Whether a particle may leave the grid to `cell`: yes through a free face.
+/// Whether a particle may leave the grid to `cell`, which is allowed through a free face.
 template <int D>
 bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
   bool may = true;
@@ -103,6 +103,7 @@ bool Relocation::find(int material, int position, bool hasStopped) {
   warehouse_->ranks().merge(verdict);
   if (verdict.hasStopped) return false;
   if (verdict.hasEscape) refuseEscape(position, verdict);
+  losing_.removed += verdict.removed;
   movesOf(material).goFar = verdict.goFar;
   return true;
 }
@@ -110,6 +111,7 @@ bool Relocation::find(int material, int position, bool hasStopped) {
 void Relocation::Verdict::merge(const Verdict& other) {
   hasStopped = hasStopped || other.hasStopped;
   goFar = goFar || other.goFar;
+  removed += other.removed;
   if (!other.hasEscape || (hasEscape && escape < other.escape)) return;
   hasEscape = true;
   escape = other.escape;
@@ -130,7 +132,7 @@ void Relocation::findMoves(int material, int position, int id) {
   });
 }
 
-/// Discards the entries of the last moves, whether or not they have been made.
+/// Discards the entries of the last moves, even if they have not been made.
 void Relocation::forgetIncoming(const Patch& patch, PatchMoves& moves) {
   const grid::Box& cells = patch.cells();
   moves.firstIncoming.resize(cells.size(), -1);
@@ -152,7 +154,7 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
   moves.incoming.clear();
   moves.arrivals.clear();
   moves.escape.reset();
-  moves.leaving = 0;
+  moves.losing = {};
   if (set.owned() == 0) return;
   const grid::Level& level = warehouse_->grid().finest();
   set.forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
@@ -179,13 +181,14 @@ void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec
 template <int D>
 void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int departed,
                       PatchMoves& moves) {
-  if (x[0] == data::vanished) return;
+  if (x[0] == data::removed) ++moves.losing.removed;
+  if (x[0] == data::vanished || x[0] == data::removed) return;
   const grid::Level& level = warehouse_->grid().finest();
   const int place = moves.departed[departed];
   if (level.isPeriodic()) wrap<D>(level, x);
   const Index<D> cell = level.cellOf<D>(x);
   if (!level.cells().contains(cell)) {
-    ++moves.leaving;
+    ++moves.losing.left;
     const Escape escape{level.cellNumber<D>(fromCell), id, from.id(), place};
     if (!mayLeave<D>(level, x, cell) && (!moves.escape || escape < *moves.escape)) moves.escape = escape;
     return;
@@ -226,7 +229,8 @@ Relocation::Verdict Relocation::gather(Moves& moves, bool hasStopped) {
   for (const Patch& from : grid.patches()) {
     if (hasStopped) break;
     const PatchMoves& ofPatch = of(moves, from.id());
-    leaving_ += ofPatch.leaving;
+    losing_.left += ofPatch.losing.left;
+    verdict.removed += ofPatch.losing.removed;
     if (ofPatch.escape) verdict.merge({false, true, false, verdict.rank, *ofPatch.escape});
     for (const Outgoing& one : ofPatch.outgoing)
       if (const int patch = grid.patchOf(one.cell, grid.finest().number()).id(); !grid.isMine(patch))
@@ -258,8 +262,8 @@ NumericalError Relocation::refusal(int position, const Escape& escape) const {
   };
   const Vec<D> x = at(Generation::fresh);
   if (const Index<D> cell = level.cellOf<D>(x); level.cells().contains(cell))
-    return {fmt::format("particle {} came within {} of coarser cells, where no particles can be; patch {}", escape.id,
-                        counted(margin_, "cell"), escape.patch),
+    return {fmt::format("particle {} came within {} of coarser cells, where particles are not allowed; patch {}",
+                        escape.id, counted(margin_, "cell"), escape.patch),
             advice_near_coarser_, "p.x", escape.cell};
   int through = 0, side = 0;
   for (int d = 0; d < D; ++d)

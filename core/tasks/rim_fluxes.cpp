@@ -24,8 +24,8 @@ const grid::RimPiece& pieceOf(const std::vector<grid::RimPiece>& pieces, const G
   });
 }
 
-/// The faces of a box of coarse cells, of one axis: the fluxes behind the first, and how far apart neighbours of the
-/// finer faces are along each axis.
+/// The faces of a box of coarse cells across one axis: the fluxes behind the first face, and the distances in memory
+/// between neighbouring finer faces along each axis.
 struct FinerFaces {
   const double* first;
   std::array<std::ptrdiff_t, 3> strides;

@@ -21,7 +21,7 @@ double seconds(std::chrono::steady_clock::duration duration) { return std::chron
 
 int firstMaterial(const CompiledTask& task) { return task.task.perMaterial() ? 0 : -1; }
 
-/// Runs `work`; adds the place to what it throws.
+/// Runs `work`; adds the position to exceptions that it throws.
 template <class Work>
 void located(const CompiledTask& task, int patch, int material, const StepInfo& at, Work&& work) {
   try {
@@ -77,7 +77,7 @@ void Scheduler::workOn(std::size_t place, const CompiledTask& task, const Work& 
   costs_[place] += seconds(Clock::now() - started);
 }
 
-/// Runs work on patches; first on those that have their ghosts, then on the others, when their messages have arrived.
+/// Runs work on patches: first on those whose ghosts are complete, then on the others, when messages have arrived.
 template <class Work>
 void Scheduler::forEachPatch(CompiledTask& task, const Work& work) {
   const int patches = warehouse_->patches();
@@ -198,7 +198,7 @@ std::optional<data::Minimum> Scheduler::factorOf(const CompiledTask& task) {
   return factor.value < 1 ? std::optional(factor) : std::nullopt;
 }
 
-/// Whether this rank runs a collective task: not if any rank has stopped, nor if it has no patches.
+/// Whether this rank runs a collective task, which is not so if any rank has stopped, or if this rank has no patches.
 bool Scheduler::mayRunTogether() {
   heard_stop_ = warehouse_->ranks().any(hasStopped());
   ranksWithPatches();
@@ -350,7 +350,7 @@ void Scheduler::install(const CompiledTask& task, int material, const StepInfo& 
   makers_.clear();
 }
 
-/// Allocates outputs; keeps values that another level has already computed.
+/// Allocates outputs; preserves values that another level has already computed.
 void Scheduler::allocateOutputs(const MaterialBinding& binding) {
   for (const Output& output : binding.outputs) {
     if (level_ >= 0 && isHeld(*warehouse_, Generation::fresh, output.variable)) continue;

@@ -21,7 +21,7 @@ struct StepInfo {
   double part = 0;         ///< elapsed fraction of the next coarser level's step, if `level` is given
 };
 
-/// The place of an error in words: task, patch (-1: all at once), material (-1: none), step, time.
+/// The position of an error in words: task, patch (-1: all at once), material (-1: none), step, time.
 std::string placeOf(const CompiledTask& task, int patch, int material, const StepInfo& at);
 
 /// Runs compiled task graphs on the warehouse of this rank.
@@ -37,8 +37,8 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 /// step: what it computes stays on all levels until forgetNew(), and commitLevel() makes it the old state of one.
 class Scheduler {
  public:
-  /// Uses up to `threads` threads, but no more than this rank has patches, and no more than one per `cellsPerThread`
-  /// cells of a rank (if that is not 0), a number that changes on a refined grid.
+  /// Uses up to `threads` threads, but at most one per patch of this rank and one per `cellsPerThread` cells of a rank
+  /// (if that is not 0); the number of cells changes on a refined grid.
   explicit Scheduler(data::Warehouse& warehouse, int threads = 1, int cellsPerThread = 0)
       : warehouse_(&warehouse),
         most_threads_(threads),
@@ -68,7 +68,7 @@ class Scheduler {
   /// Cost of each patch of this rank since the last call, in seconds of wall time with all threads busy; zeros on a
   /// single rank.
   std::vector<double> takeCosts();
-  /// To be called when the distribution of patches has changed.
+  /// Must be called when the distribution of patches has changed.
   void forgetLayout();
 
   Relocation& relocation() { return relocation_; }
@@ -102,7 +102,7 @@ class Scheduler {
   void start(const TaskGraph& graph, int end, const StepInfo& at);
   void runTask(TaskGraph& graph, int number, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
-  /// Completes node variables of which each patch has written only its own nodes.
+  /// Completes node variables for which each patch has written only its own nodes.
   void shareFaces(const CompiledTask& task);
   void relocate(const CompiledTask& task, const StepInfo& at);
   template <class Work>
@@ -120,12 +120,12 @@ class Scheduler {
   void runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at);
   void allocateOutputs(const MaterialBinding& binding);
   void free(const CompiledTask& task);
-  /// Makes the moves that the last task of a graph has found, if it is a relocation.
+  /// Carries out the moves that the last task of a graph has found, if it is a relocation.
   void apply(CompiledTask& last);
 
   std::optional<data::Minimum> factorOf(const CompiledTask& task);
   void note(const CompiledTask& task, int material, const NumericalError& error);
-  /// Notes the first violated bound for the materials `first` up to `end`, if any.
+  /// Records the first violated bound for the materials `first` up to `end`, if any.
   void noteBroken(const CompiledTask& task, int first, int end);
   void agree(const TaskGraph& graph);
   NumericalError whatBroke(TaskGraph& graph, const StepInfo& at);

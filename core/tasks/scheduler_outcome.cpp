@@ -8,7 +8,7 @@ namespace tushar::tasks {
 
 namespace {
 
-/// Calls `visit(slot, place of its bytes)` for each reduction of a graph; returns the total number of bytes.
+/// Calls `visit(slot, position of its bytes)` for each reduction of a graph; returns the total number of bytes.
 template <class Visit>
 std::size_t forEachReduction(data::Warehouse& warehouse, const TaskGraph& graph, Visit&& visit) {
   std::size_t place = sizeof(Outcome);
@@ -75,8 +75,8 @@ NumericalError Scheduler::whatBroke(TaskGraph& graph, const StepInfo& at) {
   const auto broken = firstBroken(*warehouse_, task.of(outcome.material).bounded, level_);
   if (!broken)
     throw TaskError(
-        fmt::format("{} violated its bound, but not when the task was run again: a body must give the same result "
-                    "whenever it runs ({})",
+        fmt::format("{} violated its bound, but not when the task was run again: a body must give the same result each "
+                    "time it runs ({})",
                     outcome.value.text(), placeOf(task, -1, outcome.material, at)));
   return {fmt::format("{} ({})", broken->sentence, placeOf(task, broken->patch, outcome.material, at)), "",
           broken->label};

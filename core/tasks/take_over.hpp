@@ -4,8 +4,8 @@
 
 namespace tushar::tasks {
 
-/// The list for tasks that modify old cell variables: before the first task that modifies a variable which no earlier
-/// one computes, a task copies the old values, `take over c.density`.
+/// The list for tasks that modify old cell variables: before the first task that modifies a variable that no earlier
+/// task computes, a task `take over c.density` copies the old values.
 TaskList takingOver(const TaskList& list);
 
 }  // namespace tushar::tasks

@@ -22,10 +22,10 @@ enum class AccessKind {
 struct Access {
   const data::Label* label;
   AccessKind kind;
-  int ghost = 0;                       ///< number of layers of cells or nodes read beyond the patch
+  int ghost = 0;                       ///< number of layers of cells or nodes read around the patch
   bool own = false;                    ///< for nodes: whether it writes only those that the patch owns
-  bool offered = false;                ///< whether a kept task can do without it
-  const data::Label* keeps = nullptr;  ///< for fluxes: the variable that flows
+  bool offered = false;                ///< whether a kept task can run without it
+  const data::Label* keeps = nullptr;  ///< for fluxes: the conserved variable
   bool ofNone = false;                 ///< whether the variable belongs to no material, although the task does
 
   bool reads() const {
@@ -43,7 +43,7 @@ int append(std::vector<Access>& accesses, const Access& access);
 enum class TaskKind {
   work,          ///< runs a body
   relocate,      ///< a built-in task: assigns particles to their new patches and cells
-  newParticles,  ///< runs a body that replaces the particles of its patch by others
+  newParticles,  ///< runs a body that replaces the particles of its patch with others
 };
 
 /// A task as a component declares it, before it is placed on patches.

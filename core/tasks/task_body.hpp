@@ -8,7 +8,7 @@ namespace tushar::tasks {
 
 class TaskContext;
 
-/// The body of a task: any function object that takes a TaskContext, on the heap; copies share it. Does what
+/// The body of a task: any function object that accepts a TaskContext, stored on the heap; copies share it. Does what
 /// std::function does, except for each kind of object the compiler makes one function in place of five: a scene's
 /// components have thousands.
 class TaskBody {

@@ -26,8 +26,8 @@ std::map<std::string, const data::Label*, std::less<>> labelsOf(const std::vecto
   return labels;
 }
 
-/// Whether a patch may run before others have their ghosts: the task must not change the values from which these are
-/// filled.
+/// Whether a patch may run before the ghosts of others are filled: the task must not change the values from which these
+/// are filled.
 bool mayStartEarly(const CompiledTask& task, const data::VariableTable& table) {
   const auto isFilled = [&](const Access& access) {
     return std::any_of(task.fills.begin(), task.fills.end(), [&](const BoundGhostFill& fill) {
@@ -124,7 +124,7 @@ MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::Varia
 
 std::vector<Carried> TaskGraph::carriedBy(std::size_t t, int material, data::VariableTable& table) const {
   if (sets_[t] == Generation::fresh)
-    throw TaskError("task relocate: a list may relocate once, and only before it makes new particles");
+    throw TaskError("task relocate: a list may relocate particles only once, and only before it makes new ones");
   const std::vector<Task> before(pruned_.kept.begin(), pruned_.kept.begin() + static_cast<std::ptrdiff_t>(t));
   const Names produced = producedBy(before);
   const auto labels = labelsOf(pruned_.kept);

@@ -31,16 +31,16 @@ struct MaterialBinding {
   std::vector<Output> shared;  ///< variables of which patches write only their own nodes, and then exchange the others
 };
 
-/// A kept task, with everything resolved that the time loop would otherwise have to look up.
+/// A kept task, with all look-ups resolved in advance for the time loop.
 struct CompiledTask {
   Task task;
   std::vector<MaterialBinding> materials;       ///< one for a task that belongs to no material
   std::vector<BoundGhostFill> fills;            ///< ghost exchanges before it runs
   int sends = -1;                               ///< the task whose ghosts are sent before this one runs; -1: none
   std::vector<int> reductions, readReductions;  ///< reductions that it computes, and reads
-  bool mayStartEarly = false;  ///< whether patches that have their ghosts may be worked on while others wait for theirs
+  bool mayStartEarly = false;  ///< whether patches whose ghosts are complete may run while others wait for theirs
   bool isLast = false;         ///< whether it is the last of its graph
-  int recomputeTimeStep = -1;  ///< number of that reduction, if the task may request a repetition of the step
+  int recomputeTimeStep = -1;  ///< index of that reduction, if the task may request a repetition of the step
   double seconds = 0;          ///< time spent in it so far
   double exchangeSeconds = 0;  ///< part of it spent filling ghosts before the task
 
@@ -57,7 +57,7 @@ struct CompiledTask {
 class TaskGraph {
  public:
   TaskGraph() = default;
-  /// Throws TaskError if a list makes particles without giving them all that is needed later.
+  /// Throws TaskError if a list makes particles without all variables that are needed later.
   TaskGraph(std::string name, Pruned pruned, const grid::Grid& grid, data::VariableTable& table);
 
   const std::string& name() const { return name_; }

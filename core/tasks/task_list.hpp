@@ -19,7 +19,8 @@ class TaskList {
   template <class Body, class... Arguments>
   void perPatch(std::string_view name, Body body, Arguments... arguments) {
     check<false, false, Arguments...>();
-    static_assert(!(isWithoutMaterial<Arguments> || ...), "a task of perPatch has no materials to leave out");
+    static_assert(!(isWithoutMaterial<Arguments> || ...),
+                  "withoutMaterial(...) is not needed in perPatch, whose tasks have no materials");
     std::vector<Access> accesses = declare<false>(arguments...);
     add(name, TaskKind::work, {}, std::move(accesses),
         [body, ... bound = arguments](const TaskContext& context) { body(context.patch(), bound.bind(context)...); });
@@ -37,7 +38,7 @@ class TaskList {
         });
   }
 
-  /// Runs `body(patch, materials, arguments...)` on each patch once, with all materials: an access to a label becomes a
+  /// Runs `body(patch, materials, arguments...)` once on each patch, with all materials: an access to a label becomes a
   /// std::vector of views, one for each material.
   template <class Material, class Body, class... Arguments>
   void acrossMaterials(std::string_view name, Body body, const std::vector<Material>& materials,
@@ -81,8 +82,8 @@ class TaskList {
         Sees::rank);
   }
 
-  /// Runs `body(patch, material, maker, arguments...)`: the particles that the body makes replace those of the patch.
-  /// Particle variables that are needed afterwards must be among what it `creates`; node and cell variables stay.
+  /// Runs `body(patch, material, maker, arguments...)`: the new particles replace those of the patch. Particle
+  /// variables that are needed afterwards must be among what it `creates`; node and cell variables stay.
   template <class Material, class Body, class... Arguments>
   void newParticles(std::string_view name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
     check<true, false, Arguments...>();
@@ -93,8 +94,8 @@ class TaskList {
         });
   }
 
-  /// From here on every particle is in the cell and on the patch of its `position`, which must have been computed
-  /// before. All particle variables that are needed afterwards go with it.
+  /// From here on, every particle is in the cell and on the patch that contain its `position`, which must have been
+  /// computed before. All particle variables that are needed afterwards go with it.
   template <class Material, int D>
   void relocate(const data::ParticleLabel<Vec<D>>& position, const std::vector<Material>& materials) {
     add({"relocate", TaskKind::relocate, names(materials), {{&position, AccessKind::requiresNew, 0}}, {}});
@@ -109,14 +110,14 @@ class TaskList {
 
   void add(std::string_view name, TaskKind kind, std::vector<std::string>&& materials, std::vector<Access>&& accesses,
            TaskBody&& body, Sees sees = Sees::patch);
-  /// Refuses arguments that mean nothing to a kind of task.
+  /// Refuses arguments that are meaningless for a kind of task.
   template <bool makesParticles, bool isOnRank, class... Arguments>
   static constexpr void check() {
-    static_assert(makesParticles || !(isCreation<Arguments> || ...), "creates(...) belongs to newParticles");
+    static_assert(makesParticles || !(isCreation<Arguments> || ...), "creates(...) is allowed only in newParticles");
     static_assert(isOnRank || !(isOfRanks<Arguments> || ...),
-                  "togetherOnRanks() belongs to perRank and perRankAcrossMaterials");
+                  "togetherOnRanks() is allowed only in perRank and perRankAcrossMaterials");
     static_assert(!isOnRank || !(isWithoutMaterial<Arguments> || ...),
-                  "withoutMaterial(...) belongs to perMaterial and acrossMaterials");
+                  "withoutMaterial(...) is allowed only in perMaterial and acrossMaterials");
   }
   template <bool makesParticles, class Argument>
   static void declareOne(Argument& argument, std::vector<Access>& accesses) {

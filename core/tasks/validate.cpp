@@ -72,7 +72,8 @@ class Validator {
     const bool writes = std::any_of(task.accesses.begin(), task.accesses.end(), [&](const Access& other) {
       return other.kind == AccessKind::modifies && other.label->name == access.label->name;
     });
-    if (writes) complain(task, access, "is read beyond the patch and written by the same task; write another label");
+    if (writes)
+      complain(task, access, "is read outside the patch and written by the same task; write to another label");
   }
 
   static std::string nearest(const Access& access, const Names& available) {
@@ -86,7 +87,7 @@ class Validator {
 
   const Names& state_;
   Names produced_;
-  Names carried_;  ///< variables that a relocation brought along from the old state
+  Names carried_;  ///< variables that a relocation transferred from the old state
   std::map<std::string, bool> per_material_;
   std::string complaints_;
 };

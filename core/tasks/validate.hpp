@@ -10,7 +10,7 @@ namespace tushar::tasks {
 
 using Names = std::set<std::string, std::less<>>;
 
-/// Names of the variables that the tasks of a list leave behind.
+/// Names of the variables that exist after the tasks of a list.
 Names producedBy(const std::vector<Task>& tasks);
 
 /// Step 1 of compiling: every variable that is read has been written.

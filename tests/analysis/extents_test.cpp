@@ -55,7 +55,7 @@ TEST(Extents, WhatTheGridCannotShowIsRefused) {
   EXPECT_TRUE(problem(extent({0, 0, .1}, {1, 0, .1}), 2).starts_with("a plane goes along two axes"));
   EXPECT_EQ(problem(extent({-.1, 0, .2}, {1.1, 0, .2}), 1), "") << "in the layer of cells beyond the sides";
   EXPECT_EQ(problem(extent({0, 0, .2}, {1.5, 0, .2}), 1),
-            "found x from 0 to 1.5 m, expected places on the grid, from 0 to 1 m");
+            "found x from 0 to 1.5 m, expected positions on the grid, from 0 to 1 m");
   EXPECT_EQ(problem(extent({1, 0, .2}, {0, 0, .2}), 1),
             "found endingPt at x = 0 m, expected 1 m or more, the coordinate of startingPt");
   Extent named = extent({0, 0, .2}, {1, 0, .2});

@@ -238,10 +238,9 @@ TEST(View, RefusesWhatIsOutsideNamingTheLabel) {
     view[Index<1>{{4}}] = 1;
     FAIL();
   } catch (const AccessError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "c.height was used at (4,0,0), outside the box (0,0,0) to (3,0,0) that the task declared; declare more "
-        "ghosts or stay inside");
+    EXPECT_STREQ(error.what(),
+                 "c.height was accessed at (4,0,0), outside the box (0,0,0) to (3,0,0) that the task declared; declare "
+                 "more ghosts, or stay inside the box");
   }
 }
 

@@ -131,7 +131,7 @@ TEST(IceViscosity, OfModelsIsRead) {
       "<min>[0,0,0]</min><max>[1,1,1]</max></box></Model>";
   EXPECT_EQ(problemOf(with(sutherland + sponge + sponge)), "");
   EXPECT_EQ(problemOf(with(sponge + sutherland)), "give Sutherland once, and before any SpongeLayer");
-  EXPECT_EQ(problemOf(with("")), "is empty: it takes at least one Model");
+  EXPECT_EQ(problemOf(with("")), "is empty: it needs at least one Model");
   EXPECT_EQ(problemOf(with("<Model name=\"SpongeLayer\"><maxDynamicViscosity>1</maxDynamicViscosity><box label=\"b\">"
                            "<min>[0,1,0]</min><max>[1,0,1]</max></box></Model>")),
             "the <box> is empty: each number of <min> must be less than that of <max>");

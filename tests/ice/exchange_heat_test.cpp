@@ -212,9 +212,9 @@ TEST(Heating, AddsItsEnergyToAGasAndToSeveral) {
 
 TEST(Heating, IsForGasesOfTheScene) {
   EXPECT_EQ(test::problemOf(heated(tube, heatTags("[2]", "[1]", "1"))),
-            "material 2 is not available: heat is for gases, whose numbers are 0 to 1");
+            "material 2 is not available: only gases can be heated, which have indices 0 to 1");
   EXPECT_EQ(test::problemOf(heated(tube, heatTags("[0,1]", "[1]", "1"))),
-            "found 2 numbers of materials and 1 coefficients, expected as many");
+            "found 2 materials and 1 coefficients, expected one coefficient for each material");
   EXPECT_EQ(test::problemOf(heated(tube, heatTags("[]", "[]", "1"))), "found no materials, expected at least one");
   EXPECT_EQ(test::problemOf(heated(tube, heatTags("[1,1]", "[1,2]", "1"))), "material 1 is given twice");
   EXPECT_EQ(test::problemOf(heated(tube, heatTags("[1]", "[1]", "-1"))),

@@ -81,7 +81,7 @@ TEST(GasScene, CountsSolidsBeforeTheGas) {
   const input::Document document = input::Document::parse(scene, "gas.ups", diagnostics);
   readGas(document.root(), 0, diagnostics);
   ASSERT_EQ(diagnostics.size(), 1U);
-  EXPECT_EQ(diagnostics.sorted()[0].sentence, "there is no material 1: the gas is number 0");
+  EXPECT_EQ(diagnostics.sorted()[0].sentence, "there is no material 1: the gas has index 0");
 }
 
 TEST(GasScene, RefusesATemperatureAtASideThatDensityAndPressureContradict) {
@@ -102,7 +102,7 @@ TEST(GasScene, RefusesATemperatureAtASideThatDensityAndPressureContradict) {
   EXPECT_EQ(problemOf("500"),
             "found 500 K, but the Density, at gas.ups:4:6, and the Pressure, at gas.ups:4:80, give 300 K; keep two of "
             "the three");
-  EXPECT_EQ(problemOf("300 + x"), "Density and Pressure already give a temperature; keep two of the three");
+  EXPECT_EQ(problemOf("300 + x"), "the temperature already follows from Density and Pressure; keep two of the three");
 }
 
 }  // namespace tushar::ice

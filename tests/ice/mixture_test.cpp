@@ -117,7 +117,7 @@ TEST(IceMixture, RefusesGasesThatDoNotFillTheGrid) {
     test::runScene(tube, {"MaterialProperties/ICE/material[1]/geom_object/box/max=[0.4,1,1]"});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("several gases fill the grid"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("together they must fill the grid"), std::string::npos) << error.what();
   }
 }
 
@@ -132,7 +132,7 @@ TEST(IceMixture, RefusesWhatItHasNot) {
   EXPECT_EQ(problemOf(changedScene(tube, "<specific_heat>1.5</specific_heat>",
                                    "<specific_heat>1.5</specific_heat><dynamicViscosityModels><Model "
                                    "name=\"Sutherland\"><a>1</a><b>1</b></Model></dynamicViscosityModels>")),
-            "is not available beside a second gas: give <dynamic_viscosity>, or keep one gas");
+            "is not available with a second gas: give <dynamic_viscosity>, or keep one gas");
   EXPECT_EQ(problemOf(changedScene(tube, "<material name=\"helium\">", "<material name=\"air\">")),
             "the name 'air' is given twice");
 }
@@ -150,7 +150,7 @@ TEST(IceMixture, RefusesSidesOfOneGas) {
   EXPECT_EQ(problemOf(with(R"(<BCType id="1" label="Pressure" var="Dirichlet"><value>1</value></BCType>)")),
             "found '1', expected all: several gases have one velocity and one pressure");
   EXPECT_EQ(problemOf(with(R"(<BCType id="2" label="Pressure" var="Neumann"><value>0</value></BCType>)")),
-            "there is no material 2: the gases are numbers 0 to 1");
+            "there is no material 2: the gases have indices 0 to 1");
   EXPECT_EQ(problemOf(with(R"(<BCType id="0" label="Pressure" var="Dirichlet"><value>1</value></BCType>)")), "");
 }
 

@@ -110,7 +110,7 @@ TEST(IceScene, TakesNeumannConditionsForAnOpenSide) {
 
 TEST(IceScene, RefusesAGradientAtASide) {
   EXPECT_EQ(problemOf(withSide(R"(<BCType id="0" label="Density" var="Neumann"><value>1</value></BCType>)")),
-            "found '1', expected 0: a Neumann condition continues Density unchanged beyond the grid");
+            "found '1', expected 0: a Neumann condition continues Density unchanged outside the grid");
 }
 
 TEST(IceScene, RefusesAnInflowOfNoTemperature) {
@@ -120,7 +120,7 @@ TEST(IceScene, RefusesAnInflowOfNoTemperature) {
 
 TEST(IceScene, RefusesConditionsOfAnotherMaterial) {
   EXPECT_EQ(problemOf(withSide(R"(<BCType id="1" label="Density" var="Dirichlet"><value>1</value></BCType>)")),
-            "there is no material 1: the gas is number 0");
+            "there is no material 1: the gas has index 0");
 }
 
 TEST(IceScene, TakesConditionsOnAPartOfASide) {
@@ -131,7 +131,7 @@ TEST(IceScene, TakesConditionsOnAPartOfASide) {
 TEST(IceScene, RefusesAShareOfAGasAlone) {
   EXPECT_EQ(
       problemOf(changedScene(sod, "<density>1</density>", "<volumeFraction>0.5</volumeFraction><density>1</density>")),
-      "found '0.5', expected 1: the gas fills the region");
+      "found '0.5', expected 1: a single gas fills the region");
 }
 
 TEST(IceScene, RefusesSolids) {
@@ -233,7 +233,7 @@ TEST(IceScene, RefusesModels) {
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {
   EXPECT_EQ(problemOf(changedScene(sod, "<density>0.125</density>", "<density>0.125</density><pressure>2</pressure>")),
-            "does nothing: density and temperature give 0.1 Pa");
+            "does nothing: the pressure follows from density and temperature, and is 0.1 Pa");
   EXPECT_EQ(problemOf(changedScene(sod, "<density>0.125</density>", "<density>0.125</density><pressure>.1</pressure>")),
             "");
 }
@@ -261,7 +261,7 @@ TEST(IceScene, RefinesByUintahsNames) {
 
 TEST(IceScene, LeavesOutWhatUintahAloneComputes) {
   EXPECT_EQ(problemOf(changedScene(sod, "rho_CC", "delP_Dilatate")),
-            "'delP_Dilatate' is not saved: no task computes it here");
+            "'delP_Dilatate' is not saved, since no task computes it in this scene");
 }
 
 }  // namespace tushar::ice

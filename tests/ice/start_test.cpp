@@ -84,7 +84,7 @@ TEST(CustomStart, HasOneFlow) {
   EXPECT_EQ(start.problem(1), "");
   start.manufactured = Manufactured{"mms_1"};
   EXPECT_EQ(start.problem(1),
-            "give one of vortices, counterflow and manufacturedSolution: each has a velocity of its own");
+            "give only one of vortices, counterflow and manufacturedSolution, since each defines the velocity");
   start.counterflow.reset();
   EXPECT_EQ(start.problem(1), "");
   EXPECT_NE(start.problem(2), "");

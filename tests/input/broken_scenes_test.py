@@ -52,8 +52,8 @@ OVERRIDES = {
     "zero resolution": (BOX + "resolution=[0,1,1]",
                         BOX + "resolution: found '[0,1,1]', expected a value of at least 1"),
     "huge resolution": (BOX + "resolution=[2000000000,100,1]",
-                        "Grid/Level/Box: resolution [2000000000,100,1] makes 2e+11 "
-                        "cells; the most is 2.15e+09"),
+                        "Grid/Level/Box: resolution [2000000000,100,1] gives 2e+11 cells; at most 2.15e+09 are "
+                        "possible"),
     "fractional resolution": (BOX + "resolution=[1.5,1,1]", BOX +
                               "resolution: in '[1.5,1,1]': found '1.5', expected an integer"),
     "not a number": ("Time/maxTime=soon", "Time/maxTime: found 'soon', expected a number"),
@@ -64,7 +64,8 @@ OVERRIDES = {
                                                     "than 0"),
     "negative cfl": (GAS + "cfl=-1", GAS + "cfl: found '-1', expected a value greater than 0"),
     "inverted box": (BOX + "upper=[-1,1,1]", "Grid/Level/Box: upper is below lower along x: -1 < 0 m"),
-    "no extent": (BOX + "upper=[0,1,1]", "Grid/Level/Box: there are 100 cells along x, where the box has no extent"),
+    "no extent": (BOX + "upper=[0,1,1]", "Grid/Level/Box: there are 100 cells along x, but the box has no extent "
+                                         "along this axis"),
     "more patches than cells": (BOX + "patches=[101,1,1]", "Grid/Level/Box: there are 101 patches along x, but only "
                                                            "100 cells"),
     "both patches and autoPatch": (BOX + "autoPatch=4", "Grid/Level/Box: gives both patches and autoPatch; keep one"),
@@ -111,7 +112,7 @@ OVERRIDES = {
                                "mean 'gas'?); available: 'gas'"),
     "checkpoint without interval": ("DataArchiver/checkpoint/@cycle=2",
                                     "DataArchiver/checkpoint: gives none of interval, "
-                                    "timestepInterval, walltimeInterval and walltimeIntervalHours; give one"),
+                                    "timestepInterval, walltimeInterval and walltimeIntervalHours; give exactly one"),
     "no checkpoint kept": ("DataArchiver/checkpoint/@cycle=0", "DataArchiver/checkpoint: attribute 'cycle': found '0', "
                            "expected a value of at least 1"),
     "unknown checkpoint interval": ("DataArchiver/checkpoint/@timestepinterval=2",
@@ -121,8 +122,8 @@ OVERRIDES = {
                                       GAS + "redistribute: min_particles is greater than "
                                       "max_particles"),
     "ambiguous override": (MATERIAL + "geom_object/cfl=1", f"--set {MATERIAL}geom_object/cfl=1: 2 tags <geom_object> "
-                                                           f"match in <material>; "
-                           "say which one, such as geom_object[1] or geom_object["),
+                                                           f"in <material> match; choose one, such as geom_object[1] "
+                                                           f"or geom_object["),
     "override without a value": ("Time/maxTime", "--set Time/maxTime: expected PATH=VALUE, such as Time/maxTime=0.2"),
 }
 
@@ -157,7 +158,7 @@ TEXTS = {
     "two checkpoint intervals": (SOD.replace("<filebase>", '<checkpoint interval="1" timestepInterval="2"/><filebase>'),
                                  ":36:6",
                                  "gives more than one of interval, timestepInterval, walltimeInterval and "
-                                 "walltimeIntervalHours; give one"),
+                                 "walltimeIntervalHours; give exactly one"),
     "start without wall time": (SOD.replace("<filebase>", '<checkpoint interval="1" walltimeStart="2"/><filebase>'),
                                 ":36:6",
                                 "DataArchiver/checkpoint: gives walltimeStart without walltimeInterval"),
@@ -184,7 +185,7 @@ TEXTS = {
          "(did you mean 'gradient'?)"),
     "levels of no three integers": (SOD.replace("</Grid>", "</Grid><AMR><Regridder><min_patch_size>8</min_patch_size>"
                                                 "</Regridder></AMR>"), ":34:27",
-                                    "expected brackets of three integers, as [[1,2,3]]"),
+                                    "expected lists of three integers, such as [[1,2,3]]"),
     "a solid without density": (SOD[:SOD.index("    <gas_dynamics>")] + SOD[SOD.index("    </gas_dynamics>") + 20:],
                                 ":55:8",
                                 "MaterialProperties/MPM/material: missing tag <density> in <material>"),
@@ -252,13 +253,13 @@ class BrokenScenes(unittest.TestCase):
                 ((method + "artificial_heat_conduction=1",), "several gases cannot have <artificial_heat_conduction>"),
                 ((air + "relaxation/rate=1", air + "relaxation/internal_energy=1"),
                  "several gases cannot have <relaxation>"),
-                ((air + "@name=water",), "two materials are called 'water'; give each a name of its own"),
+                ((air + "@name=water",), "two materials are called 'water'; give each a different name"),
                 ((air + "geom_object/box/min=[0.6,0,0]",),
                   "several gases must fill the grid without overlap, but they fill 2 of"),
                 ((air + "geom_object/box/min=[0.8,0,0]",),
                   "several gases must fill the grid without overlap, but they fill 0 of"),
                 (("DataAnalysis/Module/right/gamma=1.5",),
-                 "Module: gamma and p_infinity: found 1.5 and 0 Pa, but no gas of the scene has both")):
+                 "Module: gamma and p_infinity: found 1.5 and 0 Pa, but no gas of the scene has these values")):
             with self.subTest(sentence):
                 self.assert_refused(run("ups/stability/water_air.ups", *sets, outputs=True), sentence)
 

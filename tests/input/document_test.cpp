@@ -74,7 +74,7 @@ TEST(Document, SaysThatAFolderIsNoFile) {
   const std::string folder = test::temporaryFolder() + "folder.ups";
   std::filesystem::create_directory(folder);
 
-  EXPECT_EQ(problemsOfFile(folder), Lines{folder + ": this is a folder, expected a file"});
+  EXPECT_EQ(problemsOfFile(folder), Lines{folder + ": this is a folder, but must be a file"});
 }
 
 /// A surface of triangles is named without the ends of its two files, NAME.pts and NAME.tri.
@@ -121,13 +121,13 @@ TEST(Document, SaysWhereXmlIsMalformed) {
 }
 
 TEST(Document, NamesTheTagThatIsNotClosed) {
-  EXPECT_EQ(
-      problemsOf("<Uintah_specification>\n <Time>\n <!-- <a> --> <b c='</b>'/>\n</Uintah_specification>"),
-      Lines{
-          "s.ups:4:3: found </Uintah_specification> while <Time> of s.ups:2:3 is still open; is its </Time> missing?"});
+  EXPECT_EQ(problemsOf("<Uintah_specification>\n <Time>\n <!-- <a> --> <b c='</b>'/>\n</Uintah_specification>"),
+            Lines{"s.ups:4:3: found </Uintah_specification> while <Time> of s.ups:2:3 is still open; its </Time> may "
+                  "be missing"});
   EXPECT_EQ(
       problemsOf("<Uintah_specification>\n <Time>\n"),
-      Lines{"s.ups:3:1: found the end of the file while <Time> of s.ups:2:3 is still open; is its </Time> missing?"});
+      Lines{
+          "s.ups:3:1: found the end of the file while <Time> of s.ups:2:3 is still open; its </Time> may be missing"});
   EXPECT_EQ(problemsOf("<Uintah_specification/></Time>"), Lines{"s.ups:1:26: found </Time>, but no tag is open here"});
 }
 
@@ -137,7 +137,7 @@ TEST(Document, RefusesTagsThatAreNestedTooDeep) {
   for (int k = 0; k < 200000; ++k) text += "</a>";
 
   EXPECT_EQ(problemsOf(text + "</Uintah_specification>"),
-            Lines{"s.ups:1:321: tags are nested more than 100 levels deep here"});
+            Lines{"s.ups:1:321: tags are nested more than 100 levels deep"});
 }
 
 TEST(Document, SaysThatTheRootIsAnother) {

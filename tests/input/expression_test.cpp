@@ -60,7 +60,7 @@ TEST(Expression, IsIndependentOfItsCopies) {
 
 TEST(Expression, SaysWhyTextIsNoFormula) {
   EXPECT_EQ(Expression::parse("").problem, "found nothing, expected a number or a formula");
-  EXPECT_EQ(Expression::parse("1e999").problem, "found '1e999', which is beyond the range of a double");
+  EXPECT_EQ(Expression::parse("1e999").problem, "found '1e999', which is outside the range of a double");
   EXPECT_EQ(Expression::parse("x=2").problem,
             "found 'x=2', expected a formula in x, y, z and t: '=' would assign to a variable");
   EXPECT_EQ(Expression::parse("x,y").problem,
@@ -91,9 +91,9 @@ TEST(VectorExpression, SplitsAtTheOuterCommas) {
 }
 
 TEST(VectorExpression, SaysWhyTextIsNotThreeFormulas) {
-  EXPECT_EQ(VectorExpression::parse("1").problem, "found '1', expected three formulas, as [a,b,c]");
-  EXPECT_EQ(VectorExpression::parse("").problem, "found nothing, expected three formulas, as [a,b,c]");
-  EXPECT_EQ(VectorExpression::parse("[1,2]").problem, "found '[1,2]', expected three formulas, as [a,b,c]");
+  EXPECT_EQ(VectorExpression::parse("1").problem, "found '1', expected three formulas, such as [a,b,c]");
+  EXPECT_EQ(VectorExpression::parse("").problem, "found nothing, expected three formulas, such as [a,b,c]");
+  EXPECT_EQ(VectorExpression::parse("[1,2]").problem, "found '[1,2]', expected three formulas, such as [a,b,c]");
   EXPECT_EQ(VectorExpression::parse("[1,,2]").problem, "in '[1,,2]': found nothing, expected a number or a formula");
 }
 

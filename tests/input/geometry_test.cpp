@@ -220,14 +220,14 @@ TEST(Geometry, NotesThatALabelIsTaken) {
   expectBounds(*piece, {0, 0, 0}, {2, 2, 2});
   ASSERT_EQ(diagnostics.notes().size(), 1u);
   EXPECT_EQ(diagnostics.notes()[0].sentence,
-            "the label 'g' is that of the <box> at s.ups:1:30 as well, so no tag can refer to either");
+            "the <box> at s.ups:1:30 also has the label 'g', so no tag can refer to either of them");
 }
 
 TEST(Geometry, SaysThatALabelIsOfTwoShapes) {
-  EXPECT_EQ(
-      problemsOf("<a>" + box("[0,0,0]", "[1,1,1]", "g") + "</a>\n<b>" + box("[0,0,0]", "[2,2,2]", "g") +
-                 "</b>\n<c><box label='g'/></c>"),
-      Lines{"s.ups:4:5: M/c/box: 'g' is the label of the shapes at s.ups:2:5 and at s.ups:3:5: which one is meant?"});
+  EXPECT_EQ(problemsOf("<a>" + box("[0,0,0]", "[1,1,1]", "g") + "</a>\n<b>" + box("[0,0,0]", "[2,2,2]", "g") +
+                       "</b>\n<c><box label='g'/></c>"),
+            Lines{"s.ups:4:5: M/c/box: 'g' is the label of two shapes, at s.ups:2:5 and at s.ups:3:5; give them "
+                  "different labels"});
 }
 
 TEST(Geometry, KeepsTheLabelsOfSectionsApart) {

@@ -63,10 +63,9 @@ TEST(Override, AddsAnAttribute) {
 }
 
 TEST(Override, SaysThatAPathIsAmbiguous) {
-  EXPECT_EQ(
-      problemsOf("Grid/Level/Box/patches=[1,1,1]"),
-      Lines{"--set Grid/Level/Box/patches=[1,1,1]: 2 tags <Box> match in <Level>; say which one, such as Box[1] or "
-            "Box[@label='…']"});
+  EXPECT_EQ(problemsOf("Grid/Level/Box/patches=[1,1,1]"),
+            Lines{"--set Grid/Level/Box/patches=[1,1,1]: 2 tags <Box> in <Level> match; choose one, such as Box[1] or "
+                  "Box[@label='…']"});
 }
 
 TEST(Override, SaysThatASiblingDoesNotExist) {
@@ -76,7 +75,7 @@ TEST(Override, SaysThatASiblingDoesNotExist) {
 
 TEST(Override, SaysThatNoSiblingHasTheAttribute) {
   EXPECT_EQ(problemsOf("Grid/Level/Box[@label='up']/x=1"),
-            Lines{"--set Grid/Level/Box[@label='up']/x=1: no <Box> in <Level> has label='up'"});
+            Lines{"--set Grid/Level/Box[@label='up']/x=1: there is no <Box> in <Level> with label='up'"});
 }
 
 TEST(Override, SaysThatAValueIsMissing) {

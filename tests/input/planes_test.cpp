@@ -51,11 +51,11 @@ TEST(Planes, RefusesAPolyhedronThatIsOpenOrOfWrongPlanes) {
   std::string open = octahedron();
   open.replace(open.find("[1,1,1]"), 7, "[3,1,1]");
   EXPECT_EQ(problemsOf(open),
-            Lines{"s.ups:1:27: M/polyhedron: its <center> is not on the inner side of all of its planes"});
+            Lines{"s.ups:1:27: M/polyhedron: its <center> is not on the inner side of all its planes"});
   const std::string plane = "<half_space><planePoint>[0,0,0]</planePoint><normal>[0,0,1]</normal></half_space>";
   EXPECT_EQ(problemsOf("<polyhedron><center>[0,0,1]</center><bounds>" + plane + plane + plane + plane +
                        "</bounds></polyhedron>"),
-            Lines{"s.ups:1:27: M/polyhedron: its planes do not enclose a volume"});
+            Lines{"s.ups:1:27: M/polyhedron: its planes do not enclose a finite volume"});
   std::string wrong = octahedron();
   wrong.replace(wrong.find("relative"), 8, "absolute");
   EXPECT_EQ(problemsOf(wrong).at(0),
@@ -84,7 +84,7 @@ TEST(Planes, SaysWhichLineOfAPolygonIsWrong) {
   const std::string path = "'" + test::temporaryFolder() + "corners.pts': ";
   for (const auto& [text, problem] : {std::pair{"0 0\n1 x\n", "line 2: found '1 x', expected two numbers"},
                                       {"0 0\n1 0 0\n", "line 2: found '1 0 0', expected two numbers"},
-                                      {"0 0\n1 0\n", "a polygon has at least three corners"}}) {
+                                      {"0 0\n1 0\n", "a polygon needs at least three corners"}}) {
     Diagnostics diagnostics;
     EXPECT_EQ(polygonOf(text, diagnostics), nullptr);
     EXPECT_NE(told(diagnostics).at(0).find(path + problem), std::string::npos) << told(diagnostics).at(0);

@@ -193,14 +193,14 @@ TEST(Schema, SaysThatATagIsGivenTwice) {
 }
 
 TEST(Schema, SaysThatTextIsNotAllowed) {
-  EXPECT_EQ(problemsOf("oops"), Lines{"s.ups:1:24: gas: text 'oops' in <gas>, where only tags are allowed"});
+  EXPECT_EQ(problemsOf("oops"), Lines{"s.ups:1:24: gas: found text 'oops' in <gas>, where only tags are allowed"});
   EXPECT_EQ(problemsOf("<save label='a'>oops</save>"),
             Lines{"s.ups:2:2: gas/save: text 'oops' in <save>, where none is allowed"});
 }
 
 TEST(Schema, SaysThatATagIsNotAllowedInAValue) {
   EXPECT_EQ(problemsOf("<cfl><b/></cfl>"),
-            Lines{"s.ups:2:7: gas/cfl/b: tag <b> in <cfl>, where only a value is allowed"});
+            Lines{"s.ups:2:7: gas/cfl/b: found tag <b> in <cfl>, where only a value is allowed"});
 }
 
 TEST(Schema, SaysThatAValueHasTheWrongForm) {

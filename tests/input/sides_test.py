@@ -17,7 +17,8 @@ SECOND = f'</Face><Face {CIRCLE}><BCType id="0" label="Velocity" var="Dirichlet"
 # What stands in place of the slot's attributes, and its sentence.
 FACES = {
     "":
-        ("missing attribute 'side' of <Face>, or that of a part of a side: 'circle', 'annulus', 'ellipse', "
+        ("missing attribute 'side' of <Face>, or one of the attributes for a part of a side: 'circle', 'annulus', "
+         "'ellipse', "
          "'rectangle' and 'rectangulus'"),
     'rectangel="x-" lower="0 0 0" upper="0 1 1"':
         "unknown attribute 'rectangel' of <Face> (did you mean 'rectangle'?)",
@@ -34,7 +35,7 @@ FACES = {
     'side="x+" circle="x-"':
         "gives both side and circle; keep one",
     'circle="x-" origin="0 0" radius="1"':
-        "attribute 'origin': found '0 0', expected three numbers, as 0 0.5 0.5",
+        "attribute 'origin': found '0 0', expected three numbers, such as 0 0.5 0.5",
     'circle="x-" origin="0 a 0" radius="1"':
         "attribute 'origin': found '0 a 0', expected three numbers",
     'circle="x-" origin="0.5 0 0" radius="1"':
@@ -65,7 +66,7 @@ class Sides(SceneTest):
 
     def test_parts_that_overlap(self):
         self.assert_refused(JET.replace("</Face>", SECOND, 1), "overlaps the part at SCENE",
-                            "both have the face at (0, ")
+                            "both contain the face at (0, ")
 
     def test_the_same_part_twice_with_one_condition(self):
         again = SECOND.replace(CIRCLE, SLOT)
@@ -88,13 +89,13 @@ class Sides(SceneTest):
         text = JET.replace(SLOT, 'circle="x-" origin="0 0 0.5" radius="0.001"')
         result = run(self.scene(text), "Time/max_Timesteps=1", options=())
         self.assertEqual(result.code, 0, result.err)
-        self.assertIn("does nothing: no face of the finest cells on side x- has its middle in this part",
+        self.assertIn("does nothing: no face of the finest cells on side x- has its centre in this part",
                       result.out + result.err)
 
     def test_a_component_that_takes_no_parts(self):
         text = (ROOT / "ups/mpm/sod.ups").read_text().replace('<Face side="x-">', f"<Face {CIRCLE}>")
-        self.assert_refused(text, "conditions on a part of a side (circle) are not available; give side=\"x-\" to have "
-                            "them on all of it")
+        self.assert_refused(text, "conditions on a part of a side (circle) are not available; use side=\"x-\" to "
+                                  "apply them to the whole side")
 
     def test_values_that_are_neither_numbers_nor_formulas(self):
         self.assert_refused(JET.replace("<value>3<", "<value>3+<"), "BCType: value: found '3+', expected a number")

@@ -40,9 +40,9 @@ class SilentMistakes(unittest.TestCase):
         sets = (how + "mode=reseed", how + "target_particles=5", how + "max_particles=8")
         plane, space = "Grid/Level/Box/resolution=[20,2,1]", "Grid/Level/Box/resolution=[20,2,2]"
         self.assert_refused(run("ups/mpm/sod_redistribute.ups", *sets, plane, outputs=True),
-                            "ups/mpm/sod_redistribute.ups:57:8: MPM/gas_dynamics/redistribute: target_particles: 5 in "
-                            "a cell become 9, 3 along each of 2 axes, but max_particles is 8; lower one or raise the "
-                            "other")
+                            "ups/mpm/sod_redistribute.ups:57:8: MPM/gas_dynamics/redistribute: target_particles: 5 "
+                            "in a cell become 9, 3 along each of 2 axes, but max_particles is 8; decrease "
+                            "target_particles or increase max_particles")
         self.assertEqual(run("ups/mpm/sod_redistribute.ups", *sets, "Time/max_Timesteps=1").code, 0)
         self.assertEqual(run("ups/mpm/sod_redistribute.ups", *sets, space, "Time/max_Timesteps=1").code, 0)
 
@@ -102,10 +102,10 @@ class SilentMistakes(unittest.TestCase):
         refused(plane, plane.replace('symmetry"/>', 'Dirichlet"><value>3</value></BCType>'),
                 "found label 'Symmetric' with var 'Dirichlet'; 'Symmetric' and 'symmetry' are allowed only together")
         refused(plane, plane.replace("Symmetric", "Temperature"), "found label 'Temperature' with var 'symmetry'")
-        refused(plane, plane + cold, "this face is a plane of symmetry: the only other condition that it allows is a "
+        refused(plane, plane + cold, "this face is a symmetry plane: the only other condition that it allows is a "
                                      "Neumann condition of 0")
         refused(cold, cold.replace("0<", "[1,2,3]<"), "value: found '[1,2,3]', expected a number")
-        refused("[2.576693,0,0]", "2.576693", "value: found '2.576693', expected three formulas, as [a,b,c]",
+        refused("[2.576693,0,0]", "2.576693", "value: found '2.576693', expected three formulas, such as [a,b,c]",
                 scene="ups/euler/shock_bubble.ups")
         refused('side="x-"', 'side="x+"', "SCENE:18:8: Grid/BoundaryConditions/Face: side x+ is given twice, the first "
                 "time at SCENE:17:8")
@@ -136,7 +136,7 @@ class SilentMistakes(unittest.TestCase):
                 self.assertEqual(result.code, 0, result.err)
                 said = result.out + result.err
                 self.assertIn(f"beside.ups:{line}:", said)
-                self.assertIn("has no particles: it lies outside the grid, or is too small for <res>", said)
+                self.assertIn("has no particles: it is outside the grid, or too small for <res>", said)
                 self.assertEqual(said.count("has no particles"), 1)
 
     def test_references_of_another_problem(self):
@@ -146,9 +146,9 @@ class SilentMistakes(unittest.TestCase):
                                 "DataAnalysis/Module: gamma: found 1.9, but the gas of the scene has 1.4")
         self.assert_refused(run("ups/euler/sod.ups", riemann + "normal=[0,1,0]", outputs=True), "this grid has no y")
         self.assert_refused(run("ups/euler/sod.ups", riemann + "diaphragm=5", outputs=True),
-                            "diaphragm: 5 m along the normal is outside of the grid, from 0 to 1 m")
+                            "diaphragm: 5 m along the normal is outside the grid, which extends from 0 to 1 m")
         self.assert_refused(run("ups/euler/smooth_wave.ups", "Grid/Level/Box/resolution=[1,50,1]", outputs=True),
-                            "the wave runs along x, but this grid has no x")
+                            "the wave moves along x, but this grid does not use x")
 
     def test_a_reference_starts_with_the_run(self):
         usual = run("ups/euler/sod.ups")

@@ -53,7 +53,7 @@ REFUSED = {
     "colors of friction that do not ascend":
         (BLOCK, ("friction_LR</type>", "friction_LRVar</type><master_material>0</master_material><variable_friction>"
                  "<entry><color>1</color><mu>0</mu></entry><entry><color>1</color><mu>1</mu></entry>"
-                 "</variable_friction>"), "its color is not above that of the previous one"),
+                 "</variable_friction>"), "its color is not above that of the previous entry"),
     "a master that turns without a file":
         (BILLET, ("<materials>[0,1]</materials>", "<include_rotation>true</include_rotation>"),
          "needs a contact of type rigid, specified or specified_friction and its <filename>"),
@@ -118,7 +118,7 @@ REFUSED = {
          "unknown attribute 'unit' of <usePlasticity>"),
     "a tag in a switch":
         (BEAM, (RUBBER, RUBBER + "<usePlasticity>false<b/></usePlasticity>"),
-         "tag <b> in <usePlasticity>, where only a value is allowed"),
+         "found tag <b> in <usePlasticity>, where only a value is allowed"),
     "a surface of Mohr and Coulomb without corners":
         (BEAM, (RUBBER, '<constitutive_model type="MohrCoulomb"><G>1</G><K>1</K><Version>3</Version>'),
          "Version: found '3', expected 1, 11, 12: stresses return to the nearest point of a surface with corners"),
@@ -132,7 +132,7 @@ REFUSED = {
          "MPM/DoPressureStabilization=true"),
     "an energy budget of implicit steps":
         (BEAM, ("<dynamic>", " <dynamic>"),
-         "only solids with explicit time steps have an energy budget; remove the module",
+         "the energy budget is available only for solids with explicit time steps; remove the module",
          "DataAnalysis/Module/@name=energyBudget"),
     "the heat of a viscosity that is not there":
         (SPALL, ("<artificial_viscosity>true", "<artificial_viscosity>false"),
@@ -167,7 +167,7 @@ REFUSED = {
          "<minimum_particle_mass> is 1 kg"),
     "an exclusion that friction does not know":
         (BILLET, ("<type>rigid</type>", "<type>friction</type><mu>.1</mu><ExcludeMaterial>0</ExcludeMaterial>"),
-         "acts in contacts of type rigid, specified and single_velocity only"),
+         "applies only to contacts of type rigid, specified and single_velocity"),
 }
 
 

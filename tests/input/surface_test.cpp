@@ -131,7 +131,7 @@ TEST_F(SurfaceFile, IsRefusedWithItsNameAndWhatIsWrong) {
   expectRefused("word.stl", "line 3: found 'vertx', expected solid");
   expectRefused("number.stl", "line 3: expected `vertex x y z`, found 'vertex 1 2 x'");
   expectRefused("facet.stl", "line 4: found a facet of 1 vertices, expected three");
-  expectRefused("empty.stl", "there are no triangles in it");
+  expectRefused("empty.stl", "it contains no triangles");
   expectRefused("points", ".tri: there is no point 3; points are numbered from 0 to 2");
   expectRefused("missing.stl", "there is no such file");
   expectRefused("missing", "there is no such file ending in .pts");

@@ -11,10 +11,11 @@ TEST(Values, ReadListsOfThreeIntegers) {
   EXPECT_EQ(*parse<Triples>(" [ [8, 8,1] ,[4,4,1]] "), (Triples{{{8, 8, 1}}, {{4, 4, 1}}}));
   EXPECT_EQ(*parse<Triples>("[8,8,1]"), (Triples{{{8, 8, 1}}}));
   EXPECT_EQ(toText(Triples{{{8, 8, 1}}, {{4, 4, 1}}}), "[[8,8,1],[4,4,1]]");
-  EXPECT_EQ(parse<Triples>("8").problem, "found '8', expected brackets of three integers, as [[1,2,3]]");
-  EXPECT_EQ(parse<Triples>("[]").problem, "found '[]', expected brackets of three integers, as [[1,2,3]]");
-  EXPECT_EQ(parse<Triples>("[[8,8]]").problem, "in '[[8,8]]': found '[8,8]', expected three integers, as [1,2,3]");
-  EXPECT_EQ(parse<Triples>("[[8,8,1],4]").problem, "in '[[8,8,1],4]': found '4', expected three integers, as [1,2,3]");
+  EXPECT_EQ(parse<Triples>("8").problem, "found '8', expected lists of three integers, such as [[1,2,3]]");
+  EXPECT_EQ(parse<Triples>("[]").problem, "found '[]', expected lists of three integers, such as [[1,2,3]]");
+  EXPECT_EQ(parse<Triples>("[[8,8]]").problem, "in '[[8,8]]': found '[8,8]', expected three integers, such as [1,2,3]");
+  EXPECT_EQ(parse<Triples>("[[8,8,1],4]").problem,
+            "in '[[8,8,1],4]': found '4', expected three integers, such as [1,2,3]");
 }
 
 TEST(Values, ReadBooleans) {
@@ -56,7 +57,7 @@ TEST(Values, RefuseWhatIsNoNumber) {
   EXPECT_EQ(parse<double>("").problem, "found nothing, expected a number");
   EXPECT_EQ(parse<double>("nan").problem, "found 'nan', expected a finite number");
   EXPECT_EQ(parse<double>("-inf").problem, "found '-inf', expected a finite number");
-  EXPECT_EQ(parse<double>("1e999").problem, "found '1e999', which is beyond the range of a double");
+  EXPECT_EQ(parse<double>("1e999").problem, "found '1e999', which is outside the range of a double");
 }
 
 TEST(Values, ReadText) {
@@ -71,11 +72,11 @@ TEST(Values, ReadVectorsWithBlanksAnywhere) {
 
 TEST(Values, RefuseWhatIsNoVector) {
   for (const std::string text : {"1,2,3", "[1,2]"})
-    EXPECT_EQ(parse<Vec3>(text).problem, "found '" + text + "', expected three numbers, as [1,2,3]");
+    EXPECT_EQ(parse<Vec3>(text).problem, "found '" + text + "', expected three numbers, such as [1,2,3]");
   EXPECT_EQ(parse<Vec3>("[1,,3]").problem, "in '[1,,3]': found nothing, expected a number");
-  EXPECT_EQ(parse<Vec3>("").problem, "found nothing, expected three numbers, as [1,2,3]");
+  EXPECT_EQ(parse<Vec3>("").problem, "found nothing, expected three numbers, such as [1,2,3]");
   EXPECT_EQ(parse<Index3>("[1,2.5,3]").problem, "in '[1,2.5,3]': found '2.5', expected an integer");
-  EXPECT_EQ(parse<Index3>("[1]").problem, "found '[1]', expected three integers, as [1,2,3]");
+  EXPECT_EQ(parse<Index3>("[1]").problem, "found '[1]', expected three integers, such as [1,2,3]");
 }
 
 TEST(Values, ReadLists) {

@@ -57,13 +57,13 @@ class Misfits(unittest.TestCase):
                       self.misfit(None, "-UTUSHAR_VERSION", '-DTUSHAR_VERSION="9.8.7"'))
 
     def test_another_compiler(self):
-        self.assertIn("it was compiled by clang 99, but this program by ",
+        self.assertIn("it was compiled by clang 99, but this program was compiled by ",
                       self.misfit('{TUSHAR_VERSION, "clang 99", "0", checksEveryIndex, __BIGGEST_ALIGNMENT__}'))
 
     def test_other_checks(self):
         has = "-DTUSHAR_CHECKS" in modules.compile_command()
         words = ("out", "") if has else ("", "out")
-        self.assertIn("it was compiled with%s TUSHAR_CHECKS, but this program with%s it" % words,
+        self.assertIn("it was compiled with%s TUSHAR_CHECKS, but this program was compiled with%s it" % words,
                       self.misfit(None, "-UTUSHAR_CHECKS" if has else "-DTUSHAR_CHECKS"))
 
     def test_another_alignment(self):
@@ -72,8 +72,8 @@ class Misfits(unittest.TestCase):
         bytes_here = int(said.split("__BIGGEST_ALIGNMENT__ ")[1].split()[0])
         flags = ("-mavx",) if bytes_here == 16 else ("-march=x86-64",)
         there = 32 if bytes_here == 16 else 16
-        self.assertIn(f"it was compiled for vectors of {there} bytes, but this program for {bytes_here}: use the same "
-                      "-march", self.misfit(None, *flags))
+        self.assertIn(f"it was compiled for vectors of {there} bytes, but this program for {bytes_here} bytes: use "
+                      f"the same -march", self.misfit(None, *flags))
 
     def test_other_headers(self):
         self.assertIn("it was built with different headers of the same version",
@@ -108,7 +108,7 @@ class Misfits(unittest.TestCase):
         for size in (40, 1000, len(whole) // 2, len(whole) - 1):
             self.module.write_bytes(whole[:size])
             self.assertEqual(self.refused("--load", self.module),
-                             f"sus: {self.module} is not a module of Tushar: the file is cut off\n", size)
+                             f"sus: {self.module} is not a module of Tushar: the file is truncated\n", size)
 
     def test_a_file_that_is_not_there(self):
         self.assertEqual(self.refused("--load", "nothere.so"), "sus: there is no module nothere.so\n")

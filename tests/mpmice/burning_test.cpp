@@ -1,4 +1,5 @@
 #include "components/mpmice/burn/burn_bodies.hpp"
+#include "components/mpmice/burn/burn_modes.hpp"
 #include "components/mpmice/tasks/measure_bodies.hpp"
 #include "tests/mpmice/fields.hpp"
 
@@ -161,6 +162,114 @@ TEST(SteadyBurn, IsFasterUnderPressureAndWhereTheBodyIsWarm) {
     EXPECT_GT(explosive.rate({pressure, 350, 1832}), rate);
     last = rate;
   }
+}
+
+TEST(Induction, IsShorterIntoTheBodyThanAlongItsSurface) {
+  const ice::Induction law{0.01, 1e5, 0.0026, 0.5};
+  EXPECT_NEAR(law.part(1), 0.01, 1e-15);
+  EXPECT_DOUBLE_EQ(law.part(0), 1);
+  EXPECT_NEAR(law.part(std::sqrt(0.5)), 0.505, 1e-15);
+  EXPECT_DOUBLE_EQ(law.time(1e-3, 4e5), 1e-3 / (2 * 0.0026));
+}
+
+TEST(Cracks, LetGasInThatHasThePressure) {
+  const double radius = std::sqrt(8e8 / std::pow(1e7, 2.84));
+  EXPECT_TRUE(ice::Ddt::enterCracks(1e7, 1.001 * radius));
+  EXPECT_FALSE(ice::Ddt::enterCracks(1e7, 0.999 * radius));
+  EXPECT_FALSE(ice::Ddt::enterCracks(-1e7, 1.001 * radius));
+}
+
+/// Six cells on a line: two of gas of 1 Pa and 2.5 K, then an explosive, which is at 1 K and without pressure.
+struct Explosive {
+  Level level{euler::closedBox(1, 6)};
+  GasFields<1> fields{level.cells()};
+  Field<double> mass{level.cells(), 0}, volume{mass}, temperature{mass}, others{mass}, hottest{mass}, pressure{mass},
+      radius{mass}, mode{mass}, waited{mass}, induction{mass};
+  Settings settings;
+  ice::Ddt law;
+
+  Explosive() {
+    settings.gas.gas.specificHeat = 1;
+    settings.burning = Burning();
+    settings.burning->model.ignitionTemperature = 2;
+    settings.burning->model.leastPressure = 0.5;
+    law.detonationPressure = 10;
+    for (std::size_t k = 2; k < 6; ++k) {
+      fields.free.values[k] = fields.density.values[k] = fields.energy.values[k] = 0;
+      mass.values[k] = 5;
+      volume.values[k] = temperature.values[k] = hottest.values[k] = 1;
+    }
+  }
+  BurnModes<1>::Found at(int cell, double dt = 0.1) {
+    settings.burning->model.law = law;
+    const Reactant reactant{{mass.seen(), volume.seen(), temperature.seen(), others.seen(), hottest.seen()}};
+    const Load load{pressure.seen(), radius.seen()};
+    Waited before;
+    if (law.induction) before = {mode.seen(), waited.seen(), induction.seen()};
+    return BurnModes<1>(level, settings, fields.gas(), reactant, load).find({cell}, before, dt);
+  }
+};
+
+TEST(BurnModes, OfASurfaceNeedAHotGasWithPressure) {
+  Explosive line;
+  EXPECT_EQ(line.at(1).mode, BurnMode::none) << "no explosive";
+  EXPECT_EQ(line.at(2).mode, BurnMode::surface);
+  EXPECT_EQ(line.at(3).mode, BurnMode::none) << "inside";
+  line.settings.burning->model.ignitionTemperature = 3;
+  EXPECT_EQ(line.at(2).mode, BurnMode::none);
+  line.settings.burning->model.ignitionTemperature = 2;
+  line.settings.burning->model.leastPressure = 1.1;
+  EXPECT_EQ(line.at(2).mode, BurnMode::none);
+}
+
+TEST(BurnModes, OfADetonationEndTheRun) {
+  Explosive line;
+  line.pressure.values[3] = 11;
+  EXPECT_EQ(line.at(2).mode, BurnMode::surface);
+  EXPECT_THROW(line.at(3), NumericalError);
+}
+
+TEST(BurnModes, InCracksNeedThemWide) {
+  Explosive line;
+  line.law.burnsCracks = true;
+  line.hottest.values[4] = 5;
+  line.pressure.values[3] = 2;
+  line.radius.values[3] = 1.01 * std::sqrt(8e8 / std::pow(2, 2.84));
+  EXPECT_EQ(line.at(3).mode, BurnMode::cracks);
+  EXPECT_EQ(line.at(3).pressure, 2);
+  line.radius.values[3] *= 0.98;
+  EXPECT_EQ(line.at(3).mode, BurnMode::none);
+}
+
+TEST(BurnModes, WaitForTheirFlame) {
+  Explosive line;
+  line.law.induction = ice::Induction{0.5, 1, 2, 0};  // a cell of 1/6 m in 1/12 s, into the body in half of it
+  const auto first = line.at(2, 0.02);
+  EXPECT_EQ(first.mode, BurnMode::waiting);
+  EXPECT_DOUBLE_EQ(first.waited, 0.02);
+  EXPECT_NEAR(first.induction, 0.5 * line.level.spacing(0) / 2, 1e-15);
+  line.mode.values[2] = double(first.mode);
+  line.waited.values[2] = first.waited;
+  line.induction.values[2] = first.induction;
+  const auto second = line.at(2, first.induction);
+  EXPECT_EQ(second.mode, BurnMode::surface);
+  line.mode.values[2] = double(second.mode);
+  line.waited.values[2] = second.waited;
+  EXPECT_EQ(line.at(2, 1e-9).mode, BurnMode::surface) << "from then on it burns";
+}
+
+TEST(BurnModes, GoOnThroughCracks) {
+  Explosive line;
+  line.law.burnsCracks = true;
+  line.law.induction = ice::Induction{0.5, 1, 2, 0};
+  line.hottest.values[2] = 5;
+  line.radius.values[3] = line.radius.values[4] = 1e6;
+  line.pressure.values[3] = line.pressure.values[4] = 1;
+  EXPECT_EQ(line.at(3, 1).mode, BurnMode::none) << "nothing beside it burns";
+  line.mode.values[2] = double(BurnMode::surface);
+  EXPECT_EQ(line.at(3, 1).mode, BurnMode::cracks);
+  EXPECT_EQ(line.at(3, 1e-3).mode, BurnMode::waiting);
+  EXPECT_EQ(line.at(4, 1).mode, BurnMode::none) << "two cells away";
 }
 
 }  // namespace tushar::mpmice

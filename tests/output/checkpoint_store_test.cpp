@@ -135,9 +135,10 @@ TEST(CheckpointManifest, IsReadWithoutTheNumberOfItsFormatAndSaysANewerOne) {
   changeFormat(manifest, "format 4\ns0 of some other kind\n");
   const Inspection found = inspect(store.folder(1));
   EXPECT_TRUE(found.isNewer);
-  EXPECT_EQ(found.damage, "manifest has format 4, but this sus reads formats up to 3");
+  EXPECT_EQ(found.damage, "manifest has format 4, but this sus supports only formats up to 3");
   changeFormat(manifest, "format 99999999999999\n");
-  EXPECT_EQ(inspect(store.folder(1)).damage, "manifest has format 99999999999999, but this sus reads formats up to 3");
+  EXPECT_EQ(inspect(store.folder(1)).damage,
+            "manifest has format 99999999999999, but this sus supports only formats up to 3");
 }
 
 TEST(CheckpointManifest, SeesAnyByteOfItsOwnThatIsChangedOrCutOff) {

@@ -87,7 +87,7 @@ TEST(RunLog, GivesItsFormatToAnArchiveOfAnOlderVersion) {
 
 TEST(RunLog, RefusesAFileOfANewerVersion) {
   EXPECT_EQ(RunLog::refusalOf(R"({"format": 99, "runs": []})"),
-            "the archive has format 99 of run.json, but this sus reads formats up to 3");
+            "run.json of the archive has format 99, but this sus supports only formats up to 3");
   EXPECT_EQ(RunLog::refusalOf(R"({"format": 1, "runs": []})"), "");
   EXPECT_EQ(RunLog::refusalOf(R"({"format": 3, "runs": []})"), "");
   EXPECT_EQ(RunLog::refusalOf("{"), "");

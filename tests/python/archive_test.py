@@ -144,7 +144,7 @@ class ParticlesOverTime(InFolder):
             np.testing.assert_array_equal(rows_of(file["x"], rows), rows)
 
     def test_an_id_that_was_never_there_is_told(self):
-        with self.assertRaisesRegex(tushar.ArchiveError, "no output has a particle of id 11, 12"):
+        with self.assertRaisesRegex(tushar.ArchiveError, "no output has a particle with id 11, 12"):
             tushar.open(self.path).particles(ids=[10, 11, 12])["p.x"]
 
 

@@ -89,7 +89,7 @@ class Xarray(WithArchives):
 
     def test_one_output_has_one_time(self):
         self.assertEqual(float(self.plate[-1].to_xarray()["time"]), 1.0)
-        with self.assertRaisesRegex(tushar.ArchiveError, "holds no fields"):
+        with self.assertRaisesRegex(tushar.ArchiveError, "contains no fields"):
             self.disks.to_xarray()
 
     def test_tracks_have_time_and_id(self):

@@ -168,7 +168,7 @@ class Tools(WithRefined):
     def test_uda_lists_levels(self):
         code, out, err = tool(self.folder, "uda", self.paths[2])
         self.assertEqual(code, 0, err)
-        self.assertIn("16 x 8 cells in 2-D, were all of the finest of 3 levels, 2 outputs:", out)
+        self.assertIn("16 x 8 cells in 2-D if all cells were on the finest of 3 levels, 2 outputs:", out)
         self.assertIn("level 0: 4 cells of 0.25 x 0.5 m in 1 box\nlevel 1: 12 cells of 0.125 x 0.25 m in 2 boxes\n"
                       "level 2: 16 cells of 0.0625 x 0.125 m in 1 box\n", out)
 

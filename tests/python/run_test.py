@@ -91,10 +91,10 @@ class Failure(unittest.TestCase):
             tushar.run("none.ups")
 
     def test_a_program_that_is_not_there(self):
-        with self.assertRaisesRegex(tushar.SusError, "'/none/sus' is no program"):
+        with self.assertRaisesRegex(tushar.SusError, "'/none/sus' is not a program"):
             tushar.run(SOD, sus="/none/sus")
         with mock.patch.dict(os.environ, SUS="/none/sus"):
-            with self.assertRaisesRegex(tushar.SusError, "'/none/sus', which .SUS names, is no program"):
+            with self.assertRaisesRegex(tushar.SusError, "'/none/sus', which .SUS names, is not a program"):
                 tushar.run(SOD)
 
 

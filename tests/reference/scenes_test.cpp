@@ -66,7 +66,7 @@ TEST(VortexScene, MeasuresTheSameInThreeDimensions) {
 
 TEST(VortexScene, NeedsThePlaneInWhichItTurns) {
   EXPECT_EQ(problemOf("ups/euler/vortex.ups", {"DataAnalysis/Module/axis=x"}),
-            "axis: a vortex around x needs a grid in y and z, but this one has no z");
+            "axis: a vortex around x needs a grid in y and z, but this grid does not use z");
 }
 
 TEST(VortexScene, RefusesAnEmptyMiddle) {
@@ -151,9 +151,9 @@ TEST(DiagonalTubeScene, HasErrorsThatFall) {
 
 TEST(DiagonalTubeScene, RefusesWhatTheGridCannotHold) {
   const std::string scene = "ups/euler/sod_diagonal.ups", normal = "DataAnalysis/Module/normal=";
-  EXPECT_EQ(problemOf(scene, {normal + "[1,1,1]"}), "normal: points along z, but this grid has no z");
+  EXPECT_EQ(problemOf(scene, {normal + "[1,1,1]"}), "normal: points along z, but this grid does not use z");
   EXPECT_EQ(problemOf(scene, {normal + "[1,1.1,0]"}),
-            "normal: in this direction the grid repeats every 1.34535 m for one axis, but every 1.47988 m for another");
+            "normal: in this direction the grid has a period of 1.34535 m for one axis, but 1.47988 m for another");
   EXPECT_EQ(problemOf(scene, {normal + "[0,0,0]"}), "normal is [0,0,0], which is no direction");
   EXPECT_EQ(problemOf(scene, {"DataAnalysis/Module/diaphragm=1"}),
             "The diaphragm must lie between two mirrors, which are 0.707107 m apart along the tube, but it is 0.707107 "

@@ -114,7 +114,7 @@ TEST(GasTable, SaysWhatAFileLacks) {
   const std::string path = test::temporaryFolder() + "t.h5";
   EXPECT_EQ(problem(writeOutput(path, "nodes/")), "'" + path + "' holds no c.density");
   EXPECT_EQ(problem(writeOutput(path, "cells/", 5)),
-            "'" + path + "': cells/c.density does not have the 10 numbers that the grid needs");
+            "'" + path + "': cells/c.density does not have the 10 values that the grid needs");
   EXPECT_NE(problem(test::temporaryFolder() + "none.h5").find("cannot read the file"), std::string::npos);
 }
 

@@ -109,11 +109,11 @@ class Crash(unittest.TestCase):
         assert_refused(SOD, "this is not a folder; --restart takes the .uda folder of a run (without --restart, "
                             "sus runs a scene)")
         assert_refused(here.path, "this is not a .uda folder: it has neither index.xml nor checkpoints")
-        assert_refused(bare.uda, "there are no checkpoints; ask for them with <checkpoint .../> in <DataArchiver>")
+        assert_refused(bare.uda, "there are no checkpoints; <checkpoint .../> in <DataArchiver> requests them")
         assert_refused(here.uda, "there is no checkpoint of step 50; there are those of steps 0, 100, 200, 218",
                        options=("-t", "50"))
-        assert_refused(here.uda, "the checkpoint has a different grid from the scene; patches may change, cells "
-                                 "may not",
+        assert_refused(here.uda, "the checkpoint has a different grid from the scene; a restart may change patches, "
+                                 "but not cells",
                        "Grid/Level/Box/resolution=[50,1,1]")
         assert_refused(here.uda, "--output cannot be used with --restart", options=("--output", here.path), code=2)
         found, errors, _ = here.finish([SOD, "-t", "50"], ())

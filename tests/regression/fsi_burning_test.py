@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 """Bodies that burn: rates against closed forms, what is conserved, the same bits on any layout, wrong scenes."""
+import math
 import pathlib
 import sys
 import unittest
+
+from scipy.optimize import brentq
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import gas_and_bodies as fsi
@@ -60,8 +63,62 @@ class Conservation(SceneTest):
         text = start + '<Model type="Test">' + model + end[end.index("</Simple_Burn>") + len("</Simple_Burn>"):]
         totals = globals_of(self.scene(text), "BurntMass", "TotalMass", "GasMass", sets=("Time/maxTime=0.5", *RIGID))
         before = totals["TotalMass"][0][1] - totals["GasMass"][0][1]
+        older = text.replace("<Test>", "").replace("</Test>", "")  # without a section of its own
+        prints = {run(self.scene(one), "Time/max_Timesteps=3", *RIGID).report["fingerprint"] for one in (text, older)}
+        self.assertEqual(len(prints), 1)
         # Each step takes .3 dt of what is left; steps are less than 1e-2.
         self.assertAlmostEqual(totals["BurntMass"][-1][1] / before, 1 - 2.718281828459045 ** -.15, delta=1e-3)
+
+
+# A slab of temperature 1 burns at about .02 under pressure 1; see SteadyBurn in components/ice/burn_model.hpp.
+STEADY = {"IdealGasConst": 1, "PreExpCondPh": .03, "ActEnergyCondPh": 5, "PreExpGasPh": .08, "CondPhaseHeat": .2,
+          "GasPhaseHeat": 1.8, "HeatConductGasPh": .01, "HeatConductCondPh": .01, "SpecificHeatBoth": 1,
+          "MoleWeightGasPh": 1}
+
+
+def steady_rate(pressure, temperature, density):
+    """The rate at which both equations of Ward, Son and Brewster hold."""
+    gas, factor, energy, far, low, high, k_gas, k, c, molar = STEADY.values()
+
+    def rate(surface):
+        reaction = factor * gas * k * density * surface ** 2 * math.exp(-energy / (gas * surface))
+        return math.sqrt(reaction / (energy * c * (surface - temperature - low / (2 * c))))
+
+    def excess(surface):
+        m = rate(surface)
+        x = 2 * k_gas / (c * (math.sqrt(m * m + 4 * k_gas * far * (molar * pressure) ** 2 / (c * gas ** 2)) - m))
+        return surface - temperature - low / c - high / c / (1 + x * m * c / k_gas)
+
+    return rate(brentq(excess, temperature + low / c + 1e-9, temperature + (low + high) / c, xtol=1e-14))
+
+
+class Ignition(SceneTest):
+    def burnt(self, text, *sets):
+        return globals_of(self.scene(text), "BurntMass", sets=sets)["BurntMass"]
+
+    def test_takes_a_hot_neighbour_and_pressure(self):
+        model = "Models/Model/Simple_Burn/"
+        self.assertGreater(self.burnt(SLAB, "Time/maxTime=1")[-1][1], .01)
+        for threshold in ("ThresholdTemp=1.5", "ThresholdPressure=1.5"):
+            self.assertEqual(self.burnt(SLAB, "Time/maxTime=1", model + threshold)[-1][1], 0, threshold)
+
+    def test_of_a_hot_gas_sets_a_cold_body_on_fire(self):
+        body, gas = SLAB.split("<ICE>\n      <material")
+        hot = gas.replace("<temperature>1<", "<temperature>2<", 1)
+        burnt = self.burnt(f"{body}<ICE>\n      <material{hot}", "Time/maxTime=1",
+                           "Models/Model/Simple_Burn/ThresholdTemp=1.5")
+        self.assertGreater(burnt[-1][1], .01)
+
+    def test_of_a_steady_deflagration_is_as_fast_as_its_source_says(self):
+        tags = "".join(f"<{name}>{value}</{name}>" for name, value in STEADY.items())
+        start, end = SLAB.index("<Model type"), SLAB.index("</Models>")
+        text = (f'{SLAB[:start]}<Model type="Steady_Burn"><Steady_Burn><fromMaterial>reactant</fromMaterial>'
+                f"<toMaterial>product</toMaterial>{tags}<ThresholdPressure>0.1</ThresholdPressure>"
+                f"<IgnitionTemp>0.5</IgnitionTemp></Steady_Burn></Model>{SLAB[end:]}")
+        rows = self.burnt(text, "Time/maxTime=40")
+        half = next(row for row in rows if row[0] > 20)
+        rate = (rows[-1][1] - half[1]) / (rows[-1][0] - half[0])
+        self.assertAlmostEqual(rate / steady_rate(1, 1, 20), 1, delta=2e-3)
 
 
 class Bits(SameBitsTest):
@@ -88,8 +145,13 @@ class WrongScenes(RefusedSceneTest):
     def test_what_would_change_the_rate(self):
         self.assert_refused(SLAB.replace("<ICE>", "<ICE>\n<thin_walls>true</thin_walls>", 1),
                             "ICE/thin_walls: is not available with a body that burns")
-        self.assert_refused(SLAB.replace("<ICE>", "<ICE>\n<ImplicitSolver/>", 1),
-                            "ICE/ImplicitSolver: is not available with a body that burns")
+
+    def test_steps_are_explicit_whatever_the_scene_says(self):
+        implicit = SLAB.replace("<ICE>", "<ICE>\n<ImplicitSolver/>", 1)
+        done = run(self.scene(implicit), options=("--check",))
+        self.assertIn("ICE/ImplicitSolver: does nothing: with a body that burns steps are explicit", done.out + done.err)
+        prints = {run(self.scene(text), "Time/max_Timesteps=5").report["fingerprint"] for text in (SLAB, implicit)}
+        self.assertEqual(len(prints), 1)
 
     def test_what_burns_has_a_specific_heat(self):
         self.assert_refused(SLAB.replace("<specific_heat>1</specific_heat>", ""),

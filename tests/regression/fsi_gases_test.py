@@ -10,6 +10,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import gas_and_bodies as fsi
 from fsi_test import LIGHT, ConservationTest, also, changed, rigid
 from same_bits import SameBitsTest
+from solids import globals_of
 from sus import run
 
 CONTACT, BUBBLE = (fsi.scene(name).read_text() for name in ("contact_of_gases", "bubble_and_body"))
@@ -61,6 +62,32 @@ class Conservation(ConservationTest):
     def test_of_gases_and_a_body_that_exchange_heat(self):
         for heat in ("50, 20, 5", "1e15, 1e15, 1e15"):
             self.assert_kept(self.warm(heat), "Time/maxTime=0.5")
+
+    def assert_energy_grows(self, text, rates):
+        """By the mass of each gas times its rate [W/kg] and the time. `rates`: by names of totals, in order."""
+        tags = (f"<add_heat_matls>{[1 + k for k in range(len(rates))]}</add_heat_matls>"
+                f"<add_heat_coeff>{list(rates.values())}</add_heat_coeff>"
+                "<add_heat_t_start>0</add_heat_t_start><add_heat_t_final>9</add_heat_t_final>")
+        heated = changed(text, ('<advection type="SecondOrder"/>',
+                                '<advection type="SecondOrder"/>' + f"<ADD_HEAT>{tags}</ADD_HEAT>"))
+        names = ("GasEnergy", "GasKineticEnergy", "KineticEnergy", "GasHeatToBodies", *rates)
+        scene = self.scene(also(heated, *names))
+        rows = list(zip(*globals_of(scene, *names, sets=("Time/maxTime=0.2",)).values()))
+        first, last = ([gas[1] - of_gas[1] + kinetic[1] + heat[1] for gas, of_gas, kinetic, heat, *_ in rows][k]
+                       for k in (0, -1))
+        time = rows[-1][0][0]
+        gained = time * sum(rate * mass[1] for rate, mass in zip(rates.values(), rows[0][4:]))
+        self.assertGreater(gained, .05 * first)
+        self.assertAlmostEqual(last - first, gained, delta=1e-12 * last)
+
+    def test_of_gases_that_get_heat(self):
+        for heat in ("50, 20, 5", "0, 0, 0"):
+            self.assert_energy_grows(self.warm(heat), {"TotalMass-air": 30, "TotalMass-helium": 50})
+
+    def test_of_one_gas_that_gets_heat(self):
+        text = changed(rigid(fsi.scene("contact").read_text()), LIGHT, ("<temperature>10<", "<temperature>30<"),
+                       ("<reference_pressure>1<", "<reference_pressure>0<"))
+        self.assert_energy_grows(text, {"GasMass": 30})
 
     def test_of_heat_changes_no_bit_on_any_patches(self):
         scene = self.scene(self.warm("50, 20, 5"))

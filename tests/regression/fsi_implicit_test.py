@@ -39,18 +39,27 @@ class ImplicitSteps(SceneTest):
         scene = self.scene(text)
         return columns(archive_of(scene, scene.parent, *sets), *self.FIELDS)
 
-    def assert_uniform(self, text, velocity, *sets):
+    def assert_uniform(self, text, velocity, *sets, pressure=1):
         found = self.fields(implicit(text), *sets)
         held = zip(found["c.freeVolume [1]"], found["c.density [kg/m^3]"])
         gas = [k for k, (free, mass) in enumerate(held) if free >= 1e-9 and mass > 0]
         self.assertGreater(len(gas), 20)
-        for column, value in (("c.pressure [Pa]", 1), *((f"c.velocity.{a} [m/s]", v) for a, v in zip("xy", velocity))):
+        velocities = ((f"c.velocity.{axis} [m/s]", value) for axis, value in zip("xy", velocity))
+        for column, value in (("c.pressure [Pa]", pressure), *velocities):
             self.assertLess(max(abs(found[column][k] - value) for k in gas), 1e-11, column)
 
     def test_leave_gas_at_rest_and_what_moves_alike(self):
         self.assert_uniform(fsi.scene("rest").read_text(), (0, 0), *fsi.resolution("rest", 25))
         self.assert_uniform(CONTACT, (1,), "Grid/Level/Box/resolution=[50,1,1]", "Time/maxTime=1")
         self.assert_uniform(DISC, (1, .618), *fsi.resolution("carried_disc", 25))
+
+    def test_take_no_guess_from_cells_that_a_body_filled(self):
+        start, end = '<cylinder label="disc">', "</cylinder>"
+        disc = DISC[DISC.index(start):DISC.index(end) + len(end)]
+        block = changed(DISC, (disc, '<box label="block"><min>[0.4,0.4,-1]</min><max>[0.6,0.6,1]</max></box>'),
+                        ("<specific_heat>2.5<", "<specific_heat>7.5<"),
+                        ("<reference_pressure>1<", "<reference_pressure>3<"))
+        self.assert_uniform(block, (1, .618), *fsi.resolution("carried_disc", 25), "Time/maxTime=0.05", pressure=3)
 
     def test_let_a_slow_piston_press_without_heat(self):
         errors = fsi.slow_piston(55)

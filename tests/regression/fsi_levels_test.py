@@ -7,7 +7,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import gas_and_bodies as fsi
 from fsi_gases_test import CONTACT as GASES
-from fsi_test import DISC, LIGHT, ConservationTest, changed, saving
+from fsi_test import DISC, LIGHT, ConservationTest, also, changed, saving
 from solids import SceneTest, archive_of, columns, globals_of
 from sus import run
 from uda import FolderTest
@@ -70,7 +70,23 @@ class Levels(SceneTest):
                         ("</Level>", "</Level>" + level), (END, blocks + END))
         done = run(self.scene(still), "Time/maxTime=0.3")
         self.assertNotEqual(done.code, 0)
-        self.assertIn("not among the finest", done.err)
+        self.assertIn("not on the finest level", done.err)
+
+
+class Shares(SceneTest):
+    """Of several gases on levels: between levels each is interpolated by itself."""
+
+    def test_add_up_to_one(self):
+        text = changed(GASES, LIGHT, ("<temperature>10<", "<temperature>30<"),
+                       ("<reference_pressure>1<", "<reference_pressure>0<"))
+        names = ("c.shareOfGas0", "c.shareOfGas1", "c.density")
+        scene = self.scene(also(refined(text), *names))
+        archive = archive_of(scene, scene.parent, "Grid/Level/Box/resolution=[80,1,1]", "Time/maxTime=0.3")
+        found = columns(archive, *names)
+        shares = zip(found["c.shareOfGas0 [1]"], found["c.shareOfGas1 [1]"], found["c.density [kg/m^3]"])
+        sums = [a + b for a, b, mass in shares if mass > 0]
+        self.assertGreater(len(sums), 80)
+        self.assertLess(max(abs(one - 1) for one in sums), 1e-12)
 
 
 class Bits(SceneTest, FolderTest):

@@ -86,14 +86,15 @@ class ParticlesOnLevels(unittest.TestCase):
     def test_one_that_leaves_the_finest_cells_ends_the_run(self):
         result = run(self.still("[0.25,0.3,0.0015625]", "[24,32,1]"), SHORT[0])
         self.assertEqual(result.code, 4)
-        self.assertRegex(result.err, r"particle \d+ came within \d cells of coarser cells, where no particles can be")
+        self.assertRegex(result.err, r"particle \d+ came within \d cells of coarser cells, where particles are not "
+                                     r"allowed")
         self.assertIn("try <adaptive>true</adaptive> in <AMR>", result.err)
 
     def test_one_that_leaves_cells_that_were_refined_once_ends_the_run(self):
         once = "<adaptive>true</adaptive><regrid_once>true</regrid_once>"
         result = run(changed(self.folder, ("<adaptive>true</adaptive>", once)), SHORT[0])
         self.assertEqual(result.code, 4)
-        self.assertIn("of coarser cells, where no particles can be", result.err)
+        self.assertIn("of coarser cells, where particles are not allowed", result.err)
         self.assertIn("try no <regrid_once> in <AMR>", result.err)
 
 

@@ -87,7 +87,8 @@ class PrescribedDeformation(unittest.TestCase):
             scene.write_text(text.replace(named, f">inputs/of/old/{PATH.name}<"))
             done = run(scene, "Time/max_Timesteps=2", options=())
             self.assertEqual(done.code, 0, done.err)
-            self.assertIn(f"there is no 'inputs/of/old/{PATH.name}': the file of that name next to the scene is used",
+            self.assertIn(f"there is no 'inputs/of/old/{PATH.name}', so the file of the same name next to the scene "
+                          f"is used",
                           done.err)
             scene.write_text(text.replace(named, ">inputs/of/old/nowhere.inp<"))
             self.assertIn("nowhere.inp': there is no such file", run(scene).err)

@@ -168,7 +168,7 @@ class Sampling(ModuleTest):
                "DataArchiver/outputInterval=0"]
         ended = sus(scene, "--output", self.folder / "ice", *few, options=())
         self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertIn("'uvel_FCME' is left out: no task computes it here", ended.stderr + ended.stdout)
+        self.assertIn("'uvel_FCME' is left out, since no task computes it in this scene", ended.stderr + ended.stdout)
         archive = next((self.folder / "ice").glob("*.uda.000"))
         self.assertEqual(sorted(file.name for file in (archive / "MinMax/L-0").iterdir()),
                          ["press_CC_0", "vel_CC_0", "vorticity_0"])
@@ -183,32 +183,32 @@ class Sampling(ModuleTest):
                    module("minMax", "<material>air</material>", ("press_CC", "vel_CC")))
         ended = sus(self.scene(modules, CHANNEL), "-check", options=())
         self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertEqual((ended.stderr + ended.stdout).count("'air' is understood as the only material, 'gas'"), 1)
+        self.assertEqual((ended.stderr + ended.stdout).count("'air' is taken to mean the only material, 'gas'"), 1)
 
     def test_what_a_module_cannot_show_is_refused(self):
         wrong = {
             module("minMax", variables=("c.densty",)): "computes 'c.densty' (did you mean 'c.density'?)",
             module("minMax", "<material>air</material>"):
-                "there is no material 'air': the variables of this component belong to none",
+                "there is no material 'air': the variables of this component belong to no material",
             module("minMax", variables=('label="c.density" matl="2"',)):
                 "there is no material 2; materials are numbered from 0 to 0",
             module("minMax", variables=("TotalMass",)):
-                "found 'TotalMass', expected a variable of cells (c.) or nodes (g.)",
+                "found 'TotalMass', expected a cell variable (c.) or a node variable (g.)",
             module("minMax", variables=()): "analyze",
             module("minMax").replace("<timeStop>100<", "<timeStop>-1<"): "expected timeStart, 0 s, or later",
             module("minMax").replace("1e10", "0"): "found '0', expected a value greater than 0",
             module("minMx"): "did you mean 'minMax'?",
             module("lineExtract"): "lines",
             module("lineExtract", "<lines>" + extent("line", "a", (0, 0, 0), (1, 1, 0)) + "</lines>"):
-                "a line goes along one axis",
+                "a line is parallel to one axis",
             module("lineExtract", "<lines>" + extent("line", "a", (0, 0, 0), (9, 0, 0)) + "</lines>"):
-                "found x from 0 to 9 m, expected places on the grid, from -5 to 5 m",
+                "found x from 0 to 9 m, expected positions on the grid, from -5 to 5 m",
             module("lineExtract", "<lines>" + 2 * extent("line", "a", (0, 0, 0), (1, 0, 0)) + "</lines>"):
                 "the name 'a' is given twice",
             module("lineExtract", "<lines>" + extent("line", "../a", (0, 0, 0), (1, 0, 0)) + "</lines>"):
                 "expected the name of a folder, without '/'",
             module("planeExtract", "<planes>" + extent("plane", "a", (0, 0, 0), (1, 0, 0)) + "</planes>"):
-                "a plane goes along two axes",
+                "a plane is parallel to two axes",
             module("planeAverage", "<planeOrientation>XX</planeOrientation>"): "found 'XX', expected",
             module("planeAverage", "<planeOrientation>XY</planeOrientation>",
                    ('label="c.density" weighting="mass"',)): 'missing tag <weight> in <Module>: weighting="mass"',

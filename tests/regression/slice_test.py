@@ -80,15 +80,17 @@ class Slice(ModuleTest):
             "<plane>z</plane>" + LABELS + STEPS:
                 "plane: found 'z', expected an axis and a coordinate in m, such as z = 0.5",
             "<plane>z=0</plane><plane>z = 0.0</plane>" + LABELS + STEPS: "plane: the plane z = 0.0 is given twice",
-            "<plane>z=2</plane>" + LABELS + STEPS: "plane: found z = 2 m, expected a place on the grid, from -1.25 to",
-            PLANES + "<label>p.x</label>" + STEPS: "found 'p.x', expected a variable of cells (c.) or nodes (g.)",
+            "<plane>z=2</plane>" + LABELS + STEPS: "plane: found z = 2 m, expected a position on the grid, from "
+                                                   "-1.25 to",
+            PLANES + "<label>p.x</label>" + STEPS: "found 'p.x', expected a cell variable (c.) or a node variable (g.)",
             PLANES + "<label>c.densty</label>" + STEPS: "computes 'c.densty' (did you mean 'c.density'?)",
             PLANES + LABELS: "a slice needs one of outputInterval and outputTimestepInterval: there is no default",
             PLANES + LABELS + STEPS + "<outputInterval>1</outputInterval>":
                 "gives both outputInterval and outputTimestepInterval; keep one",
             PLANES + LABELS + "<outputInterval>0</outputInterval>": "found '0', expected a value greater than 0 s",
             PLANES + LABELS + "<outputInterval>5e-12</outputInterval>":
-                "outputInterval: found 5e-12 s, expected more than 1e-11 s: times up to maxTime cannot resolve less",
+                "outputInterval: found 5e-12 s, expected more than 1e-11 s, which is the resolution of times up to "
+                "maxTime",
             PLANES + LABELS + "<outputTimestepInterval>0</outputTimestepInterval>":
                 "found '0', expected a value greater than 0",
             PLANES + STEPS: "label",
@@ -99,7 +101,7 @@ class Slice(ModuleTest):
             self.assertEqual(ended.returncode, 3, tags)
             self.assertIn(sentence, ended.stderr)
         flat = self.scene(ROOT / "ups/euler/vortex.ups", PLANES + LABELS + STEPS)
-        self.assertIn("the grid has no cells side by side along z", sus(flat, "-check").stderr)
+        self.assertIn("the grid has only one cell along z", sus(flat, "-check").stderr)
         line = self.scene(ROOT / "ups/euler/sod.ups", "<plane>x=0.5</plane>" + LABELS + STEPS)
         self.assertIn("would be a point", sus(line, "-check").stderr)
 
@@ -114,7 +116,7 @@ class Slice(ModuleTest):
         discs = self.scene(DISCS, "<plane>y=.52</plane><label>g.mass</label>" + STEPS)
         ended = sus(discs, "-check", "--set", "DataArchiver/save[1]/@label=AccStrainEnergy", options=())
         self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertIn("'AccStrainEnergy' is not saved: no task computes it here", ended.stderr)
+        self.assertIn("'AccStrainEnergy' is not saved, since no task computes it in this scene", ended.stderr)
 
     def test_a_film_of_slices(self):
         archive = self.run_in("film", self.scene(VORTEX, PLANES + LABELS + STEPS), *SMALL)

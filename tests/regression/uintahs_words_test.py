@@ -84,7 +84,7 @@ class UintahsWords(unittest.TestCase):
             path = pathlib.Path(folder, "scene.ups")
             path.write_text((ROOT / DISCS).read_text().replace("<save ", '<save label="AccStrainEnergy"/><save ', 1))
             result = run(path, *FEW, options=())
-            self.assertIn("'AccStrainEnergy' is not saved: no task computes it here", result.err)
+            self.assertIn("'AccStrainEnergy' is not saved, since no task computes it in this scene", result.err)
 
     def test_a_saved_number_means_the_material_of_that_place(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -131,7 +131,7 @@ class UintahsWords(unittest.TestCase):
             self.assertIn("'c' is saved as 'p.cohesion'", said)
             path.write_text(text)
             said = run(path, *FEW, options=()).err
-            self.assertIn("'p.Suction' is not saved: no task computes it here", said)
+            self.assertIn("'p.Suction' is not saved, since no task computes it in this scene", said)
 
     def test_what_is_saved_of_all_materials_is_saved_once_of_each(self):
         for order in ("all", "billet"), ("billet", "all"):

@@ -42,20 +42,22 @@ TEST(Levels, HaveTheirUpdatesInTheReportWhereEachTakesItsOwnSteps) {
   report.levelUpdates = {10, 2500, 120946};
   EXPECT_EQ(nlohmann::json::parse(toJson(report))["level_updates"], report.levelUpdates);
   const std::string line =
-      "3 regrids\n  cell updates of each level, with time steps of its own: 10 + 2500 + 1.209e+05\n";
+      "3 regrids\n  cell updates of each level, which takes its own time steps: 10 + 2500 + 1.209e+05\n";
   EXPECT_NE(toText(report).find(line), std::string::npos) << toText(report);
 }
 
 TEST(Levels, TheReportSaysWhereRefinementDoesNotPay) {
-  const std::string advice = "  it would probably be faster: on levels an update takes about ";
+  const std::string advice = "  it would probably be faster, because an update takes about ";
   Report report = refined();
   EXPECT_EQ(toText(report).find(advice), std::string::npos);
   report.dimension = 1;
-  EXPECT_NE(toText(report).find("4 times as many\n" + advice + "10 times as long\n"), std::string::npos);
+  EXPECT_NE(toText(report).find("4 times as many\n" + advice + "10 times as long on several levels\n"),
+            std::string::npos);
   report.dimension = 3;
   EXPECT_EQ(toText(report).find(advice), std::string::npos);
   report.uniformUpdates = 1.8 * report.updates;
-  EXPECT_NE(toText(report).find("1.8 times as many\n" + advice + "1.9 times as long\n"), std::string::npos);
+  EXPECT_NE(toText(report).find("1.8 times as many\n" + advice + "1.9 times as long on several levels\n"),
+            std::string::npos);
 }
 
 TEST(Levels, AreNotToldOfWhereThereIsOne) {

@@ -71,9 +71,9 @@ TEST(DryRun, SaysWhatItDoesNotCountOfGridsOfSeveralLevels) {
   };
   const DryRun stays, adapts{.isAdaptive = true}, steps{.hasSmallerSteps = true};
   EXPECT_FALSE(says(stays, "criteria refine it"));
-  EXPECT_TRUE(says(adapts, "of the grid of the scene: criteria refine it when the run begins"));
+  EXPECT_TRUE(says(adapts, "this is the grid before criteria refine it"));
   EXPECT_FALSE(says(adapts, "of all levels once"));
-  EXPECT_TRUE(says(steps, "of all levels once: finer ones take several steps in one"));
+  EXPECT_TRUE(says(steps, "for one step of all levels; finer levels take several steps"));
 }
 
 }  // namespace tushar::scene

@@ -50,6 +50,16 @@ TEST(Levels, GrowToWholeBlocksWhichANoteSays) {
   EXPECT_EQ(found.notes, (Strings{"Grid/Level/Box: is enlarged to whole blocks: from [0.5,0.25,0] to [1.25,0.5,0] m"}));
 }
 
+TEST(Levels, WithBoxesThatOverlapGetANote) {
+  const auto notes = [](const std::string& second) {
+    return read(square + level(box("0,0,0", "1,.5,0", "64,32,1") + second)).notes;
+  };
+  EXPECT_EQ(notes(box("1,0,0", "2,.5,0", "64,32,1")), Strings{});
+  EXPECT_EQ(notes(box(".5,.25,0", "1.5,.75,0", "64,32,1")),
+            (Strings{"Grid/Level/Box: overlaps the Box of the same level at s.ups:1:141; the cells that both contain "
+                     "are refined once"}));
+}
+
 TEST(Levels, LeaveOutAxesThatTheGridDoesNotUse) {
   const std::string walls =
       "<BoundaryConditions><Face side=\"z-\"><BCType label=\"Symmetric\" var=\"symmetry\"/></Face>"
@@ -66,17 +76,15 @@ TEST(Levels, LeaveOutAxesThatTheGridDoesNotUse) {
 TEST(Levels, ThatCannotBeGetASentence) {
   const auto refused = [](const std::string& grid) { return read(square + grid).problems; };
 
-  EXPECT_EQ(
-      refused(level(box(".5,.25,0", "1,.5,0", "48,24,1"))),
-      (Strings{"Grid/Level/Box: its cells are 3 times as fine along x as those of the first Level, expected 2, 4, "
-               "8 or another power of two"}));
-  EXPECT_EQ(
-      refused(level(box(".5,.25,0", "1,.5,0", "32,32,1"))),
-      (Strings{"Grid/Level/Box: its cells are 2 times as fine along x, but 4 times along y; refine all axes alike, "
-               "and add another Level where one axis needs finer cells"}));
+  EXPECT_EQ(refused(level(box(".5,.25,0", "1,.5,0", "48,24,1"))),
+            (Strings{"Grid/Level/Box: its cells are 3 times smaller along x than those of the first Level; the ratio "
+                     "must be 2, 4, 8 or another power of two"}));
+  EXPECT_EQ(refused(level(box(".5,.25,0", "1,.5,0", "32,32,1"))),
+            (Strings{"Grid/Level/Box: its cells are 2 times smaller along x, but 4 times smaller along y; refine all "
+                     "axes equally, and add another Level where one axis needs finer cells"}));
   EXPECT_EQ(refused(level(box(".5,.25,0", "1,.5,0", "16,8,1"))),
-            (Strings{"Grid/Level: this Level is not finer than the one before, at s.ups:1:30; Levels go from coarse to "
-                     "fine"}));
+            (Strings{"Grid/Level: this Level is not finer than the previous one, at s.ups:1:30; give Levels from "
+                     "coarse to fine"}));
   EXPECT_EQ(refused(halved + halved).size(), 1u);
   EXPECT_EQ(
       refused(level(box(".5,.25,0", "2.5,.5,0", "128,16,1"))),
@@ -87,13 +95,14 @@ TEST(Levels, ThatCannotBeGetASentence) {
   EXPECT_EQ(refused(level(box(".5,.25,0", "1,.5,0", "32,16,2"))),
             (Strings{"Grid/Level/Box: found 2 cells along z, expected 1: the grid does not use this axis"}));
   EXPECT_EQ(refused(level(box(".5,.25,0", "1,.5,0", "32,16,1") + box("0,0,0", ".5,.25,0", "64,32,1"))),
-            (Strings{"Grid/Level/Box: its cells are 4 times as fine as those of the first Level, but 2 times in a Box "
-                     "above; give it a Level of its own"}));
+            (Strings{"Grid/Level/Box: its cells are 4 times smaller than those of the first Level, but those of a Box "
+                     "above are 2 times smaller; put this Box into a separate Level"}));
   EXPECT_EQ(refused("<Level>" + box(".5,.25,0", "1,.5,0", "32,16,1") + "<periodic>[1,0,0]</periodic></Level>"),
-            (Strings{"Grid/Level/periodic: found [1,0,0], but the first Level has [0,0,0]; all Levels are periodic "
+            (Strings{"Grid/Level/periodic: found [1,0,0], but the first Level has [0,0,0]; all Levels must be periodic "
                      "along the same axes"}));
   EXPECT_EQ(refused(level(box("0,0,0", "2,1,0", "4194304,2097152,1"))),
-            (Strings{"Grid/Level: its cells are 65536 times as fine as those of the first Level; the most is 32768"}));
+            (Strings{"Grid/Level: its cells are 65536 times smaller than those of the first Level; the largest "
+                     "possible ratio is 32768"}));
 }
 
 TEST(Levels, TheFirstHasOneBox) {
@@ -149,18 +158,14 @@ TEST(Blocks, ThatCannotBeGetASentence) {
   };
   const auto along = [](const std::string& cells) { return level(box("0,0,0", "1,0,0", cells + ",1,1")); };
 
-  EXPECT_EQ(
-      refused(along("22"), ""),
-      (Strings{"Grid/Level/Box: its 22 cells along x cannot be cut into blocks of an even number of cells from 4 to "
-               "18; choose another <resolution>, or give <min_patch_size> 22"}));
-  EXPECT_EQ(
-      refused(along("25"), ""),
-      (Strings{"Grid/Level/Box: its 25 cells along x cannot be cut into blocks of an even number of cells from 4 to "
-               "18; choose another <resolution>"}));
-  EXPECT_EQ(
-      refused(along("25"), "<min_patch_size>[[8,1,1]]</min_patch_size>"),
-      (Strings{"AMR/Regridder/min_patch_size: blocks of 8 cells do not divide the 25 cells of the grid along x; no "
-               "even number of at least 4 divides the grid: choose another <resolution>"}));
+  EXPECT_EQ(refused(along("22"), ""),
+            (Strings{"Grid/Level/Box: its 22 cells along x cannot be divided into blocks of an even number of cells "
+                     "from 4 to 18; choose another <resolution>, or give <min_patch_size> 22"}));
+  EXPECT_EQ(refused(along("25"), ""), (Strings{"Grid/Level/Box: its 25 cells along x cannot be divided into blocks of "
+                                               "an even number of cells from 4 to 18; choose another <resolution>"}));
+  EXPECT_EQ(refused(along("25"), "<min_patch_size>[[8,1,1]]</min_patch_size>"),
+            (Strings{"AMR/Regridder/min_patch_size: blocks of 8 cells do not divide the 25 cells of the grid along x; "
+                     "no even number of at least 4 divides the number of cells: choose another <resolution>"}));
   EXPECT_EQ(refused(along("100"), "<min_patch_size>[[5,1,1]]</min_patch_size>"),
             (Strings{"AMR/Regridder/min_patch_size: found 5 along x, expected an even number of cells, at least 4"}));
   EXPECT_EQ(refused(along("100"), "<min_patch_size>[[2,1,1]]</min_patch_size>"),
@@ -169,8 +174,8 @@ TEST(Blocks, ThatCannotBeGetASentence) {
             (Strings{"AMR/Regridder/min_patch_size: found [[10,1,1],[20,1,1]], expected the same for all levels: a "
                      "block is refined into blocks with the same number of cells"}));
   EXPECT_EQ(refused(along("1048576"), "<max_levels>16</max_levels>"),
-            (Strings{"AMR/Regridder/max_levels: 16 levels make 3.44e+10 cells in 2.15e+09 blocks along x; the most is "
-                     "2.15e+09 cells, and 1048576 blocks"}));
+            (Strings{"with AMR/Regridder/max_levels: 16 levels there would be 3.44e+10 cells in 2.15e+09 blocks along "
+                     "x; at most 2.15e+09 cells and 1048576 blocks are possible"}));
 }
 
 TEST(Blocks, AreWhatTheSceneSays) {
@@ -196,7 +201,7 @@ TEST(Blocks, ThatAreTooSmallForTheTasksGiveWayToTheNearestThatAreNot) {
                      "scene, which need 6; blocks of 6 are used along this axis"}));
   EXPECT_EQ(blocksOf4("25").problems,
             (Strings{"AMR/Regridder/min_patch_size: blocks of 4 cells along x are too small for the tasks of this "
-                     "scene, which need 6; no even number of at least 6 divides the grid: choose another "
+                     "scene, which need 6; no even number of at least 6 divides the number of cells: choose another "
                      "<resolution>"}));
 }
 

@@ -87,8 +87,9 @@ TEST(RefinedScenes, AreRefinedByTheCriteriaOfTheirComponentWhereTheyGiveNone) {
       fmt::format("jumps of {}, {} and {} above {:g}", gas.regrid.criteria[0].variable, gas.regrid.criteria[1].variable,
                   gas.regrid.criteria[2].variable, gas.regrid.criteria[0].refine);
   EXPECT_NE(manual.str().find(told), std::string::npos) << told;
-  EXPECT_EQ(problemsOf(changed("ups/heat/sine.ups", "</Grid>", adaptive)),
-            "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where to refine\n");
+  EXPECT_EQ(
+      problemsOf(changed("ups/heat/sine.ups", "</Grid>", adaptive)),
+      "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which specifies where to refine\n");
 }
 
 TEST(RefinedScenes, NameVariablesThatAreThere) {

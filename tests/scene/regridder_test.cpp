@@ -14,7 +14,7 @@ TEST(Regridder, SaysHowManyLevelsThereMayBe) {
                                   "alone determine what is refined"}));
 
   EXPECT_EQ(read(square + halved, amr("<max_levels>1</max_levels>")).problems,
-            (Strings{"AMR/Regridder/max_levels: found 1, but the Levels of <Grid> make 2"}));
+            (Strings{"AMR/Regridder/max_levels: found 1, but there are 2 levels according to the Levels of <Grid>"}));
   EXPECT_EQ(read(square, amr(adaptive + "<max_levels>1</max_levels>", criteria)).problems,
             (Strings{"AMR/Regridder/max_levels: found 1, expected at least 2, since the grid is <adaptive>"}));
   EXPECT_EQ(read(square, amr("<max_levels>17</max_levels>")).problems,
@@ -47,8 +47,8 @@ TEST(Regridder, RefusesOtherRatios) {
                                         "</cell_refinement_ratio>",
                              criteria))
                 .problems,
-            (Strings{"AMR/Regridder/max_levels: found 12, which by <cell_refinement_ratio> are 23 levels of ratio 2; "
-                     "the most is 16"}));
+            (Strings{"AMR/Regridder/max_levels: found 12, which corresponds to 23 levels of ratio 2 because of "
+                     "<cell_refinement_ratio>; at most 1 are possible6"}));
   EXPECT_EQ(read(square, amr("<simple_refinement_ratio>4</simple_refinement_ratio>")).problems,
             (Strings{"AMR/Regridder/simple_refinement_ratio: found '4', expected 2: give one more level instead"}));
 }
@@ -100,7 +100,7 @@ TEST(Regridder, NotesWhatOfUintahsDoesNothing) {
           "AMR/Regridder/min_boundary_cells: does nothing: <cell_stability_dilation> alone widens the refined region, "
           "in addition to the distance that signals travel",
           "AMR/ICE/orderOfInterpolation: does nothing: interpolation between levels is of second order",
-          "AMR: attribute 'type' does nothing: a grid is adaptive where <Regridder> says so"}));
+          "AMR: attribute 'type' does nothing: <Regridder> determines whether a grid is adaptive"}));
   EXPECT_FALSE(found.amr.smallerSteps);
 }
 
@@ -115,8 +115,8 @@ TEST(Regridder, SaysWhatIsMisspelt) {
   EXPECT_EQ(read(square, amr("<max_level>2</max_level>")).problems.at(0).substr(0, 90),
             "AMR/Regridder/max_level: unknown tag <max_level> in <Regridder> (did you mean 'max_levels'");
   EXPECT_EQ(read(square, "<AMR><Regridder type=\"SingleLevel\"/></AMR>").problems,
-            (Strings{"AMR/Regridder: attribute 'type': found 'SingleLevel', expected 'Tiled' or 'BNR': the patches of "
-                     "a single level are set by <patches> in its Box, or by --layout"}));
+            (Strings{"AMR/Regridder: attribute 'type': found 'SingleLevel', expected 'Tiled' or 'BNR': <patches> in "
+                     "the Box of a level, or --layout, determines the patches of a single level"}));
   EXPECT_EQ(read(square, "<AMR><Euler/><Euler/></AMR>").problems.size(), 1u);
 }
 
@@ -149,8 +149,10 @@ TEST(Criteria, ThatCannotBeGetASentence) {
   const std::string path = "AMR/ICE/Refinement_Criteria_Thresholds/Variable: attribute ";
 
   EXPECT_EQ(refused("value=\"0\""), Strings{path + "'value': found '0', expected a value greater than 0"});
-  EXPECT_EQ(refused("value=\"1\" type=\"second_derivative\""),
-            Strings{path + "'value': found '1', expected a value less than 1, which no second_derivative exceeds"});
+  EXPECT_EQ(
+      refused("value=\"1\" type=\"second_derivative\""),
+      Strings{path +
+              "'value': found '1', expected a value less than 1, since the indicator second_derivative is at most 1"});
   EXPECT_EQ(refused("value=\"1\" coarsen=\"-1\""),
             Strings{path + "'coarsen': found '-1', expected a value of at least 0"});
   EXPECT_EQ(refused("value=\"1\" coarsen=\"2\""),
@@ -166,8 +168,9 @@ TEST(Criteria, ThatCannotBeGetASentence) {
 TEST(Criteria, NeedAThresholdIfTheyAreOfAVariable) {
   const std::string path = "AMR/ICE/Refinement_Criteria_Thresholds/Variable: ";
 
-  EXPECT_EQ(read(square, variable("name=\"c.p\"")).problems,
-            Strings{path + "missing attribute 'value' of <Variable> (finer cells where the indicator is above this)"});
+  EXPECT_EQ(
+      read(square, variable("name=\"c.p\"")).problems,
+      Strings{path + "missing attribute 'value' of <Variable> (cells are refined where the indicator is above this)"});
 
   const Read particles = read(square, variable("name=\"particles\""));
   EXPECT_EQ(particles.problems, Strings{});

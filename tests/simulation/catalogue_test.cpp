@@ -99,7 +99,7 @@ TEST(Catalogue, SaysThatAModuleLacksWhatItShouldHave) {
     catalogue.analysis("crest");
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "the module that should define 'crest' does not");
+    EXPECT_STREQ(error.what(), "the module that should define 'crest' does not define it");
   }
 }
 

@@ -55,10 +55,9 @@ TEST(LevelLimits, AskForBlocksThatHaveTheGhostsOfATask) {
   narrow.perPatch("near", readCells, requiresOld(value, 2));
   wide.perPatch("far", readCells, requiresOld(value, 3));
   EXPECT_EQ(problemsOf(narrow), "");
-  EXPECT_EQ(
-      problemsOf(wide),
-      "a.ups:7:3: task far reads c.value up to 3 cells beyond a patch, so blocks need 6 cells along each axis, but "
-      "have 4 along x; give <min_patch_size> in <Regridder> of <AMR>\n");
+  EXPECT_EQ(problemsOf(wide),
+            "a.ups:7:3: task far reads c.value up to 3 cells outside a patch, so blocks need 6 cells along each axis, "
+            "but have 4 along x; give <min_patch_size> in <Regridder> of <AMR>\n");
   EXPECT_EQ(problemsOf(wide, 1), "");
 }
 
@@ -80,7 +79,7 @@ TEST(LevelLimits, RefuseGhostsOfNodesButAroundParticles) {
   ofGas.perMaterial("ofGas", readNodesOfGas, gases, requiresNew(corner, 1));
   EXPECT_EQ(problemsOf(own), "");
   EXPECT_EQ(problemsOf(beyond),
-            "a.ups:7:3: task beyond reads g.corner of nodes beyond a patch, which needs a grid of one level\n");
+            "a.ups:7:3: task beyond reads g.corner of nodes outside a patch, which needs a grid of one level\n");
   EXPECT_EQ(problemsOf(ofGas), "");
   EXPECT_EQ(problemsOf(beyond, 1), "");
 }
@@ -126,8 +125,9 @@ TEST(LevelLimits, SmallerStepsAreForTasksThatReadTheOldStateAndTheirOwnCells) {
   nodes.perPatch("turn", readNodes, requiresNew(corner));
   const std::string end = ": all levels must take the same time step, as by default";
   const std::string start = "a.ups:7:3: AMR/useLockStep: task ";
-  EXPECT_EQ(problemOfSteps(far),
-            start + "far reads the new c.value beyond a patch, where another level does not have it yet" + end);
+  EXPECT_EQ(
+      problemOfSteps(far),
+      start + "far reads the new c.value outside a patch, where another level may not have computed it yet" + end);
   EXPECT_EQ(problemOfSteps(sums), start + "sum computes TotalValue over the whole grid" + end);
   EXPECT_EQ(problemOfSteps(solve), start + "solve needs all patches at once" + end);
   EXPECT_EQ(problemOfSteps(nodes), start + "turn uses nodes (g.corner)" + end);

@@ -176,7 +176,7 @@ TEST(Solver, TellsWhyAPreconditionerFailed) {
 
   EXPECT_FALSE(outcome.converged);
   EXPECT_EQ(outcome.reason,
-            "the preconditioner could not be built, as happens when the matrix is singular (DIVERGED_PC_FAILED)");
+            "the preconditioner could not be built, which happens if the matrix is singular (DIVERGED_PC_FAILED)");
 }
 
 TEST(Solver, TellsByHowMuchARightHandSideIsUnbalancedWhereAConstantIsFree) {

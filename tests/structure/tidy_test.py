@@ -106,6 +106,6 @@ class Check(unittest.TestCase):
 
 if __name__ == "__main__":
     if not tidy.install():
-        print(f"skipped: clang-tidy {tidy.VERSION} is not in build/python, and installing it takes a network")
+        print(f"skipped: clang-tidy {tidy.VERSION} is not in build/python, and installing it needs a network")
         sys.exit(tidy.MISSING)
     unittest.main()

@@ -118,7 +118,7 @@ TEST(Validate, RefusesATaskThatChangesParticlesWhichItsNeighboursRead) {
 
   EXPECT_EQ(complaintAbout(0), "");
   EXPECT_EQ(complaintAbout(1),
-            "task smooth: p.mass is read beyond the patch and written by the same task; write another label");
+            "task smooth: p.mass is read outside the patch and written by the same task; write to another label");
 }
 
 TEST(Validate, LetsTasksReadWhatARelocationBroughtAlong) {

@@ -51,27 +51,27 @@ class RefusedAccesses(unittest.TestCase):
 
     def test_what_belongs_to_no_material_is_left_out_of_tasks_of_materials_alone(self):
         said = complaints(piece(task='list.perPatch("read", body, withoutMaterial(requiresNew(::density)))'))
-        self.assertIn("a task of perPatch has no materials to leave out", said)
+        self.assertIn("withoutMaterial(...) is not needed in perPatch, whose tasks have no materials", said)
         said = complaints(piece(task='list.perRank("read", body, withoutMaterial(requiresNew(::density)))'))
-        self.assertIn("withoutMaterial(...) belongs to perMaterial and acrossMaterials", said)
+        self.assertIn("withoutMaterial(...) is allowed only in perMaterial and acrossMaterials", said)
 
     def test_new_particles_belong_to_the_task_that_makes_them(self):
         said = complaints(piece(task='list.perMaterial("make", body, materials, creates(mass))'))
-        self.assertIn("creates(...) belongs to newParticles", said)
+        self.assertIn("creates(...) is allowed only in newParticles", said)
 
     def test_a_group_makes_no_particles_elsewhere(self):
         code = piece(task='list.perMaterial("make", body, materials, all<Made>())')
-        self.assertIn("creates(...) belongs to newParticles, also in a group", complaints(code))
+        self.assertIn("creates(...) is allowed only in newParticles, even in a group", complaints(code))
         self.assertEqual(complaints(code.replace("perMaterial", "newParticles")), "")
 
     def test_a_group_takes_no_plain_value(self):
         for value in ("with(1.0)", "startTime()"):
             members = f".density = take(requiresNew(::density)), .other = (take({value}), take(computes(::other)))"
-            self.assertIn("take(...) takes accesses to labels", complaints(piece(members=members)))
+            self.assertIn("take(...) accepts only accesses to labels", complaints(piece(members=members)))
 
     def test_ranks_belong_to_tasks_of_a_rank(self):
         said = complaints(piece(task='list.perPatch("solve", body, togetherOnRanks())'))
-        self.assertIn("togetherOnRanks() belongs to perRank", said)
+        self.assertIn("togetherOnRanks() is allowed only in perRank", said)
 
     def test_a_group_writes_nothing_that_it_reads(self):
         self.assertIn("read-only", complaints(piece(use="group.density[cell] = 1")))

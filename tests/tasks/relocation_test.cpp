@@ -169,7 +169,7 @@ std::string shifted(double shift, bool open, long& dropped) {
   start.newParticles("create", create<1>, gas, creates(x<1>), creates(mark));
   shiftAll(advance, shift);
   const auto error = errorOf(run, start, advance);
-  dropped = run.scheduler.relocation().dropped();
+  dropped = run.scheduler.relocation().lost().left;
   return error ? error->what() : "";
 }
 
@@ -217,7 +217,7 @@ TEST(Relocation, DropsAndCountsWhatLeavesThroughAFreeFace) {
   EXPECT_EQ(dropped, 6);  // the particles of the last two of eight cells
 }
 
-TEST(Relocation, DropsWhatHasVanishedWithoutCountingIt) {
+TEST(Relocation, DropsWhatHasVanishedWithoutCountingItAndCountsWhatIsRemoved) {
   test::Runner run(test::domain({{8, 1, 1}}, {{2, 1, 1}}));
   TaskList start, advance;
   start.newParticles("create", create<1>, gas, creates(x<1>), creates(mark));
@@ -225,17 +225,19 @@ TEST(Relocation, DropsWhatHasVanishedWithoutCountingIt) {
       "vanish",
       [](const Patch&, const Material&, ParticleView<const Vec<1>> from, ParticleView<const ParticleId> ids,
          ParticleView<Vec<1>> to) {
-        for (int p = 0; p < from.owned(); ++p) to[p] = ids[p] % 3 == 0 ? Vec<1>(data::vanished) : from[p];
+        const std::array<Vec<1>, 2> gone{Vec<1>(data::vanished), Vec<1>(data::removed)};
+        for (int p = 0; p < from.owned(); ++p) to[p] = ids[p] % 3 < 2 ? gone[ids[p] % 3] : from[p];
       },
       gas, requiresOld(x<1>), requiresOld(data::particleId), computes(x<1>));
   advance.relocate(x<1>, gas);
 
   EXPECT_FALSE(errorOf(run, start, advance));
 
-  EXPECT_EQ(run.scheduler.relocation().dropped(), 0);
+  EXPECT_EQ(run.scheduler.relocation().lost().left, 0);
+  EXPECT_EQ(run.scheduler.relocation().lost().removed, 8);
   EXPECT_EQ(
       run.warehouse.particles(Generation::old, 0, 0).owned() + run.warehouse.particles(Generation::old, 0, 1).owned(),
-      16);
+      8);
 }
 
 TEST(Relocation, RefusesToLetParticlesThroughASymmetryPlaneOrToNowhere) {
@@ -281,7 +283,8 @@ std::string movedOnLevels(double cells) {
 
 TEST(Relocation, RefusesParticlesBesideCoarserCellsAndInThem) {
   const std::string refused =
-      "particle 5 came within 1 cell of coarser cells, where no particles can be; patch 1 (task relocate, material "
+      "particle 5 came within 1 cell of coarser cells, where particles are not allowed; patch 1 (task relocate, "
+      "material "
       "gas, step 7, time 0.5 s); try a wider grid";
 
   EXPECT_EQ(movedOnLevels(14), "");

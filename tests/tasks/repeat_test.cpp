@@ -114,7 +114,7 @@ TEST(Repeat, EndsTheStepWithTheTaskThatAsksAndLeavesTheOldStateAsItIs) {
     EXPECT_EQ(asked->reason.text(), "too far");
     EXPECT_EQ(tube.state(), before);
     EXPECT_EQ(tube.run.warehouse.reductionValues(tube.run.table.find("ran", -1)), std::vector<double>{});
-    EXPECT_EQ(tube.run.scheduler.relocation().dropped(), 0);
+    EXPECT_EQ(tube.run.scheduler.relocation().lost().left, 0);
   }
 }
 
@@ -134,8 +134,8 @@ TEST(Repeat, GivesWhatAStepThatWasNeverUndoneGives) {
 
     EXPECT_EQ(repeated.state(), plain.state());
     EXPECT_EQ(repeated.value("TotalMass"), plain.value("TotalMass"));
-    EXPECT_EQ(repeated.run.scheduler.relocation().dropped(), plain.run.scheduler.relocation().dropped());
-    EXPECT_GT(plain.run.scheduler.relocation().dropped(), 0);
+    EXPECT_EQ(repeated.run.scheduler.relocation().lost().left, plain.run.scheduler.relocation().lost().left);
+    EXPECT_GT(plain.run.scheduler.relocation().lost().left, 0);
   }
 }
 

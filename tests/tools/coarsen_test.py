@@ -67,9 +67,9 @@ class Coarsen(unittest.TestCase):
 
     def test_refuses_what_does_not_fit(self):
         self.assertEqual(coarsen(self.archive, "--by", 5, "--out", self.table),
-                         (1, "coarsen: 48 x 48 x 1 cells cannot be joined by 5 along each axis\n"))
+                         (1, "coarsen: 48 x 48 x 1 cells cannot be merged by 5 along each axis\n"))
         self.assertEqual(coarsen(self.archive, "--by", 2, "--lower", "2,0,0", "--out", self.table),
-                         (1, "coarsen: the box between --lower and --upper holds no cells\n"))
+                         (1, "coarsen: the box between --lower and --upper contains no cells\n"))
         self.assertEqual(coarsen(self.archive, "--by", 2, "--lower", "2,0", "--out", self.table)[0], 2)
         self.assertEqual(coarsen(self.folder.name, "--by", 2, "--out", self.table)[0], 1)
 
@@ -98,7 +98,7 @@ class Coarsen(unittest.TestCase):
             output = pathlib.Path(fake_uda.make_refined(folder), "t00010.h5")
             result = run(SCENE, f"DataAnalysis/Module/file={output}")
         self.assertEqual(result.code, 3)
-        self.assertIn("contains boxes of several levels: tools/coarsen turns it into a table", result.err)
+        self.assertIn("contains boxes of several levels: use tools/coarsen to make a table from it", result.err)
 
     def test_a_table_that_is_not_there_is_a_bad_scene(self):
         result = run(SCENE, "DataAnalysis/Module/file=none.h5")

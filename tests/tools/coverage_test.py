@@ -168,7 +168,7 @@ class Coverage(unittest.TestCase):
         for words, code, sentence in ((("--limit", "0"), 2, "found '0', expected a number above 0"),
                                       (("--jobs", "none"), 2, "found 'none', expected a whole number"),
                                       (("--set", "Time"), 2, "found 'Time', expected PATH=VALUE"),
-                                      (("--sus", "no/such/sus"), 2, "'no/such/sus' is no program"),
+                                      (("--sus", "no/such/sus"), 2, "'no/such/sus' is not a program"),
                                       (("--markdown", "no/such/folder.md"), 1, "No such file or directory")):
             with self.subTest(words):
                 ended, _, errors = self.run_tool(*words)

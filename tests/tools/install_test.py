@@ -85,7 +85,7 @@ class Install(unittest.TestCase):
         (self.here / "mine/notes.txt").write_text("mine\n")
         done = modules.run([ROOT / "tools/new_component", "--outside", self.here / "mine", "wave"])
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn("is there already, and not an empty folder", done.stderr)
+        self.assertIn("exists already, and is not an empty folder", done.stderr)
         self.assertEqual([file.name for file in (self.here / "mine").iterdir()], ["notes.txt"])
 
 

@@ -68,8 +68,8 @@ class NewComponent(unittest.TestCase):
 
     def test_refuses_a_name_that_is_taken_or_is_none(self):
         before = sorted(self.copy.rglob("*"))
-        for name, sentence in (("heat", "components/heat exists already"), ("9lives", "is no name for a folder"),
-                               ("class", "is no name for a folder"), ("grid", "tests/grid exists already"),
+        for name, sentence in (("heat", "components/heat exists already"), ("9lives", "cannot be the name of a folder"),
+                               ("class", "cannot be the name of a folder"), ("grid", "tests/grid exists already"),
                                ("simulation", "tests/simulation exists already"), ("std", "use the name std already"),
                                ("patch", "use the name Patch already"), ("settings", "use the name Settings already")):
             done = subprocess.run([self.copy / "tools/new_component", name], capture_output=True, text=True)

@@ -77,7 +77,7 @@ class Scenes(InFolder):
         code, out, err = self.plot(SOD, sus=self.dying())
         self.assertEqual((code, out), (4, ""))
         self.assertIn("step 7: the density is not finite\n", err)
-        self.assertIn("exit code 4, so nothing is drawn; what it saved is in sod.uda.000\n", err)
+        self.assertIn("exit code 4, so nothing is drawn; its outputs are in sod.uda.000\n", err)
 
     def test_is_not_run_where_the_picture_cannot_be(self):
         for words, code, sentence in ((("--movie", "film.avi"), 1, "must end in .mp4 or .gif"),
@@ -92,7 +92,7 @@ class Scenes(InFolder):
     def test_is_what_values_are_overridden_of(self):
         code, _, err = self.plot("sod.uda", *SMALL)
         self.assertEqual(code, 2)
-        self.assertIn("--set overrides a value of a scene (.ups), and 'sod.uda' is none", err)
+        self.assertIn("--set overrides a value of a scene (.ups), but 'sod.uda' is not a scene", err)
 
     def test_is_run_by_tools_run_unless_a_program_is_named(self):
         with mock.patch("subprocess.Popen") as started, mock.patch.dict(os.environ):

@@ -73,9 +73,9 @@ class Slices(WithArchives):
         self.assertLessEqual(np.abs(x[:, 1] - 0.3).max(), 0.0125)
 
     def test_that_is_nowhere_is_told(self):
-        outside = "x = 1.5 m is outside of the grid, which reaches from 0 to 1 m"
+        outside = "x = 1.5 m is outside the grid, which extends from 0 to 1 m"
         for slices, sentence in (({2: 0.5}, "no slice at z: the grid has only x, y"), ({0: 1.5}, outside),
-                                 ({0: 0.5, 1: 0.5}, "leave nothing to draw")):
+                                 ({0: 0.5, 1: 0.5}, "nothing remains to draw")):
             with self.assertRaisesRegex(ArchiveError, sentence):
                 Figure(Archive(self.plate), variables=["c.temperature"], view=View(slices))
 
@@ -83,7 +83,7 @@ class Slices(WithArchives):
     def test_that_meets_no_particles_is_told(self):
         with self.assertRaisesRegex(ArchiveError, "no particles lie within half a cell of x = 0.02 m"):
             Figure(Archive(self.disks), variables=["p.density"], view=View({0: 0.02}))
-        with self.assertRaisesRegex(ArchiveError, "disks.uda' holds no values of p.density in the slice"):
+        with self.assertRaisesRegex(ArchiveError, "disks.uda' contains no values of p.density in the slice"):
             list(film.figures(Archive(self.disks), ["p.density"], None, View({0: 0.02})))
 
 
@@ -160,7 +160,7 @@ class Differences(WithArchives):
         grids = "the grids differ, 6 x 4 cells here and 100 cells in"
         for options, sentence in (((self.plate, "--diff", self.sod), grids),
                                   ((self.disks, "--diff", self.sod), "sod.uda' has no particles of 'left'"),
-                                  ((self.plate, "--diff", self.plate, "--log"), "--log and --diff do not go together")):
+                                  ((self.plate, "--diff", self.plate, "--log"), "--log and --diff cannot be combined")):
             code, _, err = self.plot(*options)
             self.assertEqual(code, 1, err)
             self.assertIn(sentence, err)
@@ -197,7 +197,7 @@ class Films(WithArchives):
         with mock.patch("tushar.film.ffmpeg", return_value=None):
             path, notes = film.write(Archive(self.plate), str(self.folder / "plate.mp4"), ["c.temperature"])
         self.assertEqual(path, str(self.folder / "plate.gif"))
-        self.assertEqual(notes, ["there is no ffmpeg, which writes .mp4: the film is a .gif"])
+        self.assertEqual(notes, ["ffmpeg, which writes .mp4, is not installed: the film is a .gif"])
 
     def test_ffmpeg_gets_the_pictures(self):
         program = self.folder / "programs/ffmpeg"
@@ -283,7 +283,7 @@ class Following(WithArchives):
 
 class Options(WithArchives):
     def test_mistakes_are_sentences(self):
-        axis = "found 'w=1', expected an axis and a place, such as x=0.5"
+        axis = "found 'w=1', expected an axis and a coordinate, such as x=0.5"
         for options, code, sentence in ((("--slice", "w=1"), 2, axis),
                                         (("--range", "-1"), 2, "found '-1', expected two numbers, such as 0,1"),
                                         (("--range", "2,1"), 2, "expected the lower number first"),
@@ -293,7 +293,7 @@ class Options(WithArchives):
                                         (("--time", "nan"), 2, "found 'nan', expected a number"),
                                         (("--slice", "x=inf"), 2, "found 'x=inf', expected an axis and a place"),
                                         (("--slice", "x=0", "--slice", "x=1"), 2, "two slices at x; keep one"),
-                                        (("--movie", "a.gif", "--out", "a.png"), 2, "--movie the film: keep one"),
+                                        (("--movie", "a.gif", "--out", "a.png"), 2, "--movie a film: keep one"),
                                         (("--movie", ""), 1, "'' is no film"),
                                         (("c.temperature.x",), 1, "did you mean 'c.temperature'?"),
                                         (("--movie", "a.gif", "--index", "1"), 2, "not allowed with argument")):
@@ -304,7 +304,7 @@ class Options(WithArchives):
 
     def test_a_global_quantity_is_for_another_tool(self):
         err = self.plot(self.sod, "KineticEnergy")[2]
-        self.assertIn("'KineticEnergy' is one number for all places", err)
+        self.assertIn("'KineticEnergy' is a global value, which cannot be drawn on the grid", err)
         self.assertIn(f"tools/uda {self.sod} KineticEnergy prints it over time", err)
 
     def test_a_picture_without_ending_is_png_and_variables_may_come_last(self):

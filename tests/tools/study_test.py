@@ -80,11 +80,11 @@ class Study(unittest.TestCase):
         self.assertNotIn("12", again.stderr)
 
     def test_fails_with_a_sentence(self):
-        for arguments, sentence in ((("sodd",), "'sodd' is neither a scene (.ups) nor a ready study: sod"),
+        for arguments, sentence in ((("sodd",), "'sodd' is neither a scene (.ups) nor a predefined study: sod"),
                                     ((), "nothing to run"),
                                     (("ups/mpm/sod.ups", "--error", "density.face.L1", "--vary", "resolution=20"),
-                                     "there is no error 'density.face.L1': at 'face' "
-                                     "there is only particle, cell, node")):
+                                     "there is no error 'density.face.L1': at 'face', available: particle, cell, "
+                                     "node")):
             done = study(self.folder.name, *arguments, "--repeat", "1", out="wrong")
             self.assertEqual(done.returncode, 1)
             self.assertIn("study: ", done.stderr)

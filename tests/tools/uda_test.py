@@ -113,7 +113,8 @@ class Library(WithArchives):
                 text = file.read()
             with open(index, "w", encoding="utf-8") as file:
                 file.write(text.replace("<tushar_archive version", '<tushar_archive format="7" version'))
-            with self.assertRaisesRegex(ArchiveError, "has format 7, and this reader knows formats up to 2; sus 0.1.0"):
+            with self.assertRaisesRegex(ArchiveError, "has format 7, but this reader supports only formats up to 2; "
+                                                      "it was written by sus 0.1.0"):
                 Archive(os.path.dirname(index))
 
     def test_lists_its_runs(self):
@@ -139,12 +140,12 @@ class Library(WithArchives):
         with self.assertRaisesRegex(ArchiveError, r"is no folder; there is '.*disks.uda.000'"):
             Archive(self.disks)
         os.symlink("disks.uda.000", self.disks)
-        with self.assertRaisesRegex(ArchiveError, "has no index.xml, so it is no archive; there is '.*.uda'"):
+        with self.assertRaisesRegex(ArchiveError, "has no index.xml, so it is not an archive; there is '.*.uda'"):
             Archive(self.folder.name)
         for path, sentence in ((self.path("plat"), "'.*/plat' is no folder; there is '.*/plate.uda'"),
                                (self.path("unlike.uda"), "'.*/unlike.uda' is no folder$"),
                                (self.sod + "/t00000.h5", "is a file of an archive, which is the folder '.*/sod.uda'"),
-                               (__file__, "is a file, and an archive is a folder")):
+                               (__file__, "is a file, but an archive is a folder")):
             with self.assertRaisesRegex(ArchiveError, sentence):
                 Archive(path)
 
@@ -197,9 +198,9 @@ class Command(WithArchives):
             os.truncate(os.path.join(sod, "t00200.h5"), 1000)
             code, out, err = run("uda", sod)
             self.assertEqual((code, err), (0, ""))
-            self.assertIn("200   0.2   its file is damaged or not whole\n", out)
+            self.assertIn("200   0.2   its file is damaged or incomplete\n", out)
             self.assertIn("p.density", out)
-            self.assertIn("t00200.h5', which is damaged or not whole", run("uda", sod, "p.density")[2])
+            self.assertIn("t00200.h5', which is damaged or incomplete", run("uda", sod, "p.density")[2])
             os.remove(os.path.join(sod, "t00200.h5"))
             self.assertRegex(run("uda", sod, "p.density")[2], "the file of output 2, '.*t00200.h5', is missing\n")
 
@@ -208,7 +209,8 @@ class Command(WithArchives):
             plate = fake_uda.make_heat(folder)
             with h5py.File(os.path.join(plate, "t00000.h5"), "r+") as file:
                 del file["nodes/g.mass"]
-            self.assertIn("output 0 holds no 'g.mass'; a step computes it, and this is the start",
+            self.assertIn("output 0 contains no 'g.mass'; it is computed in a step, and this output is the initial "
+                          "state",
                           run("uda", plate, "g.mass", "--index", "0")[2])
 
     def test_prints_positions_and_values(self):
@@ -315,7 +317,7 @@ class Plot(WithArchives):
                          ((0, grid.spacing[0] * grid.cells[0]), (0, grid.spacing[1] * grid.cells[1])))
 
     def test_says_which_time_it_took(self):
-        self.assertIn("the output nearest to t = 0.19 s is that at 0.2 s", self.plot(self.sod, "--time", "0.19")[1])
+        self.assertIn("the output nearest to t = 0.19 s is the one at 0.2 s", self.plot(self.sod, "--time", "0.19")[1])
 
     def test_draws_fields_images_and_points(self):
         self.assertIn(b"temperature [K]", self.plot(self.heat, out="heat.svg")[0])
@@ -325,7 +327,7 @@ class Plot(WithArchives):
 
     def test_fails_with_a_sentence(self):
         for arguments, sentence in (((self.sod, "p.presure"), "did you mean 'p.pressure'?"),
-                                    ((self.sod, "--out", self.path("out.xyz")), "is no picture: its name must"),
+                                    ((self.sod, "--out", self.path("out.xyz")), "is not a picture: its name must"),
                                     ((self.sod, "--out", self.path("no/out.png")), "there is no folder '")):
             code, _, err = run("plot", *arguments)
             self.assertEqual(code, 1)

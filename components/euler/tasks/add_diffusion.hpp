@@ -17,7 +17,8 @@ struct DiffusionRims {
   }
 };
 
-/// Computes T [K], in place of the density, and v, for the cells of `rows` that are on the grid or its images.
+/// Computes T [K], instead of the density, and v, for the cells of `rows` that are on the grid or are images of such
+/// cells.
 template <int D>
 void findTemperature(const Gas& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& rows);
 
@@ -31,8 +32,8 @@ template <int D>
 void addDiffused(double ratio, const Box& block, int axis, Rows<D>& flux, CellView<Vec<D>> momentum,
                  CellView<double> energy);
 
-/// Adds the changes by viscosity and heat conduction in a step, from the state [kg/m³, kg/(m² s), J/m³] and the time at
-/// its start.
+/// Adds the changes due to viscosity and heat conduction in a step, from the state [kg/m³, kg/(m² s), J/m³] and the
+/// time at its start.
 ///
 /// Through a face across d flow -tau_d of momentum and -(tau_d . v + k dT/dx_d) of energy, tau = mu (grad v +
 /// (grad v)^T - 2/3 div v I): Newton's and Fourier's laws, by centred differences. What leaves a cell enters its

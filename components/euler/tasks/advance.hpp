@@ -6,7 +6,8 @@
 
 namespace tushar::euler {
 
-/// The fluxes of one of several gases through the rim of the level: of its mass, kg/(m² s), and its share, m/s.
+/// The fluxes of one of several gases through the rim of the level: of its mass, kg/(m² s), and its volume fraction,
+/// m/s.
 struct GasRims {
   RimFlux<double> mass, share;
 
@@ -32,8 +33,8 @@ struct RimFluxes {
   }
 };
 
-/// One step on a patch: the body of the task, with the gas, the state before [kg/m³, kg/(m² s), J/m³], its time and the
-/// time step [s], the state after and its fluxes through the rim of the level.
+/// One step on a patch: the body of the task, with the gas, the old state [kg/m³, kg/(m² s), J/m³], its time, the time
+/// step [s], the new state, and its fluxes through the rim of the level.
 ///
 /// U' = U - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, all axes at once (unsplit). First order: F of the cells on
 /// both sides of a face. MUSCL-Hancock: limited slopes of rho, v, p along each axis; what the fluxes of a cell's own
@@ -44,12 +45,12 @@ template <int D>
 using Advance = void (*)(const Patch& patch, const Gas& gas, const OldState<D>& old, double time, double dt,
                          const NewState<D>& fresh, const RimFluxes<D>& rims);
 
-/// The body for a method and the law of a gas; each is compiled separately, so that no loop over cells branches on
-/// them. A gas with a law of its own has HLLC's flux, and van Leer's slopes or none.
+/// The body for a method and the law of a gas; each combination is compiled separately, so that no loop over cells
+/// branches on them. A gas with a law of its own has HLLC's flux, and van Leer's slopes or none.
 template <int D>
 Advance<D> chooseAdvance(const Method& method, const Gas& gas = {});
 
-/// The number of cells beyond a patch that a step reads.
+/// The number of ghost layers that a step reads.
 inline int reach(const Method& method) { return method.reconstruction == Reconstruction::firstOrder ? 1 : 2; }
 
 }  // namespace tushar::euler

@@ -19,7 +19,7 @@ struct NewGas {
   static NewGas from(auto& take) { return {.mass = take(computes(c::gasMass)), .share = take(computes(c::gasShare))}; }
 };
 
-/// The law of gases at a cell: `gases` have the laws, `held` the shares.
+/// The law of the gases in a cell: `gases` have the laws, `held` the volume fractions.
 template <class Held, int D>
 MixedGas mixedAt(const std::vector<Settings>& gases, const std::vector<Held>& held, const Index<D>& cell) {
   MixedGas mixed;
@@ -76,8 +76,8 @@ inline constexpr int kMostGases = 3;
 template <int D>
 AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
 
-/// Rescales shares where fluxes through the rim of a level were corrected: there they no longer add up to 1. Divides
-/// them by their sum, the correction of the flux of volume. Other cells stay as they are.
+/// Rescales volume fractions where fluxes through the rim of a level were corrected, because there they no longer add
+/// up to 1. Divides them by their sum, the correction of the flux of volume. Other cells stay as they are.
 template <int D>
 void closeShares(const Patch& patch, const std::vector<Settings>& gases, const std::vector<CellView<double>>& shares);
 
@@ -89,9 +89,9 @@ struct ChangedGas {
     return {.mass = take(modifies(c::gasMass)), .share = take(modifies(c::gasShare))};
   }
 };
-/// Like mendNewCells, for several gases: as numbers of new cells are interpolated separately, the density is set to the
-/// sum of the masses, and the shares are rescaled to add up to 1. Where that makes no gas, all children of a cell get
-/// their means.
+/// Like mendNewCells, for several gases. Since the values of new cells are interpolated separately, the density is set
+/// to the sum of the masses, and the volume fractions are rescaled to add up to 1. Where that makes no gas, all
+/// children of a cell get their means.
 template <int D>
 void mendNewMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& newCells,
                     const ChangedState<D>& state, const std::vector<ChangedGas>& held);

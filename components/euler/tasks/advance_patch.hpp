@@ -17,7 +17,7 @@ bool canBe(const G& gas, const Box& block, const StateViews<D, double>& fresh) {
   return fine;
 }
 
-/// A step of all cells of a patch, a part after the other; `finish(part)` is called while its new values are in the
+/// A step of all cells of a patch, one part after the other; `finish(part)` is called while its new values are in the
 /// cache. In three dimensions the parts are columns along z.
 template <int D, class Flux, class Shape, class G, class Finish>
 void advanceCells(const G& gas, const Level& level, const GhostRules<D>& rules, const Box& cells, double dt,

@@ -7,7 +7,7 @@
 
 namespace tushar::euler {
 
-/// Cells are constant: the values at their faces are their own.
+/// Cells are constant: the values at their faces are those of the cell.
 struct Constant {
   static constexpr int reach = 1;
 };
@@ -20,9 +20,9 @@ struct Sloped {
 /// Work arrays for a block of cells and the cells around it.
 template <int D, int K = 1>
 struct Work {
-  /// Room for blocks of a patch. Cells over edges of the grid stay 0; all else is written before it is read.
+  /// Space for the blocks of a patch. Cells over edges of the grid stay 0; all else is written before it is read.
   Work(const Box& cells, int reach) : Work(largestBlock<D>(cells).grown(reach, D).size(), reach > 1, {}) {}
-  /// Room for the planes, of up to `cells` cells, that a ColumnStep needs at a time.
+  /// Space for the planes, of up to `cells` cells, that a ColumnStep needs at a time.
   static Work ofColumns(std::size_t cells, int reach) { return {cells, reach > 1, {2 * reach, 1, 2}}; }
   void hold(const Box& box) {
     w.hold(box);
@@ -34,7 +34,7 @@ struct Work {
   Rows<D, K> w;                          ///< primitive values of cells
   std::vector<Rows<D, K>> lower, upper;  ///< primitive values at faces, per axis; none if cells are constant
   Rows<D, K> flux;                       ///< through lower faces, of one axis at a time
-  std::vector<double> least;             ///< of a row: least density and p + p_inf at faces
+  std::vector<double> least;             ///< for a row: least density and p + p_inf at faces
 
  private:
   /// How many planes it holds of cells, of faces, and of upper faces along the last axis; 0: all.
@@ -50,7 +50,7 @@ struct Work {
   }
 };
 
-/// rho, v, p of the cells of a box that are on the grid or its images.
+/// rho, v, p of the cells of a box that are on the grid or are images of such cells.
 template <int D, class G>
 void recover(const G& gas, const Level& level, const Box& box, const ViewsOf<D, kGases<G>, const double>& old,
              Rows<D, kGases<G>>& w) {
@@ -113,7 +113,7 @@ void computeFluxes(const G& gas, const Box& faces, Work<D, kGases<G>>& work, Row
   });
 }
 
-/// Adds what flows in across an axis of each of several gases.
+/// Adds the inflow of each of several gases across an axis.
 template <int D, int Axis, int K>
 void addFluxesOfEach(double ratio, const Index<D>& first, int count, const MixtureViews<D, const double>& old,
                      Rows<D, K>& flux, const MixtureViews<D, double>& fresh) {
@@ -128,7 +128,7 @@ void addFluxesOfEach(double ratio, const Index<D>& first, int count, const Mixtu
   }
 }
 
-/// Adds what flows in across an axis; the first axis starts from the old state.
+/// Adds the inflow across an axis; the first axis starts from the old state.
 template <int D, int Axis, int K>
 void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>& old, Rows<D, K>& flux,
                const ViewsOf<D, K, double>& fresh) {
@@ -146,7 +146,7 @@ void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>
   });
 }
 
-/// Keeps the fluxes across an axis at the rim of the level.
+/// Stores the fluxes across an axis at the rim of the level.
 template <int D, int K>
 void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D, K>& flux) {
   if (rims.mass.empty()) return;

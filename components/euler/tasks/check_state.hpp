@@ -11,8 +11,8 @@
 
 namespace tushar::euler {
 
-/// Whether the states of a row of cells are valid: rho > 0 and, without a division, p + p_inf > 0, which is rho (E -
-/// p_inf) > |rho v|² / 2; all of it finite.
+/// Whether the states of a row of cells are valid: rho > 0 and, p + p_inf > 0, checked without division as rho (E -
+/// p_inf) > |rho v|² / 2; all values must be finite.
 template <int D>
 bool canBe(const StiffenedGas& gas, const double* density, const double* momentum, const double* totalEnergy,
            int count) {

@@ -4,8 +4,8 @@
 
 namespace tushar::euler {
 
-/// A step of columns of cells along z, plane after plane, to the bits of advanceBlock: what it holds of a column is the
-/// planes that it needs at a time, and nothing is computed twice along z.
+/// A step of columns of cells along z, plane after plane, bitwise equal to advanceBlock. It stores only the planes that
+/// it needs at a time, and computes nothing twice along z.
 template <class Flux, class Shape, class G>
 class ColumnStep {
  public:
@@ -56,7 +56,7 @@ class ColumnStep {
     box.upper[z] = end;
     return box;
   }
-  /// The gas before the step in some planes, those beyond the grid included.
+  /// The gas before the step in some planes, including those outside the grid.
   void take(const Box& planes) {
     recover<3>(gas_, level_, planes, old_, work_.w);
     fillBeyondGrid<3>(level_, rules_, work_.w, planes);
@@ -66,12 +66,12 @@ class ColumnStep {
     computeFluxes<3, Flux, Shape, z>(gas_, plane, work_, rising_);
     keepAtRim<3>(rims_, plane, z, rising_);
   }
-  /// What fluxes across x and y change in a plane.
+  /// The change in a plane due to the fluxes across x and y.
   void cross(const Box& plane) {
     sweep<3, Flux, Shape, 0>(gas_, level_, plane, dt_, old_, work_, fresh_, rims_);
     sweep<3, Flux, Shape, 1>(gas_, level_, plane, dt_, old_, work_, fresh_, rims_);
   }
-  /// What fluxes across z change in a plane.
+  /// The change in a plane due to the fluxes across z.
   void add(const Box& plane) {
     rims_.masses.keep(plane, z, rising_);
     addFluxes<3, z>(dt_ / level_.spacing(z), plane, old_, rising_, fresh_);

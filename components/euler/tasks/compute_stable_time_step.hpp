@@ -4,7 +4,7 @@
 
 namespace tushar::euler {
 
-/// The largest sum_d (|v_d| + c) / h_d [1/s] in a gas with a law of its own. Throws NumericalError where a state is
+/// The largest sum_d (|v_d| + c) / h_d [1/s] in a gas with its own law. Throws NumericalError where a state is
 /// impossible.
 template <int D>
 double greatestRate(const Patch& patch, const Gas& gas, const StateViews<D, const double>& state) {

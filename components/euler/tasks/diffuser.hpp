@@ -28,10 +28,10 @@ struct Crossing {
   double byFlow = 0, byDiffusion = 0;
 };
 
-/// What diffuses in a cell, and how.
+/// The diffusing quantities of a cell, and its coefficients.
 template <int D>
 struct DiffusingCell {
-  State<D> w{};             ///< T, in place of the density, and v
+  State<D> w{};             ///< T, instead of the density, and v
   Diffusion how;            ///< without eddies
   double density = 0;       ///< kg/m³
   double specificHeat = 0;  ///< c_v, J/(kg K)
@@ -45,7 +45,7 @@ struct DiffusingCell {
 template <int D>
 class Diffuser {
  public:
-  /// Room for blocks of a patch; the rules at the sides outlive this.
+  /// Space for the blocks of a patch; the rules at the sides must outlive this object.
   Diffuser(const Level& level, const Box& cells, const GhostRules<D>& rules, double eddies)
       : level_(level),
         rules_(rules),
@@ -61,7 +61,7 @@ class Diffuser {
       }
   }
 
-  /// Moves to the cells of `block`; `cellAt(cell)` gives each of them and of those around it.
+  /// Moves to the cells of `block`; `cellAt(cell)` returns each of them and their neighbours.
   template <class CellAt>
   void hold(const Box& block, CellAt&& cellAt) {
     for (Rows<D>* rows : {&w_, &coefficients_, &flux_}) rows->hold(block.grown(1, D));
@@ -85,13 +85,13 @@ class Diffuser {
     });
     return flux_;
   }
-  /// T in the place of the density, and v.
+  /// T, instead of the density, and v.
   const Rows<D>& state() const { return w_; }
   /// Viscosity and conductivity at a face.
   Diffusion atFace(const Index<D>& face, int axis) const {
     return atFace(face, axis, [&] { return strain(face, axis); });
   }
-  /// The same, with eddies by a function that finds sqrt(2 S : S) there [1/s].
+  /// The same with eddies; a function returns sqrt(2 S : S) there [1/s].
   template <class Strain>
   Diffusion atFace(const Index<D>& face, int axis, Strain&& strain) const {
     const Index<D> below = face - Index<D>::unit(axis);
@@ -102,8 +102,8 @@ class Diffuser {
     if (eddies_ > 0) here.viscosity += mean(density) * eddies_ * strain();
     return here;
   }
-  /// sum_d (|v_d| + k c) / h_d of a cell, and sum_d (nu_below + nu_above) / h_d², nu the greatest diffusivity at a
-  /// face, k the part of the speed of sound that counts.
+  /// sum_d (|v_d| + k c) / h_d of a cell, and sum_d (nu_below + nu_above) / h_d², where nu is the greatest diffusivity
+  /// at a face, and k the fraction of the speed of sound that is included.
   Crossing crossingOf(const Index<D>& cell, const DiffusingCell<D>& here, double soundSpeedKnob) const {
     Crossing rate;
     for (int d = 0; d < D; ++d) {

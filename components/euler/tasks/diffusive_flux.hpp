@@ -47,7 +47,7 @@ State<D> diffusiveFluxAt(const Diffusion& diffusion, const typename Rows<D>::Poi
   return flux;
 }
 
-/// Keeps the fluxes across an axis through faces at the rim of the level.
+/// Stores the fluxes across an axis through faces at the rim of the level.
 template <int D>
 void keepDiffused(const DiffusionRims<D>& rims, const Box& faces, int axis, Rows<D>& flux) {
   rims.momentum.template forEachFaceIn<D>(faces, axis, [&](const Index<D>& face, Vec<D>& through) {

@@ -48,8 +48,8 @@ State<D, kGases<G>> fluxOf(const G& gas, const State<D, kGases<G>>& w) {
   return fluxOf<D, Axis>(face);
 }
 
-/// Adds the half-step change of a cell by the fluxes of its own face values across an axis (Toro, section 14.4) to the
-/// change by the previous axes; `ratio` is dt / 2 h.
+/// Adds the half-step change of a cell due to the fluxes of its own face values across an axis (Toro, section 14.4) to
+/// the change due to the previous axes; `ratio` is dt / 2 h.
 template <int D, int Axis, class G>
 void halfStepRow(const G& gas, const Pointers<D, kGases<G>>& lower, const Pointers<D, kGases<G>>& upper, double ratio,
                  int count, const Pointers<D, kGases<G>>& change) {
@@ -125,8 +125,9 @@ inline void updateRow(const double* old, const double* below, const double* abov
   for (std::ptrdiff_t i = 0; i < count; ++i) result[i * step] = old[i * step] - ratio * (above[i] - below[i]);
 }
 
-/// The update of a share, which is not conserved as matter is: z' = z - ratio (F_upper - F_lower - z (v_upper -
-/// v_lower)), with the velocity of a face from the fluxes of all shares, which add up to 1. So equal shares stay equal.
+/// The update of a volume fraction, which is not conserved as mass is: z' = z - ratio (F_upper - F_lower - z (v_upper -
+/// v_lower)), where the velocity of a face follows from the fluxes of all volume fractions, which add up to 1. So equal
+/// shares stay equal.
 template <int K>
 void updateShareRow(const double* start, const double* old, const std::array<const double*, K>& below,
                     const std::array<const double*, K>& above, int gas, double ratio, int count, double* result) {

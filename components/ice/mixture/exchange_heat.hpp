@@ -9,7 +9,8 @@
 
 namespace tushar::ice {
 
-/// A gas with a smaller part of the mass of all in a cell has no heat that counts, and numbers too small to divide by.
+/// The smallest mass fraction of a gas in a cell at which it takes part in heat exchange; below it, its heat is
+/// negligible and its values are too small to divide by.
 inline constexpr double leastPartOfMass = 1e-30;
 
 /// The participants in the heat exchange of a cell, at most `Most` or any number: bodies in their order, then gases.
@@ -23,9 +24,9 @@ struct WarmThings {
   Vector capacity;       ///< at constant volume, J/(m³ K)
   Vector temperature;    ///< K
   Vector volume;         ///< share of the cell
-  Vector expansion;      ///< m R of gases that share their volume, J/(m³ K); 0 of things that keep their own
+  Vector expansion;      ///< m R of gases that share their volume, J/(m³ K); 0 for bodies
   Vector stiffPressure;  ///< p + p_inf of these gases, Pa
-  Vector given;          ///< heat that each gets besides, J/m³
+  Vector given;          ///< additional heat for each, J/m³
 
   explicit WarmThings(Eigen::Index count)
       : mass(Vector::Zero(count)),
@@ -50,9 +51,9 @@ struct WarmThings {
   }
 };
 
-/// The rise d of a common pressure with which gases fill what they filled before: the root of sum (a_k + b_k d) / (P_k
-/// + d) above the least -P_k. That is unique, as each term of the sum of volumes falls with the pressure. Newton's
-/// method within bounds.
+/// The increase d of the common pressure after which gases fill the same volume as before: the root of sum (a_k + b_k
+/// d) / (P_k + d) above the least -P_k. That is unique, as each term of the sum of volumes falls with the pressure.
+/// Newton's method within bounds.
 template <class Vector>
 double pressureRise(const Vector& a, const Vector& b, const Vector& stiffPressure) {
   double least = std::numeric_limits<double>::infinity(), greatest = 0;
@@ -117,6 +118,7 @@ HeatChanges<Most> changesByHeat(const WarmThings<Most>& things, const HeatCoeffi
       system(a, b) -= flow;
       system(b, a) -= flow;
     }
+  if (heat.isZero(0)) return {Vector::Zero(count), Vector::Zero(count)};
   for (Eigen::Index a = 0; a < count; ++a)
     system(a, a) += things.capacity[a] > 0 ? things.capacity[a] + things.expansion[a] : 1;
   const Eigen::LDLT<typename WarmThings<Most>::Matrix> solver(system);
@@ -134,7 +136,7 @@ HeatChanges<Most> changesByHeat(const WarmThings<Most>& things, const HeatCoeffi
   return changes;
 }
 
-/// Gives several gases their heat, by which those of a cell expand.
+/// Adds heat to several gases; those of a cell expand.
 template <int Most>
 void giveHeat(WarmThings<Most>& things, const Heating& heating, double time, double dt, Eigen::Index first) {
   for (std::size_t k = 0; k < heating.perMass.size(); ++k) {
@@ -143,7 +145,7 @@ void giveHeat(WarmThings<Most>& things, const Heating& heating, double time, dou
   }
 }
 
-/// The shares of gases whose volumes change.
+/// The volume fractions of gases whose volumes change.
 template <int Most, class Shares>
 void changeShares(const HeatChanges<Most>& changes, Eigen::Index first, double room, Shares&& shares) {
   double sum = 0;
@@ -156,7 +158,7 @@ void changeShares(const HeatChanges<Most>& changes, Eigen::Index first, double r
   for (Eigen::Index k = 0; k < count; ++k) shares(k) /= sum;
 }
 
-/// What the exchange of heat reads and changes of each of several gases.
+/// The variables of each gas that the heat exchange reads and changes.
 struct WarmGas {
   CellView<const double> mass;
   CellView<double> share;
@@ -166,8 +168,8 @@ struct WarmGas {
   }
 };
 
-/// Heat between several gases in the cells that they share, by Uintah's coefficients, and heat from outside. Masses and
-/// momentum stay, energy changes by what comes from outside; shares and the pressure change.
+/// Heat exchange between several gases in the cells that they share, with Uintah's coefficients, and heat from outside.
+/// Masses and momentum stay, energy changes by what comes from outside; shares and the pressure change.
 template <int D>
 void exchangeHeat(const Patch& patch, const Gases& gases, const HeatCoefficients& coefficients, const Heating& heating,
                   double time, double dt, CellView<const double> density, CellView<const Vec<D>> momentum,

@@ -5,7 +5,7 @@
 
 namespace tushar::ice {
 
-/// One of several gases becomes another one.
+/// The conversion of one of several gases into another.
 struct Transfer {
   std::size_t from = 0, to = 0;
   double rate = 0;       ///< fraction of it per time, 1/s

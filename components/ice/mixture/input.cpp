@@ -14,7 +14,7 @@ using input::Element;
 
 namespace {
 
-/// From this value on, Uintah's coefficients of momentum mean one velocity.
+/// Uintah's momentum exchange coefficients from this value on mean a common velocity.
 constexpr double oneForAll = 1e9;
 
 /// Uintah's name of the mass fraction of BinaryProperties.
@@ -24,13 +24,13 @@ void checkSubstance(const GasMaterial& material, const Element& element, Diagnos
   const auto kind = material.state.kind;
   if (kind != EquationOfState::Kind::ideal && kind != EquationOfState::Kind::stiffened)
     diagnostics.error(*element.child("EOS"),
-                      "is not available beside a second gas: several gases are of type ideal_gas or stiffened_gas");
+                      "is not available with a second gas: several gases must be of type ideal_gas or stiffened_gas");
   if (material.varying.varies())
     diagnostics.error(*element.child("dynamicViscosityModels"),
-                      "is not available beside a second gas: give <dynamic_viscosity>, or keep one gas");
+                      "is not available with a second gas: give <dynamic_viscosity>, or keep one gas");
 }
 
-/// The coefficients have a number for each pair of materials, and each pair of gases has one velocity.
+/// Checks that there is a coefficient for each pair of materials, and that each pair of gases has one velocity.
 void checkExchange(const GasScene& scene, const Element& root, int solids, Diagnostics& diagnostics) {
   if (!scene.exchange) return;
   const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
@@ -71,7 +71,7 @@ bool isWall(const Element& face) {
   return false;
 }
 
-/// Reports a condition that does not hold for all gases; as in Uintah, the pressure may be given for the first
+/// Reports a condition that does not apply to all gases; as in Uintah, the pressure may be given for the first
 /// material.
 void checkMaterial(const Element& condition, int solids, Diagnostics& diagnostics) {
   const std::string id = condition.attribute("id").value_or("all");

@@ -22,7 +22,7 @@ namespace c {
 
 /// Variables of each of several gases, computed only if a scene saves them.
 inline constexpr CellLabel<double> ownDensity{"c.ownDensity", "kg/m^3",
-                                              "mass of a gas over its own volume; 0 where there is none"};
+                                              "mass of a gas per volume of that gas; 0 where there is none"};
 
 /// Of BinaryProperties.
 inline constexpr CellLabel<double> massFraction{"c.massFraction", "1",

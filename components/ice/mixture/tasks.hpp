@@ -13,12 +13,13 @@ namespace tushar::ice {
 
 using Gases = std::vector<euler::Settings>;
 
-/// The state of several gases at a point at the start: for each gas, that of its last object there, times its share.
+/// The state of several gases at a point at the start: for each gas, that of its last object there, times its volume
+/// fraction.
 template <int D>
 struct MixtureStart {
   euler::State<D> sum{};                                  ///< state of all together
   std::array<double, euler::kMostGases> mass{}, share{};  ///< of each
-  double filled = 0;                                      ///< sum of the shares
+  double filled = 0;                                      ///< sum of the volume fractions
 
   static MixtureStart at(const Level& level, const Gases& gases, const Vec3& point) {
     MixtureStart start;
@@ -33,12 +34,12 @@ struct MixtureStart {
     }
     return start;
   }
-  /// Throws InputError unless the shares add up to 1.
+  /// Throws InputError unless the volume fractions add up to 1.
   void check(const Gases& gases, const Vec3& point) const {
     if (!(std::abs(filled - 1) < 1e-9))
       throw InputError({{gases.front().where, "MaterialProperties/ICE/material",
-                         fmt::format("the gases fill {:.6g} of the cell around ({:g}, {:g}, {:g}): several gases fill "
-                                     "the grid, and share a cell by a <volumeFraction> of each",
+                         fmt::format("the gases fill {:.6g} of the cell around ({:g}, {:g}, {:g}): together they must "
+                                     "fill the grid; in cells that they share, each needs a <volumeFraction>",
                                      filled, point[0], point[1], point[2])}});
   }
 };
@@ -122,7 +123,7 @@ void computeMixedTemperature(const Patch& patch, const Gases& gases, const euler
              [&](const Index<D>& cell) { temperature[cell] = temperatureAt<D>(gases, state, held, cell); });
 }
 
-/// Mass of each gas over its own volume. A share below a millionth of the cell is round-off, or almost.
+/// Mass of each gas per volume of that gas. A share below a millionth of the cell is round-off, or almost.
 template <int D>
 void computeOwnDensity(const Patch& patch, const Gases&, const std::vector<euler::OldGas>& held,
                        const std::vector<CellView<double>>& density) {
@@ -144,7 +145,7 @@ void sumGas(const Patch& patch, const Gases&, std::size_t gas, const std::vector
   euler::sumMass<D>(patch, held[gas].mass, mass);
 }
 
-/// Errors of the cells against the exact means over them.
+/// Errors of the cells relative to the exact means over them.
 template <int D>
 void measureMixedError(const Patch& patch, const Gases& gases, const reference::GasReference* exact,
                        const reference::Clock* clock, const euler::OldState<D>& state,

@@ -9,7 +9,7 @@ namespace tushar::ice {
 template <int D, int K = 1>
 class ImplicitStep {
  public:
-  /// Room for blocks no larger than `largest`.
+  /// Space for blocks no larger than `largest`.
   ImplicitStep(const Level& level, const euler::Settings& method, const IceSettings& settings,
                const euler::GhostRules<D>& rules, const Box& largest, double dt, IsFlat<D> isFlat = {}) requires(K == 1)
       : ImplicitStep(level, method.gas, method.method, settings, rules, largest, dt, std::move(isFlat)) {}
@@ -34,10 +34,10 @@ class ImplicitStep {
       forEach<D>(level_.clipCells(block.grown(1, D)), [&](const Index<D>& cell) { goHalfway(cell); });
   }
 
-  /// The fluxes through the lower faces of `faces` across an axis: what flows with u_f is that of the cell that it
-  /// leaves, half a step later; the pressure is the mean of p' and, where the gas is compressed, von Neumann's and
-  /// Richtmyer's viscosity of a strong shock, (gamma + 1) / 2 rho (dv)². Returns the greatest part of a cell that flows
-  /// through a face.
+  /// The fluxes through the lower faces of `faces` across an axis: u_f transports the values of the upwind cell, half a
+  /// step later; the pressure is the mean of p' and, where the gas is compressed, von Neumann's and Richtmyer's
+  /// viscosity of a strong shock, (gamma + 1) / 2 rho (dv)². Returns the greatest part of a cell that flows through a
+  /// face.
   double computeFluxes(const Box& faces, int axis) {
     return computeFluxes(faces, axis, [](const Index<D>&) { return 1.0; });
   }
@@ -69,7 +69,7 @@ class ImplicitStep {
   euler::Rows<D, K>& flux() { return flux_; }
 
   /// Adds gravity at both faces of each cell of a block across an axis, and its work on the flow through them, so that
-  /// gas at rest in layers stays at rest.
+  /// stratified gas remains at rest.
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh) {
     addGravity(block, axis, fresh, [](const Index<D>&) { return true; });
   }
@@ -137,7 +137,7 @@ class ImplicitStep {
     closeState<D, K>(w);
     return w;
   }
-  /// The change of a cell by flow, pressure and gravity in half a step.
+  /// The change of a cell due to flow, pressure and gravity in half a step.
   void goHalfway(const Index<D>& cell) {
     if (flow_.isFlat(cell)) return;
     const euler::State<D, K> w = flow_.old().state(cell);

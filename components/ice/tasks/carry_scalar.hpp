@@ -97,7 +97,7 @@ class ScalarAtFaces {
   double perMass(const Index<D>& cell, int axis) const {
     return dt_ * level_.inverseSpacing(axis) / before_.density[cell];
   }
-  /// The factor on the differences that keeps the rest of the cell within the limits.
+  /// The factor on the differences that keeps the remainder of the cell within the limits.
   double shrinkage(const Index<D>& cell, const Faces& change, double least, double most) const {
     double rest = 1, gone = 0;
     for (int d = 0; d < D; ++d)
@@ -130,7 +130,7 @@ class ScalarFlux {
              const ScalarAtFaces<D>& faces, double time)
       : level_(level), gas_(gas), scalar_(scalar), before_(before), faces_(faces), time_(time) {}
 
-  /// Through the lower (0) or upper (1) face of a cell: f of the gas that goes through, and -rho D df/dx.
+  /// Through the lower (0) or upper (1) face of a cell: f of the gas that flows through it, and -rho D df/dx.
   double operator()(const Index<D>& cell, int axis, int side) const {
     const double mass = side == 0 ? before_.below[cell][axis] : before_.above[cell][axis];
     const Index<D> next = side == 0 ? cell - Index<D>::unit(axis) : cell + Index<D>::unit(axis);
@@ -195,7 +195,7 @@ void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::G
   });
 }
 
-/// Interior sources of a scalar: it rises by their value in each step, up to their limit.
+/// Interior sources of a scalar, which increases by their value in each step, up to their limit.
 template <int D>
 void raiseScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const double> density,
                  CellView<double> held) {

@@ -14,7 +14,9 @@ class GasMethod : public Component, public reference::GasSolution {
   const Method& method() const { return method_; }
   const std::vector<Gas>& materials() const { return materials_; }
   std::vector<reference::GasLaw> gases() const override { return lawsOf(materials_); }
-  std::string whyOneLevel() const override { return "its gas fills the grid, and particles are on the finest level"; }
+  std::string whyOneLevel() const override {
+    return "its gas fills the grid, but particles are allowed only on the finest level";
+  }
 
  protected:
   Method method_;

@@ -56,7 +56,7 @@ void refuseMixtures(const MpmSection& method, const GasProperties& properties, D
     diagnostics.error(materials[1].model.where, "MaterialProperties/MPM/material", why);
   };
   if (method.gas)
-    refuse("<gas_dynamics> takes one material; give it several <geom_object>s, or use <conserving_gas_dynamics>");
+    refuse("<gas_dynamics> allows one material; give it several <geom_object>s, or use <conserving_gas_dynamics>");
   if (!method.conserving) return;
   if (method.conserving->transfer != conserving::Transfer::apic) refuse("several gases need <transfer> apic");
   if (method.conserving->remap) refuse("several gases cannot have a <remap>; remove it");
@@ -65,7 +65,7 @@ void refuseMixtures(const MpmSection& method, const GasProperties& properties, D
     if (materials[k].relaxation) refuse("several gases cannot have <relaxation>");
     for (std::size_t other = 0; other < k; ++other)
       if (materials[k].name == materials[other].name)
-        refuse("two materials are called '" + materials[k].name + "'; give each a name of its own");
+        refuse("two materials are called '" + materials[k].name + "'; give each a different name");
   }
 }
 

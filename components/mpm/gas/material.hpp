@@ -31,7 +31,7 @@ struct GasObject {
   int seed = 0;  ///< seed of random positions
 };
 
-/// A source of heat, de/dt = -rate (e - internalEnergy): radiation or a wall that keeps a gas near one temperature.
+/// A source of heat, de/dt = -rate (e - internalEnergy), such as radiation or a wall of constant temperature.
 struct Relaxation {
   double rate = 0;            ///< 1/s
   double internalEnergy = 0;  ///< internal energy in the limit, J/kg

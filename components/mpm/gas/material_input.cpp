@@ -32,8 +32,8 @@ const Schema<GasObjectSection>& objectSchema() {
         .choice("placement", &GasObjectSection::placement,
                 {{"midpoint", Placement::midpoint}, {"jittered", Placement::jittered}, {"random", Placement::random}},
                 Placement::midpoint,
-                "particles start at the centres of equal parts of a cell, at random points of these parts, or at "
-                "random points of the cell")
+                "particles start at the centres of equal parts of a cell, at random points in these parts, or at "
+                "random points in the cell")
         .ours()
         .value("seed", &GasObjectSection::seed, 0, "1", "seed of the random points", input::nonNegative())
         .ours()
@@ -100,7 +100,7 @@ const Schema<GasSection>& materialSchema() {
   return schema;
 }
 
-/// The pressure of a body: as given, or (gamma - 1) rho c_v T - p_inf of its temperature.
+/// The pressure of a body: as given, or (gamma - 1) rho c_v T - p_inf if its temperature is given.
 input::Expression pressureOf(const GasObjectSection& object, const input::Expression& density,
                              const GasModelSection& model) {
   if (object.pressure) return *object.pressure;

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::gas {
 
-/// The middle of the grid along a kernel axis, m.
+/// The centre of the grid along a kernel axis, m.
 inline double middleOf(const Level& level, int kernelAxis) {
   const auto& domain = level.domain();
   const int axis = level.axis(kernelAxis);

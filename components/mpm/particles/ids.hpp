@@ -17,8 +17,9 @@ inline constexpr ParticleId idsOfCell = 1 << 16;
 template <int D>
 ParticleId idOf(const Level& level, const Index<D>& cell, ParticleId k, const Location& where) {
   if (k >= idsOfCell)
-    throw InputError({{where, "geom_object",
-                       fmt::format("a cell can hold at most {} particles; bodies put more into one", idsOfCell)}});
+    throw InputError(
+        {{where, "geom_object",
+          fmt::format("a cell can contain at most {} particles, but bodies put more into one cell", idsOfCell)}});
   return level.cellNumber(cell) * idsOfCell + k;
 }
 

@@ -13,7 +13,7 @@ namespace tushar::mpm {
 /// Piecewise linear ("tent") functions.
 struct LinearAxis {
   static constexpr int nodes = 2;
-  static constexpr int ghostNodes = 0;  ///< number of nodes beyond those of its cell that a particle touches
+  static constexpr int ghostNodes = 0;  ///< number of layers of nodes beyond those of its cell that a particle touches
   static constexpr bool hasSize = false;
   static double support(double) { return 1; }
 
@@ -27,7 +27,7 @@ struct LinearAxis {
   }
 };
 
-/// Generalised interpolation: the mean of the linear function over the particle's extent, which stays as at the start;
+/// Generalised interpolation: the mean of the linear function over the particle's extent, which does not change;
 /// Bardenhagen & Kober, CMES 5 (2004) 477, with the piecewise form of uniform GIMP. A particle is no wider than a cell.
 struct GimpAxis {
   static constexpr int nodes = 3;

@@ -129,7 +129,7 @@ struct ConvectedShape {
       for (int c = 0; c < corners; ++c) sign[c] = (c >> j) & 1 ? 1 : -1;
       return sign;
     }
-    /// The number of a node among those of the cell around a corner, or -1.
+    /// The index of a node among those of the cell around a corner, or -1.
     int nodeOfCell(const Index<D>& node, int c) const {
       int k = 0;
       for (int d = 0; d < D; ++d) {

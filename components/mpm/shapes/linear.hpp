@@ -15,12 +15,12 @@ namespace tushar::mpm {
 template <int D>
 struct Linear {
   static constexpr int nodes = 1 << D;
-  /// Cells beyond a patch whose particles touch its nodes.
+  /// Layers of cells around a patch whose particles touch its nodes.
   static constexpr int reach = 1;
   /// One number for each node of a cell, in the order of `node`.
   using Weights = std::array<double, nodes>;
 
-  /// Node k of a cell: bit d of k says whether it is the upper one along axis d.
+  /// Node k of a cell: bit d of k is set if it is the upper node along axis d.
   static constexpr Index<D> node(Index<D> cell, int k) {
     for (int d = 0; d < D; ++d) cell[d] += (k >> d) & 1;
     return cell;
@@ -54,7 +54,7 @@ struct Linear {
   }
 };
 
-/// The geometry of a cell, from which its particles get their coordinates in it.
+/// The geometry of a cell, which determines the coordinates of particles in it.
 template <int D>
 struct CellFrame {
   Vec<D> origin;          ///< its lower corner, m

@@ -24,16 +24,16 @@ using RowFactors = std::array<double, D>;
 template <int D, class Axis, bool Axisymmetric = false>
 struct TensorShape {
   static constexpr int dimension = D;
-  /// Number of nodes beyond those of a patch that its particles touch, and of layers of nodes beyond the sides of the
+  /// Number of layers of nodes beyond those of a patch that its particles touch, and of layers of nodes outside the
   /// grid.
   static constexpr int ghostNodes = Axis::ghostNodes;
-  /// Cells beyond a patch whose particles touch its nodes.
+  /// Layers of cells around a patch whose particles touch its nodes.
   static constexpr int reach = 1 + Axis::ghostNodes;
   static constexpr bool hasSize = Axis::hasSize;
   static constexpr bool deforms = false;
   static constexpr bool axisymmetric = Axisymmetric;
 
-  /// The extent of a particle's support along each axis, in cells; nodes at this distance or beyond are not touched.
+  /// The extent of a particle's support along each axis, in cells; nodes at this distance or farther are not touched.
   static Vec<D> support(const Extent<D>& extent) {
     Vec<D> reaches;
     for (int d = 0; d < D; ++d) reaches[d] = Axis::support(extent.size[d]);
@@ -118,8 +118,8 @@ struct TensorShape {
     }
   };
 
-  /// The stencils of several particles of a cell, with the same bits as Stencil, computed with one lane per particle in
-  /// advance, so that loops over nodes only load them.
+  /// The stencils of several particles of a cell, with the same bits as Stencil, computed in advance with one lane per
+  /// particle, so that loops over nodes only load them.
   class Stencils {
    public:
     static constexpr int dimension = D;

@@ -19,12 +19,12 @@ inline constexpr ParticleLabel<Vec<D>> size{"p.size", "1", "edge lengths at the 
 inline constexpr ParticleLabel<Matrix3> domain{"p.domain", "1", "edges at the start, in cells, one per column"};
 inline constexpr ParticleLabel<double> temperature{"p.temperature", "K", "temperature"};
 inline constexpr ParticleLabel<double> temperatureChange{"p.temperatureChange", "K",
-                                                         "change of temperature by the work of the step"};
+                                                         "change of temperature due to the work of the step"};
 inline constexpr ParticleLabel<double> damage{"p.damage", "1", "damage, 0 if intact"};
 inline constexpr ParticleLabel<double> failureThreshold{"p.epsf", "Pa, 1 or Pa^(1/2)", "threshold of damage"};
 inline constexpr ParticleLabel<int> localized{"p.localizedMPM", "1", "1 if the particle has failed"};
 inline constexpr ParticleLabel<double> failureTime{"p.timeofloc", "s", "time at which the particle failed"};
-inline constexpr ParticleLabel<double> color{"p.color", "1", "number that the scene gives to a body"};
+inline constexpr ParticleLabel<double> color{"p.color", "1", "number that the scene assigns to a body"};
 inline constexpr ParticleLabel<int> surface{"p.surface", "1", "1 if the particle starts at the surface of its body"};
 inline constexpr ParticleLabel<double> viscosity{"p.q", "Pa", "artificial viscosity"};
 inline constexpr ParticleLabel<double> strainEnergy{
@@ -32,21 +32,22 @@ inline constexpr ParticleLabel<double> strainEnergy{
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> smoothVelocity{"p.velocitySSPlus", "m/s",
                                                       "velocity at the start of a step, interpolated from the grid"};
-inline constexpr ParticleLabel<Matrix3> affineMoment{"p.affineMoment", "m^2/s",
-                                                     "velocity times distance, weighted over the nearby nodes (APIC)"};
+inline constexpr ParticleLabel<Matrix3> affineMoment{
+    "p.affineMoment", "m^2/s", "weighted sum of velocity times distance over the nearby nodes (APIC)"};
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> externalForce{"p.externalforce", "N", "force of loads"};
 inline constexpr ParticleLabel<Matrix3> scaleFactor{"p.scalefactor", "m",
                                                     "edges of the particle, deformed by F, one per column"};
-/// The work on a particle since the start, J: one number for each of total::work.
+/// The work on a particle since the start, J: one number for each variable of total::work.
 using Works = Eigen::Matrix<double, 1, 7, Eigen::DontAlign | Eigen::RowMajor>;
 inline constexpr ParticleLabel<Works> work{
     "p.work", "J",
-    "work on the particle since the start: of loads and gravity, of the grid's faces, of contact; lost to viscosity "
-    "and damping, to strain, to plastic flow; and 1/2 m v^2 at the start"};
+    "work on the particle since the start: by loads and gravity, by faces of the grid, by contact; dissipated by "
+    "viscosity and damping, stored as strain, dissipated by plastic flow; and 1/2 m v^2 at the start"};
 inline constexpr ParticleLabel<double> heatFlux{"p.externalHeatFlux", "W", "heat per time from loads"};
 inline constexpr ParticleLabel<int> loadCurves{
-    "p.loadCurveID", "1", "number of the load on the particle, or 0; plus those of further loads, times 256 and 65536"};
+    "p.loadCurveID", "1",
+    "number of the load on the particle, or 0, plus the numbers of further loads times 256 and 65536"};
 }  // namespace p
 
 /// Node variables.
@@ -59,21 +60,21 @@ inline constexpr NodeLabel<NodeRecord> record{
     "g.record", "SI units", "velocity, mass, force and volume of a step in progress", Counts::nearParticles};
 inline constexpr NodeLabel<NodeRecord> stressRecord{
     "g.stressRecord", "SI units",
-    "velocity and mass for the stress update, if it uses another velocity than the motion", Counts::nearParticles};
+    "velocity and mass for the stress update, if its velocity differs from that of the motion", Counts::nearParticles};
 inline constexpr NodeLabel<NodeRecord> smoothRecord{
     "g.smoothRecord", "SI units", "p.velocitySSPlus gathered from particles, and mass", Counts::nearParticles};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityOfForces{"g.velocityOfForces", "m/s",
-                                                    "velocity after the forces of a step, before contact"};
+                                                    "velocity after the forces of a step are applied, before contact"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityOfContact{"g.velocityOfContact", "m/s",
-                                                     "velocity after the forces of a step and contact"};
+                                                     "velocity after the forces of a step and contact are applied"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> transmittedForce{"g.transmittedForce", "N",
                                                     "contact force on a force-transmitting material"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> surroundingForce{"g.surroundingForce", "N",
-                                                    "force of the surroundings, such as a gas, on the body"};
+                                                    "force exerted on the body by its surroundings, such as a gas"};
 inline constexpr NodeLabel<NodeRecord> workRecord{"g.workRecord", "SI units",
                                                   "mean velocity of a step, and work per mass", Counts::nearParticles};
 template <int D>
@@ -86,17 +87,18 @@ inline constexpr NodeLabel<double> surfaceVolume{
     "g.surfaceVolume", "m^3", "volume of particles, including their mirror images beyond symmetry planes"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> separatingNormal{
-    "g.normAlphaToBeta", "1", "normal, out of the body with most mass at the node, where several touch; 0 elsewhere"};
+    "g.normAlphaToBeta", "1",
+    "normal pointing out of the body with the largest mass at the node, where several bodies touch; 0 elsewhere"};
 inline constexpr NodeLabel<double> prominence{"g.matlProminence", "m",
-                                              "how far surface particles extend along g.normAlphaToBeta"};
+                                              "extent of surface particles along g.normAlphaToBeta"};
 inline constexpr NodeLabel<double> color{"g.color", "1", "mass-weighted mean of p.color"};
 inline constexpr NodeLabel<double> frictionHeat{"g.frictionHeat", "J", "frictional heat in a step"};
 inline constexpr NodeLabel<double> heatCapacity{"g.heatCapacity", "J/K", "heat capacity gathered from particles"};
 inline constexpr NodeLabel<double> temperatureNoBC{"g.temperaturenobc", "K", "temperature gathered from particles"};
 inline constexpr NodeLabel<double> temperature{"g.temperature", "K", "temperature with the boundary conditions"};
-inline constexpr NodeLabel<double> heatRate{"g.heatRate", "W", "heat that flows to the node by conduction"};
+inline constexpr NodeLabel<double> heatRate{"g.heatRate", "W", "heat that reaches the node by conduction"};
 inline constexpr NodeLabel<double> contactTemperatureRate{
-    "g.contactTemperatureRate", "K/s", "rate of change of the temperature by contact with other materials"};
+    "g.contactTemperatureRate", "K/s", "rate of change of the temperature due to contact with other materials"};
 inline constexpr NodeLabel<double> temperatureRate{"g.temperatureRate", "K/s", "rate of change of the temperature"};
 }  // namespace g
 
@@ -117,18 +119,18 @@ inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
     "RigidReactionForce", "N",
     "force by which the master of a contact of type rigid or specified resists the stresses of the others"};
 inline constexpr ReductionLabel<Sum> strainEnergy{
-    "StrainEnergy", "J", "strain energy of elastic materials; of others, its increase in the last step, as in Uintah"};
+    "StrainEnergy", "J", "strain energy of elastic materials; for others, its increase in the last step, as in Uintah"};
 /// Sums of the numbers of p.work, in their order.
 inline constexpr std::array<ReductionLabel<Sum>, 7> work{{
     {"ExternalWork", "J", "work of loads and gravity since the start"},
-    {"BoundaryWork", "J", "work of the grid's sides where a velocity is given, since the start"},
+    {"BoundaryWork", "J", "work of those sides of the grid where a velocity is given, since the start"},
     {"ContactWork", "J", "work of contact since the start: positive from a driven master, negative from friction"},
-    {"DissipatedWork", "J", "energy taken by artificial viscosity and damping since the start"},
+    {"DissipatedWork", "J", "energy dissipated by artificial viscosity and damping since the start"},
     {"StrainWork", "J",
-     "work of the stresses since the start, less PlasticWork: stored energy, and dissipation by models without "
+     "work of the stresses since the start, minus PlasticWork: stored energy, and dissipation in models without "
      "p.plasticStrain"},
-    {"PlasticWork", "J", "energy taken by plastic flow since the start, in models with p.plasticStrain"},
-    {"KineticEnergyAtStart", "J", "kinetic energy at the start of the particles that have not left the grid"},
+    {"PlasticWork", "J", "energy dissipated by plastic flow since the start, in models with p.plasticStrain"},
+    {"KineticEnergyAtStart", "J", "initial kinetic energy of the particles that have not left the grid"},
 }};
 /// The action of the body on a face of the grid.
 struct OnFace {
@@ -137,8 +139,8 @@ struct OnFace {
 };
 /// `force` and `area` are the names of both.
 constexpr OnFace onFace(std::string_view force, std::string_view area) {
-  return {{force, "N", "force of the body on that face of the grid"},
-          {area, "m^2", "area of the body on that face of the grid"}};
+  return {{force, "N", "force of the body on this face of the grid"},
+          {area, "m^2", "area of the body on this face of the grid"}};
 }
 /// The faces of the grid in the order x-, x+, y-, y+, z-, z+.
 inline constexpr std::array<OnFace, 6> onFaces{

@@ -38,8 +38,8 @@ Vec3 placeOf(const Level& level, const Body& body, const Index<D>& cell, const I
   return level.expandPoint<D>(at);
 }
 
-/// Calls `visit(k, point)` for each particle of a body that starts in a cell: `k` is its place in the cell, `point` its
-/// position, m, as placeOf rounds it.
+/// Calls `visit(k, point)` for each particle of a body that starts in a cell: `k` is its index in the cell, `point` its
+/// position, m, rounded by placeOf.
 template <int D, class Visit>
 void forEachParticleIn(const Level& level, const Body& body, const Index<D>& cell, Visit&& visit) {
   Box places{{}, Index3::filled(1)};
@@ -53,7 +53,7 @@ void forEachParticleIn(const Level& level, const Body& body, const Index<D>& cel
 /// A material: its response to deformation, and the bodies made of it.
 struct Material {
   std::string name;
-  int index = 0;       ///< its number in the scene
+  int index = 0;       ///< its index in the scene
   double density = 0;  ///< at the start, kg/m^3
   std::shared_ptr<const Model> model;
   double specificHeat = 0;         ///< J/(kg K)
@@ -62,7 +62,7 @@ struct Material {
   double thermalConductivity = 0;  ///< W/(m K)
   double thermalExpansion = 0;     ///< of lengths, 1/K
   bool isRigid = false;            ///< its stress exerts no force
-  bool transmitsForce = false;     ///< it moves as one rigid body, by the sum of the forces on it
+  bool transmitsForce = false;     ///< it moves as one rigid body under the sum of the forces on it
   bool mayLeadContact = true;      ///< planes that separate it from others (see SeparatingPlane) may belong to it
   Damage damage;
   Erosion erosion;

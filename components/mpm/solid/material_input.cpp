@@ -42,16 +42,16 @@ std::vector<std::string> modelNames() {
   return names;
 }
 
-/// Uintah's older names of models that exist here.
+/// Uintah's older names of models that are available.
 const std::map<std::string, std::string> otherWords{
     {"arenisca", "Arenisca"}, {"cnh_damage", "UCNH"}, {"cnhp_damage", "comp_neo_hook_plastic"}};
 
-/// Models of Uintah that are missing here, and their nearest alternatives.
+/// Models of Uintah that are not available, and the most similar ones.
 const std::vector<std::pair<std::string, std::string>> lackingModels{
-    {"membrane", "comp_neo_hook, for bodies as thick as a cell"},
+    {"membrane", "comp_neo_hook, with bodies as thick as a cell"},
     {"three_factor_mooney", "comp_mooney_rivlin"},
     {"SVK", "comp_neo_hook"},
-    {"murnaghanMPM", "water, whose pressure obeys the same law"},
+    {"murnaghanMPM", "water, which has the same pressure law"},
     {"p_alpha", "elastic_plastic_hp with a mie_gruneisen equation of state"},
     {"rf_elastic_plastic", "elastic_plastic_hp"},
     {"TransIsoHypoFrictional", "hypo_elastic, without fibres"},
@@ -67,14 +67,14 @@ void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagn
   for (const auto& [name, instead] : lackingModels)
     if (type == name)
       return diagnostics.error(
-          tag, fmt::format("the model '{}' of Uintah is not available; the nearest is {}", name, instead));
+          tag, fmt::format("the model '{}' of Uintah is not available; the most similar one is {}", name, instead));
   diagnostics.error(tag, "attribute 'type': " + input::choiceProblem(type, modelNames()));
 }
 
 /// Whether a tag that names Arenisca3 has the tags of Arenisca alone, as some scenes of Uintah do.
 bool hasOlderTags(const Element& tag) { return tag.child("p4_fluid_effect") && !tag.child("STREN"); }
 
-/// The model of a tag, by its name here.
+/// The model of a tag, by its name in Tushar.
 std::string typeOf(const Element& tag) {
   const std::string type = tag.attribute("type").value_or("");
   const auto yields = tag.child("usePlasticity");
@@ -92,7 +92,7 @@ template <class M>
 inline constexpr bool expands =
     std::is_same_v<M, CompNeoHook> || std::is_same_v<M, Ucnh> || std::is_same_v<M, CompNeoHookPlastic>;
 
-/// Thermal expansion of a model with that bulk modulus, Pa.
+/// Thermal expansion of a model with this bulk modulus, Pa.
 template <class M>
 std::shared_ptr<const Model> expandingIfAsked(const M& model, double bulkModulus, const Material& material) {
   if (material.thermalExpansion > 0)
@@ -123,7 +123,7 @@ void readModel(Material& material, const Element& parent, Diagnostics& diagnosti
   if (!tag) return diagnostics.error(parent, "missing tag <constitutive_model> in <material>");
   const std::string type = typeOf(*tag);
   if (tag->attribute("type") == Arenisca3::name && type == Arenisca2::name)
-    diagnostics.note(*tag, "has the tags of 'Arenisca', not of 'Arenisca3', and is read as such");
+    diagnostics.note(*tag, "has the tags of 'Arenisca', not of 'Arenisca3', so it is treated as 'Arenisca'");
   forEachModel([&]<class M>(const M&) {
     if (type != M::name) return;
     M model = modelSchema<M>().read(*tag, diagnostics);
@@ -136,7 +136,7 @@ void readModel(Material& material, const Element& parent, Diagnostics& diagnosti
   if (!material.model) refuseModel(*tag, type, diagnostics);
 }
 
-/// The tag by each of the models.
+/// The tag, read as each of the models.
 std::vector<input::Alternative> modelAlternatives() {
   std::vector<input::Alternative> alternatives;
   forEachModel([&]<class M>(const M&) {
@@ -168,7 +168,7 @@ Schema<Body> bodyTags() {
       .value("velocity", &Body::velocity, input::VectorExpression(), "m/s", "velocity at the start")
       .value("temperature", &Body::temperature, input::Expression(293.0), "K", "temperature at the start",
              input::nonNegative())
-      .value("color", &Body::color, 0, "1", "a number that its particles keep as p.color")
+      .value("color", &Body::color, 0, "1", "a number that its particles store as p.color")
       .value("numLevelsParticleFilling", &Body::levels, 1, "1",
              "number of particle sizes, each half the previous one, that fill the shape up to its surface; negative: "
              "no particle extends beyond the surface",
@@ -184,7 +184,7 @@ Schema<Body> bodyTags() {
       .ignored("comment", "a note for readers")
       .ignored("density", "the density of the material is used, as in Uintah")
       .ignored("pressure", "bodies start without stress")
-      .ignored("level", "there is one level")
+      .ignored("level", "there is only one level")
       .ignoredAttribute("name", "a note for readers");
   return tags;
 }
@@ -192,7 +192,7 @@ Schema<Body> bodyTags() {
 const Schema<Body>& bodySchema() {
   static const Schema<Body> schema = [] {
     Schema<Body> tags = bodyTags();
-    refuseOtherValues(tags, "volumeFraction", {"1"}, "a body fills its shape");
+    refuseOtherValues(tags, "volumeFraction", {"1"}, "a body always fills its shape");
     return tags;
   }();
   return schema;
@@ -207,8 +207,10 @@ void acceptUintahsTags(Schema<Material>& tags) {
   tags.ignored("C_p", "the <specific_heat> is used").ignored("do_conc_reduction", "belongs to do_scalar_diffusion");
   for (const char* tag : {"D1", "D2", "D3", "D4", "D5"})
     tags.ignored(tag, "it has an effect only in <damage_model type=\"johnson_cook\">, as in Uintah");
-  requireSwitch(tags, "is_active", "every material exists from the start");
-  refuseSwitch(tags, "activation_time", "every material exists from the start");
+  for (const char* tag : {"ThresholdTemp", "ThresholdPressure", "Enthalpy", "BurnCoeff", "refPressure"})
+    noteTag(tags, tag, "a <Model> in <Models> says how the material burns, as in Uintah");
+  requireSwitch(tags, "is_active", "all materials exist from the start");
+  refuseSwitch(tags, "activation_time", "all materials exist from the start");
 }
 
 const Schema<Material>& materialSchema() {
@@ -224,16 +226,17 @@ const Schema<Material>& materialSchema() {
         .value("room_temp", &Material::roomTemperature, 294, "K", "reference temperature of the damage constants",
                input::nonNegative())
         .value("linear_thermal_expansion_coef", &Material::thermalExpansion, 0, "1/K",
-               "growth of lengths with the temperature above <room_temp>, for neo-Hookean models in explicit steps",
+               "thermal expansion coefficient (of lengths) relative to <room_temp>, for neo-Hookean models in explicit "
+               "steps",
                input::nonNegative())
         .value("is_rigid", &Material::isRigid, false, "1",
-               "in explicit steps, its stress exerts no force, and FLIP updates its velocities even with XPIC2; both "
-               "also hold for the master of a contact. In implicit steps, it must be the master of a <contact> of type "
-               "rigid or specified")
-        .value("is_force_transmitting_material", &Material::transmitsForce, false, "1",
-               "in explicit steps, it moves as one rigid body under the sum of its loads and of the forces of the "
-               "<contact> of type rigid or specified whose master it is; gravity, damping and the sides of the grid do "
-               "not act on it")
+               "in explicit steps, its stress exerts no force, and its velocities are updated by FLIP even with XPIC2; "
+               "both also apply to the master of a contact. In implicit steps, it must be the master of a <contact> of "
+               "type rigid or specified")
+        .value(
+            "is_force_transmitting_material", &Material::transmitsForce, false, "1",
+            "in explicit steps, it moves as one rigid body under its loads and the forces of the <contact> of type "
+            "rigid or specified of which it is the master; gravity, damping and the sides of the grid do not act on it")
         .value("possible_alpha_material", &Material::mayLeadContact, true, "1",
                "for contacts of type friction_LR, friction_LRVar and specified_friction: true: normals may point out "
                "of this material; false: it slides only at nodes where two other materials meet")
@@ -241,7 +244,7 @@ const Schema<Material>& materialSchema() {
                 describeModels)
         .forms({input::onceForm("constitutive_model", modelAlternatives, 1)})
         .custom("damage_model", readDamage, {"damage_model", "erosion"},
-                "when particles fail, and their strength after failure", describeDamage)
+                "when particles fail, and which strength they have after failure", describeDamage)
         .forms(damageForms())
         .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start", 1);
     acceptUintahsTags(material);
@@ -256,7 +259,7 @@ void noteCommonNames(const MaterialProperties::List& list, const Element& elemen
   for (std::size_t m = 0; m < list.materials.size(); ++m)
     if (const std::string& name = list.materials[m].name; !name.empty() && !names.insert(name).second)
       diagnostics.note(tags[m],
-                       fmt::format("a second material is called '{0}': this one is saved as '{0}.{1}'", name, m));
+                       fmt::format("another material is also called '{0}': this one is saved as '{0}.{1}'", name, m));
 }
 
 /// Checks that contacts name existing materials; excess numbers in <materials> are ignored, as in Uintah.
@@ -276,7 +279,7 @@ void checkContacts(const MaterialProperties::List& list, const Element& element,
 
 const Schema<MaterialProperties>& propertiesSchema(bool besideGas) {
   static const Schema<MaterialProperties::ThermalContact> thermalContact(
-      "thermal_contact", "Materials that share a node also share its temperature.");
+      "thermal_contact", "If this is given, materials that share a node have the same temperature there.");
   static const Schema<MaterialProperties::List> list =
       Schema<MaterialProperties::List>("MPM", "The materials of the Material Point Method, and their contact.")
           .list("material", &MaterialProperties::List::materials, materialSchema(), "a material", 1)
@@ -285,8 +288,7 @@ const Schema<MaterialProperties>& propertiesSchema(bool besideGas) {
               [](MaterialProperties::List& read, const Element& element, Diagnostics& diagnostics) {
                 read.contacts = readContacts(element, diagnostics);
               },
-              {"contact"}, "how materials act on each other; several contacts are applied one after the other",
-              describeContacts)
+              {"contact"}, "how materials interact; several contacts are applied one after the other", describeContacts)
           .forms({contactForm()})
           .section("thermal_contact", &MaterialProperties::List::thermalContact, thermalContact)
           .check(noteCommonNames)

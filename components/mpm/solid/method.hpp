@@ -26,15 +26,16 @@ struct Method {
   std::optional<ArtificialViscosity> viscosity;
   double minimumMassForAcceleration = 1e-199;     ///< kg
   std::optional<double> maximumParticleVelocity;  ///< m/s
-  int minimumSubcyclesForF = 1;                   ///< -n: F follows the series of exp(L dt) up to the power n instead
+  bool removesLost = true;                        ///< particles turned inside out or thrown out; or stops
+  int minimumSubcyclesForF = 1;    ///< -n: F follows from the series of exp(L dt) up to the power n instead
   Vec3 commonSize = Vec3::Ones();  ///< size of all particles at the start, in cells, unless each keeps its own
-  std::array<bool, 3> isThin{};    ///< axes x, y, z that the grid leaves out
+  std::array<bool, 3> isThin{};    ///< axes x, y, z that the grid does not use
   bool keepsSizes = false;         ///< each particle keeps its size
   bool keepsDomains = false;       ///< as edges in any direction, where shape functions follow them
   double meanWidth = 0;            ///< of a cell over x, y, z, m: the length of the artificial viscosity
   bool viscosityHeats = false;     ///< artificial_viscosity_heating
   int nonlocalLayers = 0;          ///< cells within the greatest length of capability::Nonlocal; 0 if there is none
-  bool turnsPressures = false;     ///< keepPressBCNormalToSurface: pressures turn with the bodies they act on
+  bool turnsPressures = false;     ///< keepPressBCNormalToSurface: pressures rotate with the bodies that they act on
   bool sharesVolume = false;       ///< DoPressureStabilization: the particles of a cell share one change of volume
   bool conductsHeat = true;
   bool loadsAtCorners = false;  ///< use_CBDI_boundary_condition: pressures act on faces of particles

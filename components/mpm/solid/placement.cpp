@@ -83,7 +83,7 @@ void add(const Level& level, const Body& body, const Seed& seed, Seeds& seeds) {
   const Index<D> cell = level.cellOf<D>(level.reduce<D>(seed.at));
   if (!level.cells().contains(cell))
     throw InputError({{body.where, "geom_object",
-                       fmt::format("a particle would start at ({:g}, {:g}, {:g}) m, outside of the grid", seed.at[0],
+                       fmt::format("a particle would start at ({:g}, {:g}, {:g}) m, outside the grid", seed.at[0],
                                    seed.at[1], seed.at[2])}});
   seeds[level.cellNumber<D>(cell)].push_back(seed);
 }

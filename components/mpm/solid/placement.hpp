@@ -19,10 +19,10 @@ struct Seed {
   double volume = 0;                 ///< in cells
 };
 
-/// The particles of a body by the number of the cell in which they start.
+/// The particles of a body, by the index of the cell in which they start.
 using Seeds = std::map<std::uint64_t, std::vector<Seed>>;
 
-/// A particle in an equal part of a cell; `at` is left open.
+/// A particle in an equal part of a cell; `at` is not set.
 template <int D>
 Seed partOfCell(const Level& level, const Index3& particlesPerCell) {
   Seed seed;
@@ -33,8 +33,8 @@ Seed partOfCell(const Level& level, const Index3& particlesPerCell) {
   return seed;
 }
 
-/// The extent of a particle along the axes of the kernel, in cells; if its edges lie in other directions, that of
-/// a cube of its volume.
+/// The extent of a particle along the axes of the kernel, in cells; if its edges lie in other directions, that of a
+/// cube with its volume.
 template <int D>
 Vec<D> extentOf(const Level& level, const Seed& seed) {
   Vec<D> extent;
@@ -48,8 +48,8 @@ Vec<D> extentOf(const Level& level, const Seed& seed) {
   return isAlongAxes ? extent : Vec<D>(Vec<D>::Constant(std::pow(seed.volume, 1.0 / D)));
 }
 
-/// Finds the seeds of each body whose particles do not start in equal parts of cells: it is filled in levels, moved by
-/// a map, or a smooth cylinder. Throws InputError where one would start outside of the grid.
+/// Finds the seeds of each body whose particles do not start in equal parts of cells: bodies that are filled in levels,
+/// transformed, or smooth cylinders. Throws InputError where one would start outside of the grid.
 void placeParticles(const Level& level, std::vector<Body>& bodies);
 
 }  // namespace tushar::mpm::solid

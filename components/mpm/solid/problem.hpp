@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/contact/contact.hpp"
+#include "components/mpm/solid/loads/inserted_particles.hpp"
 #include "components/mpm/solid/loads/prescribed_deformation.hpp"
 #include "components/mpm/solid/method.hpp"
 #include "components/mpm/solid/surroundings.hpp"
@@ -17,6 +18,7 @@ struct Problem {
   std::vector<Contact> contacts;
   Start start;
   std::shared_ptr<const PrescribedDeformation> motion = nullptr;  ///< of all bodies; null: forces move them
+  std::vector<Insertion> insertions = {};                         ///< of particles, in the order of the file
   std::shared_ptr<const Surroundings> surroundings = nullptr;     ///< null: nothing surrounds them
   std::vector<InputProblem> notes = {};                           ///< notes on bodies without particles
 };
@@ -24,7 +26,7 @@ struct Problem {
 /// Solids of any shape function, by explicit or implicit steps.
 class Solids : public Component {
  public:
-  /// Particles keep at least `leastState` numbers for their model.
+  /// Particles store at least `leastState` numbers for their model.
   explicit Solids(Problem problem, int leastState = 0)
       : problem_(std::move(problem)),
         state_size_(std::max(leastState, largestStateOf(problem_.materials))),

@@ -19,7 +19,7 @@ const Schema<PhysicalConstants>& constantsSchema(bool besideGas) {
       tags.ignored(tag, "belongs to flow components");
     return tags;
   };
-  static const Schema<PhysicalConstants> alone = make().ignored("reference_pressure", "nothing here depends on it");
+  static const Schema<PhysicalConstants> alone = make().ignored("reference_pressure", "it has no effect on solids");
   static const Schema<PhysicalConstants> beside = make().custom(
       "reference_pressure", [](PhysicalConstants&, const Element&, Diagnostics&) {}, {"reference_pressure"},
       "the ambient pressure, which exerts no force on bodies");
@@ -65,7 +65,7 @@ bool hasParticles(const Level& level, const Body& body) {
   return found;
 }
 
-/// A note on each body without particles: it lies outside the grid, or between the points where they would start.
+/// A note on each body without particles, which is outside the grid, or between the points where particles would start.
 std::vector<InputProblem> notesOnEmptyBodies(const Level& level, const std::vector<Material>& materials) {
   std::vector<InputProblem> notes;
   for (const Material& material : materials)
@@ -75,7 +75,7 @@ std::vector<InputProblem> notesOnEmptyBodies(const Level& level, const std::vect
                                                   : hasParticles<3>(level, body);
       if (!found)
         notes.push_back({body.where, "MaterialProperties/MPM/material/geom_object",
-                         "has no particles: it lies outside the grid, or is too small for <res>"});
+                         "has no particles: it is outside the grid, or too small for <res>"});
     }
   return notes;
 }

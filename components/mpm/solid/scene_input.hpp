@@ -16,7 +16,7 @@ const input::Schema<PhysicalConstants>& constantsSchema(bool besideGas = false);
 /// The sections of a scene of solids whose <MPM> is read by `mpm`, for the schemas of editors.
 std::vector<simulation::SectionForm> sectionForms(const input::SchemaBase& mpm);
 
-/// Numbers the materials, and names those without a name or with the name of one above.
+/// Numbers the materials, and names those that have no name or the name of a previous one.
 void nameMaterials(std::vector<Material>& materials);
 
 /// Requires heat capacities where work or conduction changes temperatures.

@@ -14,10 +14,11 @@ class Surroundings {
   /// Adds tasks after those that make the particles of `materials`, which outlive the list.
   virtual void scheduleStart(TaskList& tasks, const std::vector<Material>& materials) const = 0;
   /// Adds tasks after g.record has velocities and masses, and before forces accelerate nodes; they compute
-  /// g.surroundingForce.
-  virtual void scheduleForces(TaskList& tasks, const std::vector<Material>& materials) const = 0;
-  /// Adds tasks for the time when p.x is known at the start and at the end of the step, and g.record has the velocities
-  /// of both, before particles are relocated.
+  /// g.surroundingForce. `state` contains the internal variables of the constitutive models.
+  virtual void scheduleForces(TaskList& tasks, const std::vector<Material>& materials,
+                              const ParticleLabel<double>& state) const = 0;
+  /// Adds the tasks that run before particles are relocated, when p.x is known at the start and at the end of the step,
+  /// and g.record contains the velocities at both times.
   virtual void scheduleMotion(TaskList& tasks, const std::vector<Material>& materials) const = 0;
 };
 

@@ -12,7 +12,7 @@ template <class Real>
 using TensorOf = Eigen::Matrix<Real, 3, 3, Eigen::DontAlign | Eigen::RowMajor>;
 using Matrix3 = TensorOf<double>;
 
-/// A second-order tensor as a State keeps it, row by row.
+/// A second-order tensor as stored in a State, row by row.
 using Tensor = std::array<double, 9>;
 inline Matrix3 matrixOf(const Tensor& tensor) { return Eigen::Map<const Matrix3>(tensor.data()); }
 inline Tensor tensorOf(const Matrix3& matrix) {

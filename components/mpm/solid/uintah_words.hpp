@@ -7,30 +7,29 @@
 
 namespace tushar::mpm::solid {
 
-/// Switches of Uintah's that are missing here, and what there is instead.
+/// Flags of Uintah that are not available, with the alternatives.
 inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
-    {"InsertParticles", "give every body its position at the start"},
-    {"refine_particles", "give the body more particles, by <res>"},
+    {"refine_particles", "use a larger <res> to give the body more particles"},
     {"use_cohesive_zones", "give the bodies a <contact>"},
     {"do_scalar_diffusion", "heat conduction obeys the same equation"},
     {"coupled_flow_analysis", "there is one phase"},
-    {"AMR", "solids are on one level: choose a finer <resolution>"},
+    {"AMR", "solids are on one level: choose a higher <resolution>"},
     {"DoCapDensity", "remove it: density is not capped"},
     {"DoGranularMPM", "remove it"},
     {"DoDefGradAveraging", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
     {"use_volume_integral", "remove it: particles represent their volume"},
     {"restartOnLargeNodalVelocity", "recompute_timestep in <Time> repeats a step that fails"},
+    {"delete_rogue_particles", "remove it: no particle is taken out for its speed or temperature"},
 };
 
-/// Tags of Uintah's that change nothing here, and why.
+/// Tags of Uintah that have no effect in Tushar, with the reasons.
 inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it"},
     {"create_new_particles", "particles stay as they are"},
-    {"CanAddMPMMaterial", "all materials are there from the start"},
-    {"DeleteGeometryObjects", "shapes are not kept"},
-    {"computeNodalHeatFlux", "nothing depends on it"},
-    {"testForNegTemps_mpm", "nothing depends on it"},
-    {"InsertParticlesFile", "belongs to InsertParticles"},
+    {"CanAddMPMMaterial", "all materials exist from the start"},
+    {"DeleteGeometryObjects", "shapes are not stored"},
+    {"computeNodalHeatFlux", "it has no effect"},
+    {"testForNegTemps_mpm", "it has no effect"},
     {"water_damping_coef", "belongs to coupled_flow_analysis"},
     {"solid_damping_coef", "belongs to coupled_flow_analysis"},
     {"PorePressureFilter", "belongs to coupled_flow_analysis"},
@@ -84,7 +83,7 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "BndyContactCellArea_zminus",
                                                     "BndyContactCellArea_zplus"};
 
-/// Variables of particles that Uintah's MohrCoulomb saves by names without p., and older names of Arenisca's.
+/// Particle variables that Uintah's MohrCoulomb saves under names without p., and older names of variables of Arenisca.
 inline const simulation::OtherNames soilNames{
     {"Suction", "p.Suction"},        {"SpecificVol", "p.SpecificVol"}, {"c", "p.cohesion"},
     {"p.plasticStrainVol", "p.evp"}, {"p.elasticStrainVol", "p.eve"},  {"p.kappa", "p.Kappa"},
@@ -94,6 +93,7 @@ template <class S>
 void addForeignTags(input::Schema<S>& mpm) {
   for (const auto& [tag, why] : meaninglessTags) mpm.ignored(tag, why);
   for (const auto& [tag, instead] : lackingSwitches) refuseSwitch(mpm, tag, instead);
+  refuseOtherValues(mpm, "ForceBC_force_increment_factor", {"1", "1.0", "1."}, "multiply the <force> itself");
 }
 
 }  // namespace tushar::mpm::solid

@@ -19,7 +19,7 @@ class SurfaceAtFaces {
       : level_(level), cells_(cells), space_(level, settings, cells) {}
 
   const FreeSpace<D>& space() const { return space_; }
-  /// By how much the cell below a face has more area along the axis than the one above.
+  /// The area of the cell below a face, along the axis, minus that of the cell above.
   double step(const Index<D>& above, int axis) const {
     return space_.faces(above - Index<D>::unit(axis), axis).area - space_.faces(above, axis).area;
   }
@@ -45,7 +45,7 @@ class SurfaceAtFaces {
   }
 
  private:
-  /// Of a cell `offset` away from the face's, in the derivative along `d`.
+  /// The weight, in the derivative along `d`, of a cell at `offset` from the face.
   static double weight(const Index<D>& offset, int axis, int d) {
     double product = 1;
     for (int k = 0; k < D; ++k)
@@ -58,7 +58,29 @@ class SurfaceAtFaces {
   FreeSpace<D> space_;
 };
 
-/// What burns at the lower faces of cells.
+/// How a cell burns, of a body with cracks: c.burnMode.
+enum class BurnMode { none, surface, cracks, waiting };
+
+/// How cells burn, and at which pressure [Pa]; only of a body with cracks.
+struct KnownModes {
+  std::optional<CellView<const double>> mode, pressure;
+
+  static KnownModes from(auto& take, bool hasCracks, int ghost) {
+    return {.mode = take(when(hasCracks, requiresNew(c::burnMode, ghost))),
+            .pressure = take(when(hasCracks, requiresNew(c::burnPressure, ghost)))};
+  }
+  template <int D>
+  bool is(const Index<D>& cell, BurnMode one) const {
+    return mode && (*mode)[cell] == double(one);
+  }
+  /// Whether the surface of a cell may burn.
+  template <int D>
+  bool allowSurface(const Index<D>& cell) const {
+    return !mode || is(cell, BurnMode::surface);
+  }
+};
+
+/// The mass that burns at the lower faces of cells.
 template <int D>
 struct NewBurning {
   CellView<Vec<D>> rate, blowing, recoil;
@@ -76,15 +98,21 @@ struct NewBurning {
   }
 };
 
-/// The burning of a body's surface, by the state at the start of the step.
+/// The burning of the surface of a body, according to the state at the start of the step.
 template <int D>
 class BurningSurface {
  public:
-  BurningSurface(const Level& level, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant)
-      : level_(level), settings_(settings), cells_(cells), reactant_(reactant), surface_(level, settings, cells) {}
+  BurningSurface(const Level& level, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant,
+                 const KnownModes& modes)
+      : level_(level),
+        settings_(settings),
+        cells_(cells),
+        reactant_(reactant),
+        modes_(modes),
+        surface_(level, settings, cells) {}
 
-  /// Adds what burns at the lower face of a cell. The new gas leaves the body with the speed u = m (1/rho - 1/rho_s),
-  /// and its recoil is m u: mass and momentum across the surface.
+  /// Adds the mass that burns at the lower face of a cell. The new gas leaves the body with the speed u = m (1/rho -
+  /// 1/rho_s), and its recoil is m u: mass and momentum across the surface.
   void burn(const Index<D>& above, int axis, const NewBurning<D>& fresh) const {
     const Index<D> below = above - Index<D>::unit(axis);
     const double share = reactant_.shareIn(below, above), step = share > 0 ? surface_.step(above, axis) : 0;
@@ -96,6 +124,7 @@ class BurningSurface {
     const ice::BurnModel& model = settings_.burning->model;
     if (!(pressure > model.leastPressure) || !(hottestAt(gas, body) > model.ignitionTemperature)) return;
     const Index<D>& main = reactant_.mass[body] > reactant_.mass[gas] ? body : gas;
+    if (!modes_.allowSurface(main)) return;
     const double bodyDensity = reactant_.mass[main] / reactant_.volume[main];
     const double rate = model.rate({pressure, reactant_.temperature[main], bodyDensity});
     fresh.rate[above][axis] = rate * share * step * surface_.normalAlong(above, axis) * level_.inverseSpacing(axis);
@@ -107,10 +136,11 @@ class BurningSurface {
     fresh.recoil[above][axis] = part * rate * speed;
   }
 
-  /// What burns in a cell that has a rest of a body, or a part of a plate thinner than a cell: where no cell around is
-  /// a wall, areas have no step. Its surface is that of one face.
+  /// The mass that burns in a cell that contains a remnant of a body, or a part of a plate thinner than a cell: if no
+  /// neighbouring cell is a wall, areas have no step. Its surface is that of one face.
   void burnWithin(const Index<D>& cell, const NewBurning<D>& fresh) const {
     if (!(reactant_.mass[cell] > 0) || cells_.isEmpty(cell) || isBesideWall(cell)) return;
+    if (!modes_.allowSurface(cell)) return;
     const euler::Gas law = lawAt<D>(settings_, cells_.held, cell);
     const euler::State<D> w = cells_.primitive(law, cell);
     const double pressure = law.pressureOf(w[euler::kDensity], w[euler::kPressure<D>]);
@@ -123,8 +153,17 @@ class BurningSurface {
         perWidth * reactant_.shareIn(cell, cell) * model.rate({pressure, reactant_.temperature[cell], density});
   }
 
+  /// What burns in the cracks of a cell.
+  void burnCracks(const Index<D>& cell, const NewBurning<D>& fresh) const {
+    if (!modes_.is(cell, BurnMode::cracks)) return;
+    const double density = reactant_.mass[cell] / reactant_.volume[cell];
+    fresh.within[cell] =
+        ice::Ddt::surfaceOfCracks * reactant_.volume[cell] *
+        settings_.burning->model.rate({(*modes_.pressure)[cell], reactant_.temperature[cell], density});
+  }
+
  private:
-  /// Whether a body fills most of the area of a cell around.
+  /// Whether a body fills most of the area of a neighbouring cell.
   bool isBesideWall(const Index<D>& cell) const {
     bool is = false;
     forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) {
@@ -132,7 +171,7 @@ class BurningSurface {
     });
     return is;
   }
-  /// The greatest temperature of what fills more than a fifth of one of the cells at a face.
+  /// The greatest temperature of the gas and of bodies that fill more than a fifth of one of the cells at a face.
   double hottestAt(const Index<D>& gas, const Index<D>& body) const {
     double hottest = std::max(reactant_.hottest[gas], reactant_.hottest[body]);
     if (cells_.free[gas] > leastVisible) hottest = std::max(hottest, gasTemperature<D>(settings_, cells_, gas));
@@ -143,22 +182,24 @@ class BurningSurface {
   const Settings& settings_;
   GasInCells<D> cells_;
   const Reactant& reactant_;
+  const KnownModes& modes_;
   SurfaceAtFaces<D> surface_;
 };
 
-/// Finds what burns at the faces of a patch's cells.
+/// Finds the mass that burns at the faces of the cells of a patch.
 template <int D>
 void findBurning(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant,
-                 const NewBurning<D>& fresh) {
+                 const KnownModes& modes, const NewBurning<D>& fresh) {
   fresh.clear();
   if (!settings.burning->model.burnsAtSurface()) return;
   const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
-  const BurningSurface<D> surface(patch.level(), settings, cells, reactant);
+  const BurningSurface<D> surface(patch.level(), settings, cells, reactant, modes);
   const FreeSpace<D> space(patch.level(), settings, cells);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     for (int d = 0; d < D; ++d)
       if (!space.isAtSide(cell, d, 0)) surface.burn(cell, d, fresh);
     surface.burnWithin(cell, fresh);
+    surface.burnCracks(cell, fresh);
   });
 }
 

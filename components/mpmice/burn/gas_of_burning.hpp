@@ -6,14 +6,14 @@
 
 namespace tushar::mpmice {
 
-/// Whether a body's p.strainEnergy is all that its strain stores, rather than what a step adds to it.
+/// Whether p.strainEnergy of a body is its total strain energy, rather than the increase in a step.
 inline bool storesStrain(const mpm::solid::Material& material) {
   const auto name = material.model->name();
   return !material.isDamageable() &&
          (name == mpm::solid::CompNeoHook::name || name == mpm::solid::CompMooneyRivlin::name);
 }
 
-/// The particles of a body at the end of a step; the mass is that before they burn.
+/// The particles of a body at the end of a step; the mass is that before burning.
 template <int D>
 struct BurningParticles {
   ParticleView<const double> mass, temperature;
@@ -28,12 +28,12 @@ struct BurningParticles {
   }
 };
 
-/// The gas of the step that gets what burns: its state at the start, and before small cells share.
+/// The gas that receives the burned mass in a step: its state at the start, and before small cells are merged.
 template <int D>
 struct BurntGas {
   GasInCells<D> before;
   CellView<const double> share, newFree;
-  euler::MixtureViews<D, double> held;  ///< of several gases the volumes, in place of the shares
+  euler::MixtureViews<D, double> held;  ///< for several gases, the volumes instead of the volume fractions
   CellView<const double> burntBefore;
   CellView<double> burnt;
 
@@ -53,14 +53,14 @@ struct BurntGas {
   }
 };
 
-/// What burns in a cell in a step, per volume of the cell.
+/// The mass, momentum and energy that burn in a cell in a step, per volume of the cell.
 template <int D>
 struct Burnt {
   double mass = 0;
   Vec<D> momentum = Vec<D>::Zero();
   double kinetic = 0, internal = 0;
 
-  /// With what it has as part of a body, and the heat of the reaction [J/kg].
+  /// With its properties as a part of the body, and the heat of reaction [J/kg].
   static Burnt of(const BurningParticles<D>& particles, const data::ParticleRange& range, double factor,
                   double specificHeat, double heat) {
     Burnt sum;
@@ -76,8 +76,8 @@ struct Burnt {
   }
 };
 
-/// The volumes of several gases in a cell after one of them got what burned: that takes the volume that it has at the
-/// pressure of the gas around, and where the cell keeps its gas, all together fill it.
+/// The volumes of several gases in a cell after burned mass has been added to one of them: the new gas takes the volume
+/// that it has at the pressure of the cell; if the cell keeps its gas, all volumes are scaled to fill the cell.
 template <int D>
 void makeRoomFor(const Level& level, const Settings& settings, const BurntGas<D>& gas, const Index<D>& cell,
                  double internal) {
@@ -109,8 +109,8 @@ void makeRoomFor(const Level& level, const Settings& settings, const BurntGas<D>
   for (const auto& share : gas.held.shares) share[cell] *= gas.newFree[cell] / volume;
 }
 
-/// Gives what burns to the gas of the cell where it was part of a body: mass, momentum, energy, and the room that it
-/// leaves (see measureMotion).
+/// Adds the burned mass, momentum and energy to the gas of the cell that contained them, with the space that becomes
+/// free (see measureMotion).
 template <int D>
 void addBurntGas(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                  const std::vector<BurningParticles<D>>& bodies, const BurntGas<D>& gas) {

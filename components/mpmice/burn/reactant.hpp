@@ -7,10 +7,10 @@
 
 namespace tushar::mpmice {
 
-/// What fills no more of a cell does not light a surface, as in Uintah.
+/// As in Uintah, bodies that fill at most this fraction of a cell do not ignite a surface.
 inline constexpr double leastVisible = 0.2;
 
-/// The body that burns, and what is beside it: of the particles that start the step in a cell.
+/// The burning body and the other bodies, summed over the particles that start the step in a cell.
 template <class T>
 struct ReactantFields {
   CellView<T> mass, volume, temperature, others, hottest;
@@ -32,7 +32,7 @@ struct Reactant : ReactantFields<const double> {
   static Reactant from(auto& take, int ghost) {
     return {ReactantFields<const double>::from(take, [&](const auto& label) { return requiresNew(label, ghost); })};
   }
-  /// Its share of the volume of all bodies in two cells.
+  /// Its fraction of the volume of all bodies in two cells.
   template <int D>
   double shareIn(const Index<D>& a, const Index<D>& b) const {
     const double own = volume[a] + volume[b];

@@ -2,14 +2,15 @@
 
 #include "components/euler/boundary.hpp"
 #include "components/euler/tasks/add_diffusion.hpp"
+#include "components/mpmice/free_space.hpp"
 #include "components/mpmice/gas_temperature.hpp"
 #include "components/mpmice/tasks/compute_stable_time_step.hpp"
 #include "components/mpmice/wall_friction.hpp"
 
 namespace tushar::mpmice {
 
-/// Viscosity and conduction through the faces beside bodies, as far as these are open. T and v count in the middle of a
-/// cell's gas; if a cell has none, they are those of its neighbour at the face.
+/// Viscosity and conduction through the open fractions of faces next to bodies. T and v count in the middle of a cell's
+/// gas; if a cell has none, they are those of its neighbour at the face.
 template <int D>
 class DiffusionBeside {
  public:
@@ -46,17 +47,13 @@ class DiffusionBeside {
   }
 
  private:
-  /// The cell itself or, beyond the grid, the one that it mirrors.
-  Index<D> onGrid(Index<D> cell) const {
-    for (int d = 0; d < D; ++d)
-      if (!level_.isPeriodic(d)) cell[d] = std::clamp(cell[d], level_.cells().lower[d], level_.cells().upper[d] - 1);
-    return cell;
-  }
+  /// The cell itself or, beyond the grid, the nearest on it.
+  Index<D> onGrid(const Index<D>& cell) const { return nearestOnGrid(level_, cell); }
   bool isBeyond(const Index<D>& cell, int axis) const {
     return !level_.isPeriodic(axis) &&
            (cell[axis] < level_.cells().lower[axis] || cell[axis] >= level_.cells().upper[axis]);
   }
-  /// The open share of a face; no more than a step of the time that cells allow may use up.
+  /// The open fraction of a face, limited so that a stable step does not overshoot.
   double openFor(const Index<D>& cell, const Index<D>& below, int axis) const {
     const double open = isBeyond(cell, axis) ? space_.aperture(below, axis, 1) : space_.aperture(cell, axis, 0);
     return std::min(open, 2 * std::min(cells_.free[onGrid(cell)], cells_.free[onGrid(below)]));
@@ -88,8 +85,8 @@ class DiffusionBeside {
     }
     return std::max(0.5, 1 + middle(cell, axis) - middle(below, axis));
   }
-  /// The position, along an axis, of the centre of a cell's gas relative to that of the cell, in cells: away from its
-  /// walls, and towards a small cell with which it shares.
+  /// The position, along an axis, of the centre of the gas of a cell relative to the centre of the cell, in cells: away
+  /// from its walls, and towards a small cell with which it is merged.
   double middle(const Index<D>& cell, int axis) const {
     const OpenFaces faces = space_.faces(cell, axis);
     const double walls = faces.wall(0) + faces.wall(1);
@@ -108,7 +105,7 @@ class DiffusionBeside {
   const euler::Rows<D>& w_;
 };
 
-/// T and v of the gas in the cells of the work's box; if there is none, numbers that nothing uses.
+/// T and v of the gas in the cells of the box; in cells without gas, arbitrary values that are not used.
 template <int D>
 void findTemperatures(const euler::Gas& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
                       euler::Rows<D>& w) {
@@ -124,7 +121,7 @@ void findTemperatures(const euler::Gas& gas, const Level& level, const GasInCell
   });
 }
 
-/// What diffuses through the rim of the level before small cells share, Pa and W/m².
+/// The diffusive fluxes through the rim of the level before small cells are merged, Pa and W/m².
 template <int D>
 struct RimsOfDiffusion : euler::DiffusionRims<D> {
   static RimsOfDiffusion from(auto& take) {
@@ -132,9 +129,9 @@ struct RimsOfDiffusion : euler::DiffusionRims<D> {
   }
 };
 
-/// Adds what viscosity and conduction change within the gas in a step, from the state at its start, to that before
-/// small cells share: through faces as far as they are open. Friction at walls is with their pressure. Where no body is
-/// near, it is that of `euler`, to the last bit.
+/// Adds the changes due to viscosity and conduction within the gas in a step, from the state at its start, to the state
+/// before small cells are merged: through the open fractions of faces. Friction at walls is with their pressure. Where
+/// no body is near, it is that of `euler`, to the last bit.
 template <int D>
 void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
                   CellView<Vec<D>> momentum, CellView<double> totalEnergy, const RimsOfDiffusion<D>& rims) {
@@ -164,7 +161,7 @@ void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells
   });
 }
 
-/// The cells with gas as they diffuse; others are at rest.
+/// The diffusing gas of cells; cells without gas are at rest.
 template <int D>
 auto diffusingGas(const Level& level, const Settings& settings, const GasInCells<D>& cells) {
   return [&level, &settings, cells](const Index<D>& cell) {
@@ -172,8 +169,8 @@ auto diffusingGas(const Level& level, const Settings& settings, const GasInCells
   };
 }
 
-/// addDiffusion where viscosity and conduction vary, or there are several gases: through a face flows what the mean of
-/// both cells' coefficients lets through.
+/// addDiffusion for varying viscosity and conduction, or for several gases: the flux through a face uses the mean of
+/// the coefficients of both cells.
 template <int D>
 void addVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
                          CellView<Vec<D>> momentum, CellView<double> totalEnergy, const RimsOfDiffusion<D>& rims) {
@@ -223,8 +220,8 @@ void limitDiffusion(const Patch& patch, const Settings& settings, const GasInCel
   if (greatest > 0) dt.add(settings.gas.cfl / greatest, "diffusion");
 }
 
-/// The same where viscosity and conduction vary, beside a part of the speed of sound: dt = cfl / max(sum_d (|v_d| +
-/// k c) / h_d + (nu_below + nu_above) / (l h_d)²).
+/// The same for varying viscosity and conduction, together with a fraction of the speed of sound: dt = cfl / max(sum_d
+/// (|v_d| + k c) / h_d + (nu_below + nu_above) / (l h_d)²).
 template <int D>
 void limitVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                            double soundSpeedKnob, Minimum& dt) {

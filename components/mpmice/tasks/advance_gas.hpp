@@ -4,11 +4,11 @@
 
 namespace tushar::mpmice {
 
-/// The state after a step, before small cells share theirs.
+/// The state after a step, before small cells are merged.
 template <int D>
 struct UnsharedGas {
   euler::MixtureViews<D, double> held;  ///< of several gases the volumes, in place of the shares
-  euler::RimFluxes<D> rims = {};        ///< what flows through the rim of the level
+  euler::RimFluxes<D> rims = {};        ///< fluxes through the rim of the level
 
   static UnsharedGas from(auto& take, std::size_t gases) {
     const auto ofEach = [&](const auto& labels) {
@@ -27,8 +27,8 @@ struct UnsharedGas {
   }
 };
 
-/// rho, v, p of the gas in the cells of the work's box; if there is none, of some gas at rest, whose fluxes the closed
-/// faces hold back.
+/// rho, v, p of the gas in the cells of the box; in cells without gas, those of some gas at rest, whose fluxes vanish
+/// because faces are closed.
 template <int D, class G>
 void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
                 euler::Rows<D, euler::kGases<G>>& w) {
@@ -45,7 +45,7 @@ void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, co
   });
 }
 
-/// Treats cells with a body in them or next to them as constant, and those beyond a side of the grid that mirror them.
+/// Treats cells with a body in or next to them as constant, as well as their images outside the grid.
 template <int D, int K>
 void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& cells, const NearBodies<D>& near,
                      euler::Work<D, K>& work) {
@@ -81,8 +81,8 @@ void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<
   });
 }
 
-/// Keeps the mass that flows up through the lower faces of the cells of a block across an axis, over a cell's volume,
-/// past what moves as the bodies at the face do.
+/// Stores the mass that flows upwards, relative to the bodies, through the lower faces of a block's cells across an
+/// axis, divided by the cell volume.
 template <int D, int K>
 void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, int axis, double ratio,
                   const euler::Rows<D, K>& flux, const CellView<Vec<D>>& flow) {
@@ -140,8 +140,8 @@ bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, doub
     return euler::canBe<D>(gas, &fresh.density[cell], fresh.momentum[cell].data(), &fresh.totalEnergy[cell], 1);
 }
 
-/// A step of a block with bodies in or around it: `euler`'s, through open faces alone, and what walls do. Returns
-/// whether the gas away from bodies is possible; beside them small cells have still to share.
+/// A step of a block with bodies in or around it: a step of `euler` through open faces, and the effect of walls.
+/// Returns whether the gas away from bodies is possible; beside them small cells have still to share.
 template <int D, class Flux, class Shape, class G>
 bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells<D>& cells,
                      const WallExchange<D>& exchange, const NearBodies<D>& near, euler::Work<D, euler::kGases<G>>& work,
@@ -190,7 +190,7 @@ bool advanceWith(const G& law, const Patch& patch, double dt, const GasInCells<D
   return fine;
 }
 
-/// Throws NumericalError if bodies are so near to coarser cells that these would have walls.
+/// Throws NumericalError if bodies are so close to coarser cells that these would have walls.
 template <int D>
 void requireFinest(const Patch& patch, const NearBodies<D>& near) {
   const Level& level = patch.level();
@@ -198,14 +198,14 @@ void requireFinest(const Patch& patch, const NearBodies<D>& near) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (near(cell))
       throw NumericalError(
-          fmt::format("bodies came within {} cells of a cell that is not among the finest", nearLayers),
+          fmt::format("bodies came within {} cells of a cell that is not on the finest level", nearLayers),
           "a larger <Level>, or <adaptive> in <Regridder> of <AMR>", "c.freeVolume", level.cellNumber<D>(cell));
   });
 }
 
-/// One step of the gas: that of `euler` where no body is near, to the last bit; at bodies, fluxes go through the open
-/// share of faces, walls push by their pressure and do work by the mean of their velocities before and after the step,
-/// and gas follows walls that move. Adds the power of the gas on bodies, W. K is the number of gases that share cells.
+/// One step of the gas. Away from bodies, it is bitwise a step of `euler`. At bodies, fluxes pass through the open
+/// fraction of faces, walls exert a pressure and do work with the mean of their velocities before and after the step,
+/// and gas follows moving walls. Adds the power of the gas on bodies, W. K is the number of gases that share cells.
 template <int D, class Flux, class Shape, int K>
 void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings, double dt,
                 const GasInCells<D>& cells, const BodiesInStep<D>& bodies,

@@ -50,7 +50,8 @@ void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInC
   if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
 }
 
-/// dt = cfl times the time in which the fastest wave of a body crosses a cell: the gas sees bodies move once a step.
+/// dt = cfl times the time in which the fastest wave of a body crosses a cell, because bodies move only once per step
+/// for the gas.
 template <int D>
 void limitStepOfBodies(const Patch& patch, const mpm::solid::Material&, double cfl,
                        CellView<const double> stableTimeStep, Minimum& dt) {

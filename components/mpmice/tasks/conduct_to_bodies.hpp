@@ -29,8 +29,8 @@ struct HeatOfParticles {
   }
 };
 
-/// Whether a body exchanges heat with a gas: one of the last numbers of its row, which is that of its pairs with what
-/// comes after it.
+/// Whether a body exchanges heat with a gas: one of the last coefficients of its row, which has its pairs with the
+/// materials after it.
 inline bool warmsGas(const Settings& settings, std::size_t body, std::size_t bodies) {
   if (settings.heat.byMasses) return true;
   if (!settings.heat.act()) return false;
@@ -62,8 +62,8 @@ void measureBodyHeat(const Patch& patch, const std::vector<mpm::solid::Material>
   });
 }
 
-/// Heat that the gas conducts to bodies through walls, k A dT / d, by the state at the start of the step. Bodies at a
-/// face are those of the cells on both sides.
+/// Heat that the gas conducts to bodies through walls, k A dT / d, according to the state at the start of the step.
+/// Bodies at a face are those of the cells on both sides.
 template <int D>
 class WallHeat {
  public:
@@ -71,14 +71,15 @@ class WallHeat {
            double dt)
       : level_(level), settings_(settings), cells_(cells), space_(level, settings, cells), bodies_(bodies), dt_(dt) {}
 
-  /// J/m³ of the cell that the gas of a cell gives in the step.
+  /// heat that the gas of a cell gives in the step, J/m³ of the cell
   double given(const Index<D>& cell) const {
     double sum = 0;
     for (int a = 0; a < D; ++a)
       for (int side = 0; side < 2; ++side) sum += through(cell, a, side);
     return sum;
   }
-  /// The heat that the bodies of a cell receive: their share, by capacity, of that through each of its faces.
+  /// The heat that the bodies of a cell receive: their part, in proportion to heat capacity, of the heat through each
+  /// of its faces.
   double taken(const Index<D>& cell) const {
     double sum = 0;
     for (int a = 0; a < D; ++a)
@@ -99,7 +100,8 @@ class WallHeat {
   double capacityAt(const Index<D>& cell, const std::optional<Index<D>>& next) const {
     return bodies_.capacity[cell] + (next ? bodies_.capacity[*next] : 0);
   }
-  /// Heat from the gas of a cell through its wall at a face, no more than brings both to one temperature.
+  /// Heat from the gas of a cell through its wall at a face, limited so that both do not overshoot a common
+  /// temperature.
   double through(const Index<D>& cell, int axis, int side) const {
     if (space_.isEmpty(cell)) return 0;
     const double wall = space_.faces(cell, axis).wall(side);
@@ -125,7 +127,7 @@ class WallHeat {
   double dt_;
 };
 
-/// Takes from the gas what it conducts to bodies, before small cells share.
+/// Removes from the gas the heat that it conducts to bodies, before small cells are merged.
 template <int D>
 void conductFromGas(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                     const KnownBodyHeat& bodies, double dt, CellView<double> totalEnergy, CellView<double> heat) {
@@ -138,7 +140,7 @@ void conductFromGas(const Patch& patch, const Settings& settings, const GasInCel
   });
 }
 
-/// Gives it to the particles of the cells on both sides of the walls.
+/// Adds the heat to the particles of the cells on both sides of the walls.
 template <int D>
 void conductToBodies(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                      const GasInCells<D>& cells, const KnownBodyHeat& heat, double dt,

@@ -130,8 +130,8 @@ void findLeastFreeVolume(const Patch& patch, const GasInCells<D>& cells, Minimum
   });
 }
 
-/// The least mass, of several gases that of each, and the least internal energy, less that of p_inf, that a cell holds;
-/// closed holes count, which only keep what they hold.
+/// The least mass (for several gases, of each) and the least internal energy, minus that of p_inf, in any cell,
+/// including closed holes, which only keep their content.
 template <int D>
 void findLeastContent(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& mass,
                       Minimum& heat) {

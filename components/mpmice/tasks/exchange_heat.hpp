@@ -20,7 +20,8 @@ struct WarmBodies {
   }
 };
 
-/// What the exchange of heat reads and changes of the gas after a step: its energy and, of several gases, the shares.
+/// The variables of the gas that the heat exchange reads and changes after a step: its energy and, for several gases,
+/// the volume fractions.
 template <int D>
 struct HeatedGas {
   CellView<const double> free, density;
@@ -39,20 +40,23 @@ struct HeatedGas {
   }
 };
 
-/// Heat between bodies and gases, and among each of these, in the cells where they are together, in the manner of
-/// Uintah's exchange coefficients: what one gives, the others get.
-template <int D>
+/// Up to so many bodies and gases exchange heat without memory from the heap in each cell.
+inline constexpr int kFewThings = 8;
+
+/// Heat exchange between bodies and gases, between bodies, and between gases, in the cells that they share, with
+/// Uintah's exchange coefficients; heat is conserved. `Most`: the largest number of both in all.
+template <int D, int Most>
 class HeatExchange {
  public:
   HeatExchange(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies)
       : patch_(patch), materials_(materials), settings_(settings), gas_(gas), bodies_(bodies) {}
 
-  /// Exchanges heat in a cell, and adds that from outside. Returns what the gas gives to bodies, J/m³ of the cell.
+  /// Exchanges heat in a cell and adds heat from outside. Returns what the gas gives to bodies, J/m³ of the cell.
   double apply(const Index<D>& cell, double time, double dt) const {
     const std::size_t bodies = bodies_.size(), gases = std::max<std::size_t>(1, settings_.gases.size());
     const auto first = static_cast<Eigen::Index>(bodies);
-    ice::WarmThings<> things(static_cast<Eigen::Index>(bodies + gases));
+    ice::WarmThings<Most> things(static_cast<Eigen::Index>(bodies + gases));
     for (std::size_t m = 0; m < bodies; ++m) addBody(m, cell, things);
     const int solid = things.present();
     if (gas_.free[cell] >= leastFreeVolume && gas_.density[cell] > 0) addGas(cell, things);
@@ -76,7 +80,7 @@ class HeatExchange {
   }
 
  private:
-  void addBody(std::size_t m, const Index<D>& cell, ice::WarmThings<>& things) const {
+  void addBody(std::size_t m, const Index<D>& cell, ice::WarmThings<Most>& things) const {
     const double inverse = 1 / patch_.level().cellVolume();
     double heat = 0;
     for (const int p : bodies_[m].mass.template in<D>(cell)) {
@@ -89,7 +93,7 @@ class HeatExchange {
     }
     if (things.capacity[m] > 0) things.temperature[m] = heat / things.capacity[m];
   }
-  void addGas(const Index<D>& cell, ice::WarmThings<>& things) const {
+  void addGas(const Index<D>& cell, ice::WarmThings<Most>& things) const {
     const auto first = static_cast<Eigen::Index>(bodies_.size());
     const double free = gas_.free[cell], mass = gas_.density[cell];
     const double internal = gas_.totalEnergy[cell] - 0.5 * gas_.momentum[cell].squaredNorm() / mass;
@@ -120,12 +124,12 @@ class HeatExchange {
 };
 
 /// Heat between bodies and gases. Particles count for the cell in which they started the step.
-template <int D>
+template <int D, int Most>
 void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                   double time, double dt, const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies,
                   const std::optional<CellView<double>>& heat) {
   if (heat) heat->fill(0);
-  const HeatExchange<D> exchange(patch, materials, settings, gas, bodies);
+  const HeatExchange<D, Most> exchange(patch, materials, settings, gas, bodies);
   const bool hasGasAlone = !settings.gases.empty() || settings.heating.acts();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const bool hasBody = std::any_of(bodies.begin(), bodies.end(),
@@ -136,12 +140,12 @@ void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& m
   });
 }
 
-/// Heat of gases that exchange none with bodies.
+/// Heat of several gases that exchange none with bodies.
 template <int D>
 void heatGases(const Patch& patch, const Settings& settings, double time, double dt, const HeatedGas<D>& gas) {
   const std::vector<WarmBodies> none;
   const std::vector<mpm::solid::Material> noMaterials;
-  const HeatExchange<D> exchange(patch, noMaterials, settings, gas, none);
+  const HeatExchange<D, euler::kMostGases> exchange(patch, noMaterials, settings, gas, none);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { exchange.apply(cell, time, dt); });
 }
 

@@ -6,8 +6,8 @@
 
 namespace tushar::mpmice {
 
-/// Calls `visit(cell, distance squared)` for the cells around one, first those within 3, and those further away, up to
-/// all, until `isFound()`.
+/// Calls `visit(cell, distance squared)` for the cells around one, first those within 3, then those farther away, if
+/// necessary all, until `isFound()`.
 template <int D, class Visit, class IsFound>
 void searchAround(const Level& level, const Index<D>& cell, Visit&& visit, IsFound&& isFound) {
   int extent = 1;
@@ -22,8 +22,8 @@ void searchAround(const Level& level, const Index<D>& cell, Visit&& visit, IsFou
   }
 }
 
-/// The gas of a cell with some room: that at its centre or, as scenes cut out the bodies' shapes, at the nearest
-/// centre of a cell that has one. Throws InputError if there is none.
+/// The gas of a cell with some free volume: the gas at its centre or, since scenes cut out the shapes of bodies, the
+/// gas at the nearest cell centre that has any. Throws InputError if there is none.
 template <int D>
 euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const Index<D>& cell) {
   const auto at = [&](const Index<D>& of) {
@@ -48,7 +48,8 @@ euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<const double> free, CellView<double> density,
                 CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
-  if (patch.id() == 0) euler::checkObjects<D>(patch.level(), settings.gas);
+  // what a body burns to may be nowhere yet
+  if (patch.id() == 0 && !settings.burning) euler::checkObjects<D>(patch.level(), settings.gas);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     density[cell] = totalEnergy[cell] = 0;
     momentum[cell] = Vec<D>::Zero();
@@ -60,8 +61,8 @@ void initialize(const Patch& patch, const Settings& settings, CellView<const dou
   });
 }
 
-/// Several gases at the centre of a cell or, as scenes cut out the bodies' shapes, at the nearest centre that has
-/// some. Throws InputError where there are none, or they do not fill the cell.
+/// Several gases at the centre of a cell or, since scenes cut out the shapes of bodies, at the nearest cell centre
+/// where there are any. Throws InputError where there are none, or they do not fill the cell.
 template <int D>
 ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settings>& gases, const Index<D>& cell) {
   const auto pointOf = [&](const Index<D>& of) { return level.expandPoint<D>(level.cellCentre<D>(of)); };

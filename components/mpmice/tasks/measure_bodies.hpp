@@ -6,10 +6,11 @@
 
 namespace tushar::mpmice {
 
-/// Number of layers of cells beyond a patch with particles whose boxes may reach into it, before or after a step.
+/// Number of layers of cells around a patch that contain particles whose boxes may extend into it, before or after a
+/// step.
 inline constexpr int boxReach = 2;
 
-/// The box of each particle, from its size at the start, in cells, and F; and what has not burned of it.
+/// The box of each particle, from its size at the start, in cells, and F; and its unburned fraction.
 template <int D>
 void findBoxes(const Patch& patch, const mpm::solid::Material&, ParticleView<const Vec<D>> size,
                ParticleView<const mpm::solid::Matrix3> deformation,
@@ -25,7 +26,7 @@ template <int D>
 struct Boxes {
   ParticleView<const Vec<D>> x, edges;
 
-  /// `reads` makes accesses of how a step has them, or of how they were at its start.
+  /// `reads` makes accesses to their values in a step, or at its start.
   static Boxes from(auto& take, auto reads) {
     return {.x = take(reads(p::x<D>, boxReach)), .edges = take(reads(p::boxEdges<D>, boxReach))};
   }
@@ -43,7 +44,7 @@ struct MovedBoxes {
   }
 };
 
-/// A number for each place of a box along each axis; boxes of particles reach over a few cells, also while they move.
+/// A number for each cell of a box along each axis; boxes of particles extend over a few cells, even while they move.
 template <int D, class Make>
 auto alongAxes(const Box& reach, Make&& make) {
   std::array<std::array<double, 2 * (boxReach + 2)>, D> values;
@@ -58,7 +59,7 @@ struct FreeShares {
   CellView<double> volume;
   CellView<Vec<D>> coverage;
 
-  /// `volume` is where the free volume goes.
+  /// `volume` receives the free volume.
   static FreeShares from(auto& take, const CellLabel<double>* volume) {
     return {.volume = take(computes(*volume)), .coverage = take(computes(c::coverage<D>))};
   }
@@ -66,7 +67,7 @@ struct FreeShares {
     volume.fill(1);
     coverage.fill(Vec<D>::Zero());
   }
-  /// Takes the share of a box whose coordinates start at `origin`.
+  /// Subtracts the contribution of a box whose coordinates start at `origin`.
   void take(const Index<D>& origin, const ParticleBox<D>& box) const {
     if (!(box.edges.minCoeff() > 0)) return;  // it has burned
     const Box reach = box.reach();
@@ -101,7 +102,7 @@ void forEachParticle(const Level& level, const ParticleView<const Vec<D>>& x, Vi
   });
 }
 
-/// The share of cells and faces that bodies leave free.
+/// The fractions of cells and faces that bodies leave free.
 template <int D>
 void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material>&,
                       const std::vector<Boxes<D>>& materials, const FreeShares<D>& free) {
@@ -113,8 +114,8 @@ void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material
   free.settle();
 }
 
-/// Adds the volume, in cells, that a box moving from `before` to `after` takes up through the lower faces of the cells
-/// around: once axis by axis in rising and once in falling order, the mean of both.
+/// Adds the volume, in cells, that a box moving from `before` to `after` carries up through the lower faces of the
+/// surrounding cells: the mean of two sequences, axis by axis in ascending and in descending order.
 template <int D>
 void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const ParticleBox<D>& after,
               CellView<Vec<D>> swept) {
@@ -144,16 +145,16 @@ void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const Partic
   });
 }
 
-/// The position of a particle, limited to the distance from its starting cell that patches see: time steps keep it
-/// nearer.
+/// The position of a particle, limited to the distance from its starting cell that patches see; time steps keep it
+/// closer.
 template <int D>
 Vec<D> withinReach(const Vec<D>& coordinates, const Vec<D>& edges) {
   const Vec<D> least = edges.array() - boxReach, most = boxReach + 1 - edges.array();
   return coordinates.cwiseMax(least).cwiseMin(most);
 }
 
-/// Measures the bodies at the end of a step, before relocation, and the volume of bodies that went through faces: each
-/// box moves as it was at the start of the step.
+/// Measures the bodies at the end of a step, before relocation, and the volume of bodies that passed through faces:
+/// each box moves with its shape at the start of the step.
 template <int D>
 void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&,
                    const std::vector<MovedBoxes<D>>& materials, const FreeShares<D>& free, CellView<Vec<D>> swept) {

@@ -36,7 +36,7 @@ void addToSum(const Patch& patch, CellView<const T> part, CellView<const T> befo
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { now[cell] = before[cell] + part[cell]; });
 }
 
-/// The same for heat, by coefficients and, where walls conduct, through them.
+/// The same for heat, from exchange coefficients and, if walls conduct, through walls.
 template <int D>
 void addHeatToSum(const Patch& patch, CellView<const double> heat, const std::optional<CellView<const double>>& walls,
                   CellView<const double> before, CellView<double> now) {
@@ -68,7 +68,7 @@ void sumVectorOverVolume(const Patch& patch, CellView<const Vec<D>> amount, Vect
   });
 }
 
-/// The strips of a cell along each axis in which bodies are, as bits: 64 in a plane, 8 x 8 in space, one on a line.
+/// The strips of a cell along each axis that contain bodies, as bits: 64 in a plane, 8 x 8 in space, one on a line.
 template <int D>
 class BlockedStrips {
  public:
@@ -87,11 +87,11 @@ class BlockedStrips {
       strips_[axis] |= bits;
     }
   }
-  /// The share of a cell's cross-section that no body blocks.
+  /// The fraction of the cross-section of a cell that no body blocks.
   double open(int axis) const { return 1 - std::popcount(strips_[axis]) * (1.0 / count); }
 
  private:
-  /// The strips across an axis whose middles are in the box.
+  /// The strips across an axis whose centres are in the box.
   static std::uint64_t along(const ParticleBox<D>& box, int axis, int k) {
     std::uint64_t bits = 0;
     for (int i = 0; i < perAxis; ++i) {
@@ -100,7 +100,7 @@ class BlockedStrips {
     }
     return bits;
   }
-  /// The pattern `bits` of `width` bits in each place of `places`.
+  /// The pattern `bits` of `width` bits, repeated at each position of `places`.
   static std::uint64_t spread(std::uint64_t bits, int width, std::uint64_t places) {
     std::uint64_t all = 0;
     for (int i = 0; i < perAxis; ++i)
@@ -111,7 +111,7 @@ class BlockedStrips {
   std::array<std::uint64_t, D> strips_{};
 };
 
-/// Which strips of the cells of a patch bodies block, at the start of a step.
+/// The strips of the cells of a patch that bodies block at the start of a step.
 template <int D>
 std::vector<BlockedStrips<D>> blockedStrips(const Patch& patch, const std::vector<Boxes<D>>& materials) {
   const Box& cells = patch.cells();
@@ -127,8 +127,8 @@ std::vector<BlockedStrips<D>> blockedStrips(const Patch& patch, const std::vecto
   return strips;
 }
 
-/// The mass that leaks through bodies along an axis in a step, over a cell's volume: the part of the flow in through
-/// one face and out through the other that has no straight way past the bodies in the cell.
+/// The mass that leaks through bodies along an axis in a step, per cell volume: the part of the flow in through one
+/// face and out through the other that has no straight path past the bodies in the cell.
 inline double leakAlong(double in, double out, double openIn, double openOut, double straight) {
   if (!(in * out > 0)) return 0;
   const double through = std::min(std::abs(in), std::abs(out)), width = std::min(openIn, openOut);

@@ -5,11 +5,11 @@
 
 namespace tushar::mpmice {
 
-/// Cells within so many of a body are the finest, so that no coarser one has a wall: a step sees bodies two cells away,
-/// and faces of cells one further.
+/// Cells within this distance of a body are on the finest level, so that no coarser cell has a wall: a step sees bodies
+/// two cells away, and faces one cell farther.
 inline constexpr int markedLayers = 3;
 
-/// Marks cells near bodies, so that they become finer.
+/// Marks cells near bodies for refinement.
 template <int D>
 void markBodies(const Patch& patch, CellView<const double> free, Marks marks) {
   forEach<D>(free.box(), [&](const Index<D>& cell) {
@@ -19,7 +19,7 @@ void markBodies(const Patch& patch, CellView<const double> free, Marks marks) {
   });
 }
 
-/// What a regridding changes of several gases.
+/// The variables of several gases that a regridding changes.
 struct ChangedGases {
   std::vector<euler::ChangedGas> of;
 
@@ -31,7 +31,7 @@ struct ChangedGases {
   }
 };
 
-/// Makes the interpolated values of new cells those of gases that can be.
+/// Replaces invalid interpolated values of several gases in new cells.
 template <int D>
 void mendNewGases(const Patch& patch, const std::vector<euler::Settings>& gases, const std::vector<Box>& newCells,
                   const euler::ChangedState<D>& state, const ChangedGases& held) {

@@ -5,10 +5,11 @@
 
 namespace tushar::mpmice {
 
-/// Cells beyond a patch that determine what one of its own cells shares, and with which neighbour.
+/// Layers of cells around a patch that determine with which neighbour one of its own cells is merged, and what they
+/// exchange.
 inline constexpr int shareReach = 3;
 
-/// The state after a step and the room it has, as small cells are to share it.
+/// The state after a step and the free volume, before small cells are merged.
 template <int D>
 struct Unshared {
   euler::MixtureViews<D, const double> held;  ///< of several gases the volumes, in place of the shares
@@ -28,26 +29,26 @@ struct Unshared {
   }
 };
 
-/// Who shares with whom: a cell with little free volume gives what it holds to the neighbour, over a corner too, with
-/// the widest way to it, and gets back its part by volume. So small cells limit no time step, and cells may appear and
-/// vanish.
+/// The merging of cells: a cell with little free volume gives its content to the neighbour with the widest opening to
+/// it, possibly across a corner, and gets back a part in proportion to its volume. So small cells limit no time step,
+/// and cells may appear and vanish.
 template <int D>
 class SmallCells {
  public:
   SmallCells(const Level& level, bool thinWalls, const Unshared<D>& state)
       : level_(level), thin_walls_(thinWalls), state_(state) {}
 
-  /// The neighbour that a small cell gives its gas to, or the cell itself: one with room enough, else one that has more
-  /// room and gives its own gas to none. Ties go to the lower one.
+  /// The neighbour that receives the gas of a small cell: one with enough free volume, otherwise one that has more free
+  /// volume and does not give away its own gas. If there is none, the cell itself. Ties go to the lower one.
   Index<D> targetOf(const Index<D>& cell) const {
     const Index<D> chosen = choiceOf(cell);
     return isTarget(chosen) ? chosen : cell;
   }
-  /// Whether others may give their gas to a cell: it gives its own to none.
+  /// Whether a cell may receive gas from others, because it does not give away its own.
   bool isTarget(const Index<D>& cell) const { return choiceOf(cell) == cell; }
   /// Whether a small cell gives its gas to a neighbour that is a target.
   bool gives(const Index<D>& cell, const Index<D>& to) const { return isSmall(cell) && choiceOf(cell) == to; }
-  /// Whether a cell has little room, but something in it.
+  /// Whether a cell has little free volume, but is not empty.
   bool isSmall(const Index<D>& cell) const {
     return state_.free[cell] < smallFreeVolume && state_.held.density[cell] != 0;
   }
@@ -74,8 +75,7 @@ class SmallCells {
     });
     return best;
   }
-  /// The score of a neighbour with more room; -1 for others. Neighbours that are not small come
-  /// first.
+  /// The score of a neighbour with more free volume; -1 for others. Neighbours that are not small come first.
   double scoreOf(const Index<D>& cell, const Index<D>& at) const {
     const double room = state_.free[at], own = state_.free[cell];
     if (!(room > own) || room < leastFreeVolume) return -1;
@@ -98,7 +98,7 @@ class SmallCells {
   const Unshared<D>& state_;
 };
 
-/// What cells hold after a step, or at the start.
+/// The content of cells after a step, or at the start.
 template <int D>
 struct NewContent {
   euler::MixtureViews<D, double> held;
@@ -124,7 +124,7 @@ struct NewGas {
   }
 };
 
-/// The sum of what cells hold, and of their free volumes.
+/// The sum of the contents of cells, and of their free volumes.
 template <int D>
 struct Pool {
   double volume = 0, mass = 0, energy = 0;
@@ -141,7 +141,7 @@ struct Pool {
       volumes[k] += state.held.shares[k][cell];
     }
   }
-  /// The shares of several gases in the volume; where they have none, the first fills it.
+  /// The volume fractions of several gases; in cells without gas, that of the first gas is 1.
   void setShares(const Index<D>& cell, const euler::MixtureViews<D, double>& fresh) const {
     double sum = 0;
     for (const double of : volumes) sum += std::max(0.0, of);
@@ -150,7 +150,7 @@ struct Pool {
   }
 };
 
-/// Gives a cell its part of what it shares with others, through the cell `centre`.
+/// Gives a cell its part of the content that it shares with others, through the cell `centre`.
 template <int D>
 void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D>& cell, const Index<D>& centre,
              const euler::MixtureViews<D, double>& fresh) {
@@ -185,10 +185,10 @@ void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, c
   refuseGas<D>(level, gas, cell, free, density, last);
 }
 
-/// A density in a cell's content that counts as none, kg/m³: halving what a hole has left would go on for ever.
+/// A mass per cell volume that is treated as 0, kg/m³; otherwise the halving of the content of a hole would never end.
 inline constexpr double nothingLeft = 1e-100;
 
-/// Empties a cell that has next to nothing left.
+/// Empties a cell that has almost nothing left.
 template <int D>
 void emptyIfNothingLeft(const Index<D>& cell, const euler::MixtureViews<D, double>& held) {
   if (!(std::abs(held.density[cell]) < nothingLeft)) return;
@@ -197,7 +197,7 @@ void emptyIfNothingLeft(const Index<D>& cell, const euler::MixtureViews<D, doubl
   for (const auto& mass : held.masses) mass[cell] = 0;
 }
 
-/// The state after a step: small cells share theirs with neighbours. Counts them.
+/// The state after a step: small cells are merged with neighbours. Counts them.
 template <int D>
 void shareSmallCells(const Patch& patch, const Settings& settings, const Unshared<D>& state, const NewGas<D>& fresh,
                      Sum& merged) {

@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// The gas itself, per volume of the gas, in all cells; if there is none, some gas that nothing reads.
+/// The gas itself, per volume of the gas, in all cells; in cells without gas, arbitrary values that are not used.
 template <int D>
 struct GasAlone {
   euler::StateViews<D, const double> state;
@@ -25,8 +25,8 @@ struct NewGasAlone {
   }
 };
 
-/// Velocities of the walls at the lower and upper faces of cells, across them, m/s, and how much a wall is accelerated
-/// by the pressure of the cell's gas, m/(s² Pa).
+/// Normal velocities of the walls at the lower and upper faces of cells, m/s, and the acceleration of a wall per unit
+/// pressure of the gas in the cell, m/(s² Pa).
 template <int D>
 struct WallSpeeds {
   CellView<const Vec<D>> below, above, yieldBelow, yieldAbove;
@@ -56,12 +56,16 @@ struct NewWallSpeeds {
   }
 };
 
+/// The pressure that cells without gas have in the equations, Pa.
+inline constexpr double pressureOfNothing = 1;
+
 /// The state of the gas itself.
 template <int D>
 void takeGasAlone(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                   const NewGasAlone<D>& alone) {
   euler::State<D> none{};
-  none[euler::kDensity] = none[euler::kPressure<D>] = 1;
+  none[euler::kDensity] = 1;
+  none[euler::kPressure<D>] = pressureOfNothing;
   none = euler::conserved<D>(settings.gas.gas, none);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const euler::State<D> u = cells.isEmpty(cell) ? none : cells.conserved(cell);
@@ -71,16 +75,17 @@ void takeGasAlone(const Patch& patch, const Settings& settings, const GasInCells
   });
 }
 
-/// The pressure of the gas, a first guess of that at the end of the first step, Pa.
+/// The pressure of the gas, which is the initial guess for that at the end of the first step, Pa.
 template <int D>
 void guessPressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                    CellView<double> pressure) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    pressure[cell] = cells.isEmpty(cell) ? 1 : cells.primitive(settings.gas.gas, cell)[euler::kPressure<D>];
+    pressure[cell] =
+        cells.isEmpty(cell) ? pressureOfNothing : cells.primitive(settings.gas.gas, cell)[euler::kPressure<D>];
   });
 }
 
-/// The speed of walls at the start of the step, and their acceleration by pressure: of the mass that belongs to the
+/// The speed of walls at the start of the step, and their acceleration by pressure, with the mass that belongs to the
 /// face.
 template <int D>
 void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
@@ -115,23 +120,19 @@ void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&
   });
 }
 
-/// Velocities at the faces of cells, flat beside bodies.
+/// Velocities at the faces of cells, piecewise constant next to bodies.
 template <int D>
 ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
   return [&level, cells](const Index<D>& cell) {
-    const auto hasBody = [&](Index<D> at) {
-      for (int d = 0; d < D; ++d)
-        if (!level.isPeriodic(d)) at[d] = std::clamp(at[d], level.cells().lower[d], level.cells().upper[d] - 1);
-      return cells.hasBody(at);
-    };
+    const auto hasBody = [&](const Index<D>& at) { return cells.hasBody(nearestOnGrid(level, at)); };
     bool is = hasBody(cell);
     for (int d = 0; d < D && !is; ++d) is = hasBody(cell - Index<D>::unit(d)) || hasBody(cell + Index<D>::unit(d));
     return is;
   };
 }
 
-/// The equation for the change of pressure of a cell's gas: that of `ice`, through open shares g of faces, with walls
-/// of shares w that sweep with v_w:
+/// The equation for the change of pressure of a cell's gas: that of `ice`, through open fractions g of faces, with wall
+/// fractions w that move at v_w:
 ///
 ///   (phi + dt² sum w gamma P y / h) d - dt sum g gamma P_f loss_f (d_n - d) / h
 ///       = -dt sum +- (g gamma P_f u_f + w gamma P v_w) / h + (gamma - 1) dt / 2 sum +- g v (p_n - p) / h.
@@ -164,8 +165,8 @@ numerics::CellEquation<D> pressureEquationBeside(const ice::FaceFlow<D>& flow, c
   return equation;
 }
 
-/// Solves for the change of the gas's pressure in the step [Pa], and gives the pressure at the end.
-/// Throws NumericalError if the solver gives up.
+/// Solves for the change of the pressure of the gas in the step [Pa], and computes the pressure at the end. Throws
+/// NumericalError if the solver gives up.
 template <int D>
 void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings,
                          double dt, const std::vector<GasAlone<D>>& alone, const std::vector<GasInCells<D>>& cells,
@@ -184,24 +185,26 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
   }
   ice::solveForChange<D>(
       patches, ranks, *settings.implicit, flows, guess, fresh, totals,
-      [&](std::size_t p, const Index<D>& cell) { return spaces[p].isEmpty(cell); },
+      [&](std::size_t p, const Index<D>& cell) {
+        const bool wasEmpty = std::abs(guess[p][cell] - pressureOfNothing) < 1e-12;  // the guess is none then
+        return spaces[p].isEmpty(cell) || wasEmpty;
+      },
       [&](std::size_t p, const Index<D>& cell) {
         return pressureEquationBeside<D>(flows[p], spaces[p], walls[p], cells[p].free[cell], cell, dt);
       });
 }
 
-/// Pressure of the gas on walls, that at the end of the step, and where they close in, von Neumann's and Richtmyer's
-/// viscosity.
+/// Pressure of the gas on walls: that at the end of the step and, for approaching walls, the viscosity of von Neumann
+/// and Richtmyer.
 template <int D>
 void takeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                       const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
-                      CellView<const double> pressure, const Blowing<D>& blowing, const WallPressures<D>& walls) {
+                      CellView<const double> pressure, const WallPressures<D>& walls) {
   fillWallPressure<D>(patch, settings, cells, records, walls,
                       [&](const Index<D>& cell, const CellWalls<D>& ofCell, const Vec<D>& velocity, int d, int side) {
                         const double closing = std::max(0.0, ofCell.closing(velocity, d, side));
                         const double rho = cells.held.density[cell] / cells.free[cell];
-                        return pressure[cell] + 0.5 * (settings.gas.gas.gamma + 1) * rho * closing * closing +
-                               blowing.recoil(cell, d, side);
+                        return pressure[cell] + 0.5 * (settings.gas.gas.gamma + 1) * rho * closing * closing;
                       });
 }
 

@@ -26,7 +26,7 @@ class CellWalls {
     slip_ = facingOneWay<D>(level, faces_);
   }
   bool hasWall(int axis, int side) const { return faces_[axis].wall(side) > 0; }
-  /// Speed with which the gas meets a wall, m/s.
+  /// Speed at which the gas approaches a wall, m/s.
   double closing(const Vec<D>& wallVelocity, int axis, int side) const {
     Vec<D> relative;
     for (int d = 0; d < D; ++d) relative[d] = w_[euler::kVelocity(d)] - wallVelocity[d];
@@ -45,7 +45,7 @@ class CellWalls {
   double slip_ = 0;
 };
 
-/// New gas that leaves walls which burn; none elsewhere.
+/// New gas that leaves burning walls; none elsewhere.
 template <int D>
 struct Blowing {
   std::optional<CellView<const Vec<D>>> speeds, recoils;
@@ -56,7 +56,7 @@ struct Blowing {
   }
   /// Its speed, m/s, away from the wall of a cell at its lower (0) or upper (1) face.
   double speed(const Index<D>& cell, int axis, int side) const { return at(speeds, cell, axis, side); }
-  /// What it exerts on that wall, Pa.
+  /// The pressure that it exerts on this wall, Pa.
   double recoil(const Index<D>& cell, int axis, int side) const { return at(recoils, cell, axis, side); }
 
  private:
@@ -93,7 +93,7 @@ void fillWallPressure(const Patch& patch, const Settings& settings, const GasInC
   });
 }
 
-/// Pressure of the gas on walls, by the velocities of gas and bodies at the start of the step.
+/// Pressure of the gas on walls, from the velocities of gas and bodies at the start of the step.
 template <int D>
 void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                          const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
@@ -106,7 +106,7 @@ void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Mater
                       });
 }
 
-/// The pressures that computeWallPressure found, and where the gas is viscous the friction.
+/// The pressures computed by computeWallPressure and, if the gas is viscous, the friction.
 template <int D>
 struct KnownWalls {
   CellView<const Vec<D>> below, above;
@@ -152,7 +152,7 @@ Vec<D> frictionAt(const Level& level, const Settings& settings, const FreeSpace<
   return level.cellVolume() * force;
 }
 
-/// Whether the grid has a face below the cell across an axis, its upper side included.
+/// Whether the grid has a face below the cell across an axis, including its upper side.
 template <int D>
 bool isFace(const Level& level, const Index<D>& cell, int axis) {
   for (int d = 0; d < D; ++d) {
@@ -161,7 +161,7 @@ bool isFace(const Level& level, const Index<D>& cell, int axis) {
   }
   return true;
 }
-/// Whether a patch counts a face as its own: the lower ones of its cells, and those on an upper side of the grid.
+/// Whether a patch owns a face: the lower faces of its cells, and those on an upper side of the grid.
 template <int D>
 bool ownsFace(const Patch& patch, const Index<D>& cell, int axis) {
   const Level& level = patch.level();
@@ -169,8 +169,8 @@ bool ownsFace(const Patch& patch, const Index<D>& cell, int axis) {
   return patch.cells().contains(isOnSide ? cell - Index<D>::unit(axis) : cell);
 }
 
-/// Shares the force of the gas at each face between the nodes and the materials there, by their masses, N. Bodies that
-/// the gas cannot move get none.
+/// Distributes the force of the gas at each face over the nodes and materials there, in proportion to their masses, N.
+/// Bodies that the gas cannot move get none.
 template <int D>
 void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                   const GasInCells<D>& cells, const KnownWalls<D>& walls,

@@ -12,7 +12,7 @@ struct Box3 {
   Vec3 max = Vec3::Zero();
 
   bool isEmpty() const { return !((max - min).array() > 0).all(); }
-  /// The smallest box that holds both.
+  /// The smallest box that contains both.
   Box3 hull(const Box3& other) const { return {min.cwiseMin(other.min), max.cwiseMax(other.max)}; }
   /// The intersection of both; may be empty.
   Box3 common(const Box3& other) const { return {min.cwiseMax(other.min), max.cwiseMin(other.max)}; }
@@ -22,11 +22,11 @@ struct Box3 {
 class GeometryPiece {
  public:
   virtual ~GeometryPiece() = default;
-  /// Whether a body has a particle there, by Uintah's rule: faces belong to the body (except for `Parallelepiped` and
-  /// `Torus`).
+  /// Whether a body has a particle there according to Uintah's rule: faces belong to the body (except for
+  /// `Parallelepiped` and `Torus`).
   virtual bool contains(const Vec3& point) const = 0;
-  /// Like contains(), but without the upper flat faces: a point on a face between two pieces belongs to exactly one of
-  /// them.
+  /// Like contains(), but excluding the upper flat faces: a point on a face between two pieces belongs to exactly one
+  /// of them.
   virtual bool owns(const Vec3& point) const { return contains(point); }
   /// A box that contains the piece.
   virtual Box3 bounds() const = 0;

@@ -28,8 +28,8 @@ Polygon::Polygon(std::vector<Vec3> corners) : corners_(std::move(corners)) {
   bounds_.max.array() += polygonHalf;
 }
 
-/// With the point + s d on the side from a to b: s = (b - a) x (point - a) / ((b - a).n), and (point - a).n / ((b -
-/// a).n) of the side, where n is perpendicular to the ray d.
+/// For the point + s d, where it meets the side from a to b: s = (b - a) x (point - a) / ((b - a).n), and (point - a).n
+/// / ((b - a).n) of the side, where n is perpendicular to the ray d.
 bool Polygon::contains(const Vec3& point) const {
   if ((point.array() < bounds_.min.array()).any() || (point.array() > bounds_.max.array()).any()) return false;
   const Vec3 ray = Vec3(1 / std::numbers::pi, std::numbers::pi, 0).normalized(), across(-ray[1], ray[0], 0);
@@ -61,7 +61,7 @@ std::vector<Vec3> readPolygon(const std::string& path, const Element& tag, Diagn
       return refuse(fmt::format("line {}: found '{}', expected two numbers", number, line));
     corners.push_back(corner);
   }
-  return corners.size() < 3 ? refuse("a polygon has at least three corners") : corners;
+  return corners.size() < 3 ? refuse("a polygon needs at least three corners") : corners;
 }
 
 std::pair<Vec3, Vec3> Polyhedron::plane(const HalfSpace& space) const {
@@ -114,14 +114,14 @@ void checkHalfSpace(const HalfSpace& space, const Element& element, Diagnostics&
     return diagnostics.error(element, absolute ? "type absolute needs <planePoint> and <normal>, and no <offset>"
                                                : "type relative needs <offset>, and no <planePoint> or <normal>");
   if ((absolute ? *space.normal : *space.offset).isZero(0))
-    diagnostics.error(element, absolute ? "normal: has no direction" : "offset: has no direction");
+    diagnostics.error(element, absolute ? "normal: must not be 0" : "offset: must not be 0");
 }
 
 void checkPolyhedron(const Polyhedron& shape, const Element& element, Diagnostics& diagnostics) {
   if (!shape.contains(shape.center))
-    diagnostics.error(element, "its <center> is not on the inner side of all of its planes");
+    diagnostics.error(element, "its <center> is not on the inner side of all its planes");
   else if (shape.bounds().isEmpty())
-    diagnostics.error(element, "its planes do not enclose a volume");
+    diagnostics.error(element, "its planes do not enclose a finite volume");
 }
 
 }  // namespace
@@ -139,7 +139,7 @@ const Schema<Polyhedron>& Polyhedron::schema() {
                                            .list("half_space", &Planes::list, space, "a plane", 4);
   static const Schema<Polyhedron> schema =
       Schema<Polyhedron>("polyhedron", "A convex body bounded by planes.")
-          .foreignAttribute("label", "a name by which an empty tag further down refers to this shape")
+          .foreignAttribute("label", "a name with which an empty tag further down can refer to this shape")
           .foreignAttribute("name", "a synonym of label")
           .required("center", &Polyhedron::center, "m", "a point inside the body")
           .requiredSection("bounds", &Polyhedron::planes, planes)

@@ -16,7 +16,7 @@ namespace {
 template <class T>
 Schema<T> shapeSchema(const std::string& name, const std::string& sentence) {
   Schema<T> schema(name, sentence);
-  schema.foreignAttribute("label", "a name by which an empty tag further down refers to this shape");
+  schema.foreignAttribute("label", "a name with which an empty tag further down can refer to this shape");
   schema.foreignAttribute("name", "a synonym of label");
   return schema;
 }
@@ -72,7 +72,7 @@ void checkParallelepiped(const Parallelepiped& shape, const Element& element, Di
 }  // namespace
 
 const Schema<Box>& Box::schema() {
-  static const Schema<Box> schema = shapeSchema<Box>("box", "A box along the axes.")
+  static const Schema<Box> schema = shapeSchema<Box>("box", "A box whose edges are parallel to the axes.")
                                         .required("min", &Box::min, "m", "lower corner")
                                         .required("max", &Box::max, "m", "upper corner")
                                         .check(checkBox);
@@ -118,18 +118,19 @@ const Schema<Cylinder>& Cylinder::schema() {
           .required("top", &Cylinder::top, "m", "centre of the other end")
           .required("radius", &Cylinder::radius, "m", "radius", positive())
           .value("cylinder_end", &Cylinder::cylinderEnd, false, "",
-                 "a pressure acts on the end of the cylinder, not on its side")
+                 "whether a pressure acts on the end of the cylinder instead of its side")
           .value("axisymmetric_end", &Cylinder::axisymmetricEnd, false, "",
-                 "in an axisymmetric scene, a pressure acts on the end of the cylinder")
+                 "whether, in an axisymmetric scene, a pressure acts on the end of the cylinder")
           .value("axisymmetric_side", &Cylinder::axisymmetricSide, false, "",
-                 "in an axisymmetric scene, a pressure acts on the side of the cylinder")
+                 "whether, in an axisymmetric scene, a pressure acts on the side of the cylinder")
           .check(checkAxis<Cylinder>);
   return schema;
 }
 
 const Schema<Parallelepiped>& Parallelepiped::schema() {
   static const Schema<Parallelepiped> schema =
-      shapeSchema<Parallelepiped>("parallelepiped", "A sheared box, given by one corner and the three next to it.")
+      shapeSchema<Parallelepiped>("parallelepiped",
+                                  "A sheared box, given by one corner and the three adjacent corners.")
           .required("p1", &Parallelepiped::p1, "m", "one corner")
           .required("p2", &Parallelepiped::p2, "m", "the corner at the end of the first edge")
           .required("p3", &Parallelepiped::p3, "m", "the corner at the end of the second edge")

@@ -93,11 +93,11 @@ namespace {
 void checkSmoothCylinder(const SmoothCylinder& shape, const Element& element, Diagnostics& diagnostics) {
   if (shape.bottom == shape.top) diagnostics.error(element, "bottom and top are the same, so it has no height");
   if (shape.innerRadius >= shape.outerRadius)
-    diagnostics.error(element, "inner_radius is not below outer_radius, so it has no width");
+    diagnostics.error(element, "inner_radius is not below outer_radius, so it has no thickness");
   if (shape.endAngle <= shape.startAngle)
     diagnostics.error(element, "arc_angle, where the arc ends, is not above arc_start_angle");
   if (shape.scheme == SmoothCylinder::Scheme::pieSlices && !shape.angular)
-    diagnostics.error(element, "missing tag <num_angular>: pie_slices needs it");
+    diagnostics.error(element, "missing tag <num_angular>, which pie_slices needs");
 }
 
 }  // namespace
@@ -107,12 +107,13 @@ const Schema<SmoothCylinder>& SmoothCylinder::schema() {
   static const Schema<Self> schema = [] {
     Schema<Self> tags("smoothcyl",
                       "A hollow cylinder that, if it is the only shape of a body, places particles in rings.");
-    tags.foreignAttribute("label", "a name by which an empty tag further down refers to this shape")
+    tags.foreignAttribute("label", "a name with which an empty tag further down can refer to this shape")
         .foreignAttribute("name", "a synonym of label")
         .choice("discretization_scheme", &Self::scheme,
                 {{"pie_slices", Scheme::pieSlices}, {"constant_particle_volumes", Scheme::constantVolumes}},
                 Scheme::pieSlices,
-                "particles in a ring: num_angular, or so many that each is about as long as the ring is wide")
+                "number of particles in a ring: num_angular, or such that each particle is about as long as the ring "
+                "is wide")
         .required("bottom", &Self::bottom, "m", "centre of one end")
         .required("top", &Self::top, "m", "centre of the other end")
         .value("inner_radius", &Self::innerRadius, 0, "m", "radius of the hole", nonNegative())

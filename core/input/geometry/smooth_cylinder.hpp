@@ -9,7 +9,7 @@
 
 namespace tushar::input {
 
-/// A hollow cylinder whose particles follow its surface: rings of them around the axis, in layers along it. Uintah's
+/// A hollow cylinder whose particles follow its surface, in rings around the axis and layers along it. Uintah's
 /// `smoothcyl`.
 struct SmoothCylinder : GeometryPiece {
   enum class Scheme { pieSlices, constantVolumes };

@@ -25,7 +25,7 @@ Cut cutAt(double z, Vec3 a, Vec3 b) {
   return {a[1] + share * (b[1] - a[1]), a[0] + share * (b[0] - a[0])};
 }
 
-/// Where the line along x through the point passes through the triangle; nothing if it does not.
+/// The position at which the line along x through the point intersects the triangle; none if it does not.
 std::optional<double> crossingOf(const Vec3& point, const std::array<Vec3, 3>& corners) {
   std::array<Cut, 2> cuts{};
   std::size_t found = 0;
@@ -38,7 +38,7 @@ std::optional<double> crossingOf(const Vec3& point, const std::array<Vec3, 3>& c
   return cuts[0].x + share * (cuts[1].x - cuts[0].x);
 }
 
-/// The same place with the coordinates in turn, so that the one along `axis` comes first.
+/// The same point with cyclically permuted coordinates, so that the one along `axis` comes first.
 Vec3 turned(const Vec3& point, int axis) { return {point[axis], point[(axis + 1) % 3], point[(axis + 2) % 3]}; }
 
 using Corner = std::array<double, 3>;
@@ -126,7 +126,8 @@ std::string whyOpen(const Triangles& triangles) {
   if (first == uses.end()) return {};
   const auto& [a, b] = first->first;
   return fmt::format(
-      "{} of its {} edges belong to an odd number of triangles, so the surface is not closed; one such edge goes from "
+      "{} of its {} edges belong to an odd number of triangles, so the surface is not closed; one of these edges goes "
+      "from "
       "({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m",
       std::count_if(uses.begin(), uses.end(), isOpen), uses.size(), a[0], a[1], a[2], b[0], b[1], b[2]);
 }

@@ -15,7 +15,7 @@ namespace tushar::input {
 /// Corners of triangles (m).
 using Triangles = std::vector<std::array<Vec3, 3>>;
 
-/// The points within a surface of triangles.
+/// The points inside a surface of triangles.
 ///
 /// A line along x through the point crosses a closed surface an odd number of times on one side. Edges that triangles
 /// share are cut in the same way for both, so that no line slips through between them. Where triangles meet in corners
@@ -27,18 +27,18 @@ class Surface : public GeometryPiece {
   explicit Surface(Triangles triangles, bool isClosed = true);
   bool contains(const Vec3& point) const override;
   Box3 bounds() const override { return bounds_; }
-  /// The part of a lattice of points in the bounds for which lines along x, y and z, in both directions, disagree.
+  /// The fraction of a lattice of points in the bounds for which lines along x, y and z, in both directions, disagree.
   double disagreement() const;
 
  private:
-  /// Triangles by the lines along an axis that may cross them. Their coordinates are turned so that this axis is the
-  /// first.
+  /// Triangles, sorted by the lines along an axis that may cross them. Their coordinates are turned so that this axis
+  /// is the first.
   struct Lines {
     Triangles triangles;
     std::vector<std::vector<int>> crossing;  ///< triangles in each bin
   };
   Lines linesAlong(int axis) const;
-  /// How often the line along an axis through a point crosses the surface.
+  /// Number of times that the line along an axis through a point crosses the surface.
   struct Crossings {
     std::size_t ahead = 0, behind = 0;
   };
@@ -55,8 +55,8 @@ class Surface : public GeometryPiece {
 /// empty.
 std::string whyOpen(const Triangles& triangles);
 
-/// The triangles of a file: STL, as text or binary, where its name ends in `.stl`; else those of NAME.tri, three
-/// numbers of points a line, counted from 0, and the points of NAME.pts, three coordinates a line. If a line is
+/// The triangles of a file: STL, as text or binary, if its name ends in `.stl`; otherwise those of NAME.tri, three
+/// indices of points per line, counted from 0, and the points of NAME.pts, three coordinates per line. If a line is
 /// malformed, or a file is missing or ends early, reports an error with its name at `tag` and returns no triangles.
 Triangles readTriangles(const std::string& path, const Element& tag, Diagnostics& diagnostics);
 

@@ -151,8 +151,8 @@ Read readFile(const std::string& path) {
 
 Triangles readTriangles(const std::string& path, const Element& tag, Diagnostics& diagnostics) {
   Read read = readFile(path);
-  if (read.problem.empty() && read.triangles.empty()) read.problem = "there are no triangles in it";
-  if (read.problem.empty() && !isSound(read.triangles)) read.problem = "a corner has a coordinate that is not finite";
+  if (read.problem.empty() && read.triangles.empty()) read.problem = "it contains no triangles";
+  if (read.problem.empty() && !isSound(read.triangles)) read.problem = "the coordinates of a corner are not finite";
   if (read.problem.empty()) return read.triangles;
   diagnostics.error(tag, fmt::format("'{}': {}", path, read.problem));
   return {};
@@ -169,8 +169,8 @@ std::shared_ptr<const Surface> readSurface(const std::string& path, const Elemen
     diagnostics.error(tag, fmt::format("'{}': {}", path, why));
     return nullptr;
   }
-  diagnostics.note(tag, fmt::format("'{}': {}; a point is inside if two of three lines through it, along x, y and z, "
-                                    "say so",
+  diagnostics.note(tag, fmt::format("'{}': {}; for each point, lines along x, y and z are tested, and the majority "
+                                    "determines whether it is inside",
                                     path, why));
   return surface;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Finds the yield stress with which a Taylor bar ends as long as it was measured.
+"""Finds the yield stress with which the final length of a Taylor bar equals the measured one.
 
     python3 calibrate_yield_stress.py                       the bar of ups/solid/taylor_bar.ups, 21.43 mm at the end
     python3 calibrate_yield_stress.py --length 23e-3        one that was measured longer
@@ -18,7 +18,7 @@ YIELD_STRESS = "MaterialProperties/MPM/material/constitutive_model/flow_model/si
 
 
 def final_length(yield_stress, cells):
-    """Length of the bar at the end of the scene [m]: its topmost particles, and half of their spacing."""
+    """Length of the bar at the end of the scene [m]: to its topmost particles, plus half of their spacing."""
     run = tushar.run(SCENE, {YIELD_STRESS: yield_stress, "Grid/Level/Box/resolution": [*cells, 1],
                              "DataArchiver/outputInterval": 1})
     last = run.archive[-1]

@@ -18,7 +18,7 @@ def invariants(stress):
 
 
 def stress_path(archive, particle=0):
-    """Times [s], pressures and von Mises' stresses [Pa] of a particle, by its place in the first output."""
+    """Times [s], pressures and von Mises stresses [Pa] of a particle, given by its index in the first output."""
     path = [invariants(np.reshape(output["p.stress"][particle], (3, 3))) for output in archive[:]]
     return np.array(archive.times), *np.transpose(path)
 

@@ -1,4 +1,4 @@
-"""Tushar from Python: opens archives, runs scenes, sweeps over their values.
+"""Tushar from Python: opens archives, runs scenes, and sweeps over parameters.
 
     import tushar
     archive = tushar.open("sod.uda")

@@ -59,8 +59,8 @@ def _xml(path: str) -> ElementTree.Element:
 
 
 def unlisted(folder: str, known: Set[str]) -> List[Tuple[int, float, str]]:
-    """Step, time [s] and file of the outputs that index.xml lacks: it may be out of date while a run goes on, or after
-    a kill."""
+    """Step, time [s] and file of the outputs that index.xml lacks: it may be out of date during a run, or after a run
+    was killed."""
     found = []
     for name in os.listdir(folder):
         if name in known or not re.fullmatch(r"t\d{5,}\.h5", name):
@@ -121,22 +121,22 @@ class Archive(Sequence[Snapshot]):
         self.reload()
 
     def reload(self) -> None:
-        """Reads the index again, for an archive that a run still writes."""
+        """Rereads the index, for an archive to which a run is still writing."""
         path = os.path.join(self.folder, "index.xml")
         index = _xml(path)
         if index.tag == "Uintah_DataArchive":
-            raise ArchiveError(f"'{self.folder}' is an archive of Uintah, which this reader does not know")
+            raise ArchiveError(f"'{self.folder}' is an archive of Uintah, which this reader does not support")
         try:
             self._read(index)
         except ValueError as error:
             raise ArchiveError(f"cannot read '{path}', which is damaged: {error}") from None
 
     def _read(self, index: ElementTree.Element) -> None:
-        """Contents of the index; ValueError for words where numbers belong."""
+        """Contents of the index; ValueError if a number is not valid."""
         self.version = index.get("version", "")
         if int(index.get("format", FORMAT)) > FORMAT:
-            raise ArchiveError(f"'{self.folder}' has format {index.get('format')}, and this reader knows formats up to "
-                               f"{FORMAT}; sus {self.version} wrote it")
+            raise ArchiveError(f"'{self.folder}' has format {index.get('format')}, but this reader supports only "
+                               f"formats up to {FORMAT}; it was written by sus {self.version}")
         self.variables = {item.get("name", ""): self._variable(item) for item in index.iterfind("variables/variable")}
         totals = {item.get("name", ""): item for item in index.iterfind("globals/global")}
         files = {name: os.path.join(self.folder, item.get("href", "")) for name, item in totals.items()}
@@ -149,13 +149,13 @@ class Archive(Sequence[Snapshot]):
         self.files = [os.path.join(self.folder, name) for _, _, name in outputs]
 
     def _not_an_archive(self) -> str:
-        """What the path is instead of an archive, and the archive that may be meant."""
+        """A description of a path that is not an archive, and the archive that may be meant."""
         numbered = sorted(glob.glob(glob.escape(self.folder) + ".[0-9]*"))
         above, name = os.path.split(self.folder)
         if os.path.isdir(self.folder):
-            what, near = "has no index.xml, so it is no archive", numbered or self._links(self.folder)
+            what, near = "has no index.xml, so it is not an archive", numbered or self._links(self.folder)
         elif os.path.exists(self.folder):
-            what, near = "is a file, and an archive is a folder", []
+            what, near = "is a file, but an archive is a folder", []
             if os.path.isfile(os.path.join(above, "index.xml")):
                 what = f"is a file of an archive, which is the folder '{above or '.'}'"
         else:
@@ -204,21 +204,21 @@ class Archive(Sequence[Snapshot]):
         return found
 
     def index_at(self, time: float) -> int:
-        """The number of the output nearest to a time [s]."""
+        """The index of the output nearest to a time [s]."""
         if not self.times:
             raise ArchiveError(f"'{self.folder}' has no outputs yet")
         return int(np.argmin(np.abs(np.array(self.times) - time)))
 
     def variable(self, name: str, centrings: Sequence[str] = ()) -> Variable:
-        """The saved variable of that name, among those of some centrings; by default of the one that its first letter
-        means."""
+        """The saved variable of this name with one of the given centrings; by default the centring that its first
+        letter denotes."""
         wanted = centrings or BY_LETTER.get(name[:2], ("particle", "cell", "node"))
         names = [other for other, variable in self.variables.items() if variable.centring in wanted]
         kind = "variable" if len(wanted) == 3 else " or ".join(wanted) + " variable"
         return self.variables[check_name(kind, name, names)]
 
     def has_file(self, index: int) -> bool:
-        """Whether the file of an output is there."""
+        """Whether the file of an output exists."""
         return os.path.exists(self.files[index])
 
     @property
@@ -243,7 +243,7 @@ class Archive(Sequence[Snapshot]):
 
     @property
     def materials(self) -> List[str]:
-        """Names of the materials that any variable belongs to."""
+        """Names of the materials that have any variable."""
         return list(dict.fromkeys(name for variable in self.variables.values() for name in variable.materials))
 
     @property
@@ -255,7 +255,8 @@ class Archive(Sequence[Snapshot]):
 
     @property
     def report(self) -> Dict[str, Any]:
-        """The report of the run: what `sus --json` wrote to a report.json in the archive's folder or beside it."""
+        """The report of the run: the contents of the report.json that `sus --json` wrote to the archive's folder or
+        next to it."""
         if self._report is None:
             self._report = self._find_report()
         return self._report
@@ -270,14 +271,14 @@ class Archive(Sequence[Snapshot]):
                 continue
             if isinstance(found, dict) and os.path.basename(found.get("archive", "")) == os.path.basename(own):
                 return found
-        raise ArchiveError(f"there is no report of '{self.folder}': sus --json report.json writes one beside it")
+        raise ArchiveError(f"there is no report of '{self.folder}': sus --json report.json writes one next to it")
 
     def particles(self, ids: Optional[Sequence[int]] = None, material: Optional[str] = None) -> Tracks:
-        """Particles over time, by their ids; all of the last output's if none are named."""
+        """Particles over time, by their ids; by default all particles of the last output."""
         return Tracks(self, ids, material)
 
     def to_xarray(self, variables: Optional[Sequence[str]] = None) -> Any:
-        """A Dataset of the fields on cells and nodes over time, read where values are asked for."""
+        """A Dataset of the fields on cells and nodes over time, whose values are read when they are used."""
         from tushar import frames
         return frames.dataset(self, list(self), variables)
 
@@ -287,7 +288,7 @@ class Archive(Sequence[Snapshot]):
 
 
 class OutputError(ArchiveError, IndexError):
-    """The error for a number that no output has."""
+    """The error for an index without an output."""
 
 
 def open_archive(path: Any) -> Archive:

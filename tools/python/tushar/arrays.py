@@ -1,4 +1,4 @@
-"""Arrays of an archive that are read when their values are asked for, and only as far as they are."""
+"""Arrays of an archive that are read when their values are used, and only the part that is used."""
 from __future__ import annotations
 
 from typing import Any, Sequence, Tuple
@@ -9,7 +9,8 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 
 
 class Array(NDArrayOperatorsMixin):
-    """Values of a variable, on the disk until they are used: `array[::10]` reads every tenth row, `array.values` all.
+    """Values of a variable, which remain on the disk until they are used: `array[::10]` reads every tenth row,
+    `array.values` all.
 
     It takes part in arithmetic and in numpy's functions, which return plain numpy arrays. Particles of several
     materials follow one another, in the order of the scene. `unit` is that of the archive, `kg/m^3`; `1` for none.
@@ -44,7 +45,7 @@ class Array(NDArrayOperatorsMixin):
         return f"<Array {self.name}{unit}, shape {self.shape}, {self.dtype}, not read yet>"
 
     def __getitem__(self, key: Any) -> Any:
-        """As numpy's indexing of all values; slices and numbers read only what they select."""
+        """Like numpy's indexing of all values, but slices and numbers read only the selected values."""
         if not is_basic(key):
             return self.values[key]
         if any(runs_backwards(item) for item in (key if isinstance(key, tuple) else (key,))):
@@ -71,7 +72,7 @@ class Array(NDArrayOperatorsMixin):
         return np.concatenate(found) if found else self._parts[0][(slice(0, 0), *rest)]
 
     def _row(self, row: int) -> Tuple[h5py.Dataset, int]:
-        """The part that has a row, and which of its rows it is."""
+        """The part that contains a row, and the index of the row in it."""
         if not -len(self) <= row < len(self):
             raise IndexError(f"row {row} of {len(self)}")
         row %= len(self)
@@ -95,7 +96,7 @@ class Array(NDArrayOperatorsMixin):
 
 
 def is_basic(key: Any) -> bool:
-    """Whether a key is made of numbers, slices and `...` alone."""
+    """Whether a key contains only numbers, slices and `...`."""
     items = key if isinstance(key, tuple) else (key,)
     return all(item is Ellipsis or isinstance(item, (int, np.integer, slice)) and not isinstance(item, bool)
                for item in items)

@@ -37,7 +37,7 @@ class CommandError(SusError):
 
 
 class InputError(SusError):
-    """Exit code 3: mistakes in the scene or in what overrides it, all of them, a sentence each."""
+    """Exit code 3: all mistakes in the scene or its overrides, one sentence for each."""
 
 
 class NumericalError(SusError):
@@ -52,7 +52,8 @@ BY_EXIT_CODE = {2: CommandError, 3: InputError, 4: NumericalError, 5: Interrupte
 
 
 def check_name(kind: str, name: str, names: Iterable[str]) -> str:
-    """Returns `name` if it is among `names`; else raises ArchiveError with the nearest and all others."""
+    """Returns `name` if it is among `names`; otherwise raises ArchiveError with the most similar name and all
+    others."""
     names = list(names)
     if name in names:
         return name
@@ -64,10 +65,10 @@ def check_name(kind: str, name: str, names: Iterable[str]) -> str:
 
 
 def need(module: str, what: str) -> ModuleType:
-    """An optional library; MissingLibrary with what to install where it is not there."""
+    """An optional library; if it is not installed, MissingLibrary with the package to install."""
     try:
         return importlib.import_module(module)
     except ImportError:
         name = module.split(".")[0]
         advice = f"python3 -m pip install {name}"
-        raise MissingLibrary(f"{what} needs {name}, which this Python has not got: {advice}") from None
+        raise MissingLibrary(f"{what} needs {name}, which this Python does not have: {advice}") from None

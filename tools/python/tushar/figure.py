@@ -31,7 +31,7 @@ LETTER = 0.108  # width of one in a title [inch]
 
 
 def choose(output: Output) -> Tuple[List[str], List[str]]:
-    """The labels to draw when none are named, and notes on what is missing."""
+    """The labels to draw by default, and notes on missing ones."""
     archive, dimension = output.snapshot.archive, len(output.axes)
     counts, wanted = output.snapshot.materials, output.view.material
     held = [name for name, count in counts.items() if count and wanted in (None, name)]
@@ -41,7 +41,7 @@ def choose(output: Output) -> Tuple[List[str], List[str]]:
     gas = [label for label, _, _ in GAS if label in names]
     if gas:
         missing = [(label, name) for label, _, name in GAS if label not in gas] if dimension == 1 else []
-        notes = [f'no {name}: the scene does not save it; add <save label="{label}"/> to DataArchiver'
+        notes = [f'there is no {name}: the scene does not save it; add <save label="{label}"/> to DataArchiver'
                  for label, name in missing]
         return gas if dimension == 1 else gas[:1], notes
     fields = [v.name for v in archive.variables.values() if v.centring in ("cell", "node")
@@ -51,12 +51,12 @@ def choose(output: Output) -> Tuple[List[str], List[str]]:
     if held and not fields and not others:
         return ["p.x"], []  # where the particles of each material are
     if not fields and not others:
-        raise ArchiveError(f"'{archive.folder}' holds nothing to draw at this output")
+        raise ArchiveError(f"'{archive.folder}' contains nothing to draw at this output")
     return (fields or others)[:4 if dimension == 1 else 1], []
 
 
 def broken(title: str, letters: int) -> str:
-    """A title in lines of at most so many letters, broken before the time or the place if possible."""
+    """A title in lines of limited length, broken before the time or the position if possible."""
     lines: List[str] = []
     for part in title.split(",  "):
         if lines and len(lines[-1]) + len(part) + 3 <= letters:
@@ -87,7 +87,7 @@ class Figure:
                 self._draw(title or self._title())
 
     def _check_slices(self) -> None:
-        """ArchiveError where a slice meets nothing; in a film, which has common ranges, it may for a while."""
+        """ArchiveError if a slice contains nothing; in a film with common ranges, this is allowed for some outputs."""
         slices = self.output.view.slices
         if not slices or self.output.view.ranges:
             return
@@ -96,13 +96,13 @@ class Figure:
             raise ArchiveError(f"no particles lie within half a cell of {places}")
 
     def save(self, path: Any) -> None:
-        """Writes PNG, SVG or PDF by the ending of the path."""
+        """Writes PNG, SVG or PDF, according to the extension of the path."""
         with plt.rc_context(STYLE):
             self.figure.savefig(path)
         plt.close(self.figure)
 
     def pixels(self) -> Any:
-        """The picture as an array (height, width, 3) of bytes, both even, as films want them."""
+        """The picture as an array (height, width, 3) of bytes; height and width are even, as films require."""
         with plt.rc_context(STYLE):
             self.figure.canvas.draw()
             drawn = np.asarray(self.figure.canvas.buffer_rgba())[..., :3].copy()
@@ -188,7 +188,7 @@ class Figure:
                 self._seen(part, quantity, seen)
 
     def _lengths(self) -> List[float]:
-        """Lengths of the axes on paper, the longest 1; none is too short for its marks."""
+        """Relative lengths of the drawn axes, the longest 1; none is too short for its ticks."""
         long = [high - low for low, high in map(self.output.extent, range(3))]
         return [max(0.15, length / max(long)) for length in long]
 
@@ -208,7 +208,8 @@ class Figure:
         self._bar(part, matplotlib.cm.ScalarMappable(**colouring(self.output, quantity, values)), quantity, panel)
 
     def _slices(self, part: Any, quantity: Quantity) -> None:
-        """Three planes: one of z, below it one of y with the same x, beside it one of x with the same y."""
+        """Three planes: one normal to z, below it one normal to y with the same x axis, and beside it one normal to x
+        with the same y axis."""
         middle = self.output.planes(quantity)
         x, y, z = self._lengths()
         grid = part.add_gridspec(2, 2, width_ratios=[x, z], height_ratios=[y, z])
@@ -223,12 +224,12 @@ class Figure:
             panel.set_title(f"{'xyz'[cut]} = {middle[cut]:.4g} m", fontsize=10, loc="left")
             panels.append(panel)
         self._bar(part, drawn, quantity, panels)
-        self.notes.append(f"{quantity.label}: three planes; --slice chooses another, and with pyvista there "
-                          "is a view in three dimensions")
+        self.notes.append(f"{quantity.label}: three planes; --slice selects another plane, and with pyvista "
+                          "installed there is a three-dimensional view")
 
 
 def _beyond(drawn: Any) -> str:
-    """At which ends of the colour bar there are values without a colour of their own."""
+    """The ends of the colour bar beyond which there are values."""
     values = drawn.get_array()
     if values is None or not np.size(values):
         return "neither"
@@ -238,7 +239,7 @@ def _beyond(drawn: Any) -> str:
 
 
 def _plane(panel: Any, output: Output, quantity: Quantity, axes: List[int], cut: Any) -> Any:
-    """A slice with other axes than the usual: z across for x."""
+    """A slice with swapped axes: z is horizontal instead of x."""
     if quantity.variable.centring == "particle":
         long = [high - low for low, high in map(output.extent, range(3))]
         return cloud(panel, output, quantity, axes, 72 * SIDE * long[axes[0]] / max(long), cut)

@@ -26,7 +26,7 @@ FASTEST, SLOWEST = 25.0, 2.0  # pictures per second
 
 
 def common_ranges(archive: Archive, variables: Sequence[str], view: View) -> Tuple[List[str], Dict[str, Range]]:
-    """The labels that are drawn of every output, and for each the range of its values over all."""
+    """The labels that are drawn for every output, and the range of their values over all outputs."""
     if not archive.times:
         raise ArchiveError(f"'{archive.folder}' has no outputs yet")
     with archive[-1] as last:
@@ -43,13 +43,13 @@ def common_ranges(archive: Archive, variables: Sequence[str], view: View) -> Tup
                 values = values[values > 0] if view.log else values
                 found.setdefault(quantity.label, []).extend([values.min(), values.max()] if len(values) else [])
     if not any(found.values()) and not view.log:
-        raise ArchiveError(f"'{archive.folder}' holds no values of {', '.join(labels)}" +
+        raise ArchiveError(f"'{archive.folder}' contains no values of {', '.join(labels)}" +
                            (" in the slice" if view.slices else ""))
     return labels, {label: _round(min(values), max(values), view) for label, values in found.items() if values}
 
 
 def _planes(archive: Archive, label: str, view: View) -> Optional[Tuple[float, float, float]]:
-    """The places of three slices for all pictures: those of the output in the middle. None where there are fewer
+    """The positions of three slices for all pictures: those of the middle output. None where there are fewer
     dimensions."""
     with archive[len(archive) // 2] as snapshot:
         output = Output(snapshot, view)
@@ -63,7 +63,7 @@ def _round(low: float, high: float, view: View) -> Range:
 
 
 def figures(archive: Archive, variables: Sequence[str], title: Optional[str], view: View) -> Iterator[Figure]:
-    """A figure of each output that holds what is drawn, all with the same ranges."""
+    """A figure of each output that contains the drawn variables, all with the same ranges."""
     labels, ranges = common_ranges(archive, variables, view)
     shown = view.with_ranges(ranges).with_planes(_planes(archive, labels[0], view))
     drawn = 0
@@ -80,10 +80,10 @@ def figures(archive: Archive, variables: Sequence[str], title: Optional[str], vi
 
 
 def check_path(path: str) -> str:
-    """The ending of a film's name; ArchiveError for another, and where there is no such folder."""
+    """The extension of a film's name; ArchiveError for other extensions, or if the folder does not exist."""
     ending = pathlib.Path(path).suffix.lower()
     if ending not in (".gif", ".mp4"):
-        raise ArchiveError(f"'{path}' is no film: its name must end in .mp4 or .gif")
+        raise ArchiveError(f"'{path}' is not a film: its name must end in .mp4 or .gif")
     if not pathlib.Path(path).parent.is_dir():
         raise ArchiveError(f"'{path}': there is no folder '{pathlib.Path(path).parent}'")
     return ending
@@ -91,14 +91,14 @@ def check_path(path: str) -> str:
 
 def write(archive: Archive, path: str, variables: Sequence[str] = (), title: Optional[str] = None,
           view: Optional[View] = None, progress: Optional[Progress] = None) -> Tuple[str, List[str]]:
-    """Writes a film, .gif or .mp4 (.gif where there is no ffmpeg): its path, and notes. Calls `progress` after each
-    picture."""
+    """Writes a film, .gif or .mp4 (.gif if ffmpeg is not installed); returns its path, and notes. Calls `progress`
+    after each picture."""
     ending = check_path(path)
     notes: List[str] = []
     program = ffmpeg() if ending == ".mp4" else None
     if ending == ".mp4" and not program:
         path = str(pathlib.Path(path).with_suffix(".gif"))
-        notes.append("there is no ffmpeg, which writes .mp4: the film is a .gif")
+        notes.append("ffmpeg, which writes .mp4, is not installed: the film is a .gif")
     rate = float(np.clip(len(archive) / SECONDS, SLOWEST, FASTEST))
     pictures = _pictures(archive, figures(archive, variables, title, view or View()), notes, progress)
     if program:
@@ -119,7 +119,7 @@ def _pictures(archive: Archive, drawn: Iterator[Figure], notes: List[str],
 
 
 def ffmpeg() -> Optional[str]:
-    """The program, or the one that the package imageio-ffmpeg brings; None without either."""
+    """The program, or the one in the package imageio-ffmpeg; None if neither is installed."""
     found = shutil.which("ffmpeg")
     if found:
         return found
@@ -149,7 +149,7 @@ def _write_mp4(program: str, pictures: Iterator[Any], rate: float, path: str) ->
 
 
 def _write_gif(pictures: Iterator[Any], rate: float, path: str) -> None:
-    """All frames have the colours of the first, where the colour bar is, too."""
+    """All frames have the colours of the first, which includes the colour bar."""
     from PIL import Image
     first = Image.fromarray(next(pictures)).quantize(256, dither=Image.Dither.NONE)
     colours = np.array(first.getpalette()).reshape(-1, 3)
@@ -160,7 +160,7 @@ def _write_gif(pictures: Iterator[Any], rate: float, path: str) -> None:
 
 
 def is_written(folder: str) -> bool:
-    """Whether a run still writes to an archive: it keeps the folder locked while it lives."""
+    """Whether a run is still writing to an archive: it locks the folder as long as it runs."""
     try:
         descriptor = os.open(folder, os.O_RDONLY)
     except OSError:
@@ -188,4 +188,4 @@ def follow(archive: Archive, draw: Callable[[], None], every: float = 0.5) -> No
         else:
             time.sleep(every)
     if not drawn:
-        raise ArchiveError(f"'{archive.folder}' has no outputs, and no run writes to it")
+        raise ArchiveError(f"'{archive.folder}' has no outputs, and no run is writing to it")

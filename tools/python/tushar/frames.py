@@ -49,7 +49,7 @@ def of_globals(quantities: Globals) -> Any:
 
 
 def of_particles(particles: Particles) -> Any:
-    """A row for each particle; those of a material without a variable have no number there."""
+    """A row for each particle; a variable that a material lacks is NaN."""
     pandas = need("pandas", "to_pandas")
     archive = particles.snapshot.archive
     frames, units = [], {}
@@ -76,7 +76,7 @@ def of_snapshot(snapshot: Snapshot, of: Optional[str], material: Optional[str]) 
     if of is not None:
         check_name("kind of value", of, kinds)
     elif not kinds:
-        raise ArchiveError(f"output {snapshot.index} of '{snapshot.archive.folder}' holds nothing")
+        raise ArchiveError(f"output {snapshot.index} of '{snapshot.archive.folder}' contains nothing")
     kind = of or kinds[0]
     if kind == "particles":
         return of_particles(snapshot.particles(material))
@@ -84,7 +84,7 @@ def of_snapshot(snapshot: Snapshot, of: Optional[str], material: Optional[str]) 
 
 
 def _of_field(snapshot: Snapshot, centring: str, material: Optional[str]) -> Any:
-    """A row for each cell or node; of a refined grid for each cell as it is, with its level."""
+    """A row for each cell or node; for a refined grid, a row for each actual cell, with its level."""
     columns = places_of(snapshot.grid, centring)
     count = len(next(iter(columns.values())))
     units = {name: "" if name == "level" else "m" for name in columns}
@@ -97,7 +97,7 @@ def _of_field(snapshot: Snapshot, centring: str, material: Optional[str]) -> Any
 
 
 def places_of(grid: Grid, centring: str) -> Dict[str, Values]:
-    """The middles of cells, or the nodes, along the axes in use [m], and the levels of the cells of a refined grid."""
+    """The centres of cells, or the nodes, along the axes in use [m], and the levels of the cells of a refined grid."""
     if grid.is_refined and centring == "cell":
         centres, levels = cells_of(grid)
         return {**{"xyz"[axis]: centres[:, axis] for axis in grid.axes}, "level": levels}
@@ -111,7 +111,7 @@ def rows_of(field: Any) -> Values:
 
 
 def fields_of(snapshot: Snapshot) -> List[Tuple[str, Variable, Optional[str]]]:
-    """Name, variable and material of each field that an output holds; `g.mass.gas` where several materials have it."""
+    """Name, variable and material of each field of an output; `g.mass.gas` if several materials have it."""
     found: List[Tuple[str, Variable, Optional[str]]] = []
     for variable in snapshot.archive.variables.values():
         if variable.centring not in DIMS:
@@ -185,7 +185,7 @@ def dataset(archive: Archive, snapshots: Sequence[Snapshot], names: Optional[Seq
         coordinates.update(_places(grid, variable.centring))
         coordinates.update(_names_of_components(variable))
     if not found:
-        raise ArchiveError(f"'{archive.folder}' holds no fields on cells or nodes")
+        raise ArchiveError(f"'{archive.folder}' contains no fields on cells or nodes")
     return xarray.Dataset(found, coordinates, {"title": archive.title})
 
 
@@ -221,8 +221,8 @@ def _field(snapshot: Snapshot, variable: Variable, owner: Optional[str]) -> Any:
 
 
 def _values(snapshot: Snapshot, variable: Variable, owner: Optional[str], key: Any, like: Any) -> Values:
-    """Values of an output there; NaN where it lacks the field, as the initial output lacks variables that steps
-    compute."""
+    """The selected values of an output; NaN if it lacks the field, as the initial output lacks variables that are
+    computed in steps."""
     with Snapshot(snapshot.archive, snapshot.index, snapshot.path, snapshot.time, snapshot.step) as own:
         held = {name for name, *_ in fields_of(own)}
         if not held & {variable.name, f"{variable.name}.{owner}"}:
@@ -231,5 +231,5 @@ def _values(snapshot: Snapshot, variable: Variable, owner: Optional[str], key: A
         if field.shape == like.shape:
             return np.asarray(field[key])
         if not isinstance(field, Refined):
-            raise ArchiveError(f"output {own.index} has other cells than the last: each by itself has its to_xarray()")
+            raise ArchiveError(f"output {own.index} has other cells than the last: use to_xarray() of each output")
         return np.asarray(field.level(like.grid.levels - 1 if isinstance(like, Refined) else 0)[key])

@@ -41,12 +41,12 @@ class Grid:
         return len(self.boxes) > 0
 
     def factor(self, level: int) -> Values:
-        """How many of the finest cells lie along x, y and z in a cell of a level."""
+        """Number of finest cells along x, y and z in a cell of a level."""
         used = [axis in self.axes for axis in range(3)]
         return np.where(used, 2 ** (self.levels - 1 - level), 1)
 
     def level(self, number: int) -> Grid:
-        """The grid as if all cells were of a level; beyond the finest, its cells are halved on."""
+        """The uniform grid of cells of a level; for levels beyond the finest, cells are halved further."""
         if number < 0:
             raise ArchiveError(f"no level {number}: the coarsest is 0, the finest {self.levels - 1}")
         shift = np.where(np.isin(range(3), self.axes), number + 1 - self.levels, 0)
@@ -71,14 +71,15 @@ class Grid:
         return lines
 
     def nearest(self, centring: str, axis: int, place: float) -> int:
-        """The row of cells or nodes nearest to a place along an axis [m]; ArchiveError for one outside of the grid."""
+        """The row of cells or nodes nearest to a coordinate along an axis [m]; ArchiveError if it is outside the
+        grid."""
         if not self.lower[axis] <= place <= self.upper[axis]:
-            raise ArchiveError(f"{'xyz'[axis]} = {place:g} m is outside of the grid, which reaches from "
+            raise ArchiveError(f"{'xyz'[axis]} = {place:g} m is outside the grid, which extends from "
                                f"{self.lower[axis]:g} to {self.upper[axis]:g} m")
         return int(np.argmin(np.abs(self.coordinates(centring)[axis] - place)))
 
     def __eq__(self, other: object) -> bool:
-        """Whether cells and nodes lie at the same places."""
+        """Whether cells and nodes have the same positions."""
         if not isinstance(other, Grid):
             return NotImplemented
         same = [np.array_equal(self.cells, other.cells), np.allclose(self.lower, other.lower, rtol=1e-12),

@@ -12,8 +12,8 @@ _TRIED = "TUSHAR_PYTHON_TRIED"
 
 
 def ensure(*modules: str) -> None:
-    """Returns if this Python can import the modules; else starts the program again with one that can, or ends it with
-    a sentence on what to install. Call it before those imports."""
+    """Returns if this Python can import the modules; otherwise restarts the program with one that can, or ends it with
+    a message on what to install. Call it before those imports."""
     missing = [module for module in modules if not _can_import(module)]
     already_tried = os.environ.pop(_TRIED, None)
     if not missing:
@@ -55,5 +55,5 @@ def _has(python: str, modules: Sequence[str]) -> bool:
 def _advice(missing: Sequence[str], modules: Sequence[str]) -> str:
     packages = " ".join("python3-" + module for module in modules)
     noun = "library" if len(missing) == 1 else "libraries"
-    return (f"This tool needs the Python {noun} {' and '.join(missing)}, which no Python found here has: install "
+    return (f"This tool needs the Python {noun} {' and '.join(missing)}, which no Python on this machine has: install "
             f"{packages} (Debian, Ubuntu) or run 'python3 -m pip install {' '.join(modules)}'.")

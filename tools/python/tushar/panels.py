@@ -48,7 +48,7 @@ def name_of(output: Output, quantity: Quantity, on_line: bool = False) -> str:
 
 
 def profile(panel: Any, output: Output, quantity: Quantity) -> None:
-    """Values along the one axis that is left, with the exact solution where the archive has it."""
+    """Values along the only remaining axis, with the exact solution if the archive has it."""
     axis = output.axes[0]
     if quantity.variable.centring == "particle":
         _points_on_line(panel, output, quantity, axis)
@@ -69,7 +69,7 @@ def profile(panel: Any, output: Output, quantity: Quantity) -> None:
 
 
 def _refined_line(panel: Any, output: Output, axis: int, values: Values, colour: str, owner: Optional[str]) -> None:
-    """The cells of a refined grid where they are, with a mark for each level."""
+    """The cells of a refined grid at their positions, with a marker for each level."""
     x, levels, cells = output.cells_along(axis)
     panel.plot(x, values[cells], "-", color=colour, linewidth=1.2, label=owner or "cells")
     for level in np.unique(levels):
@@ -83,7 +83,7 @@ def _refined_line(panel: Any, output: Output, axis: int, values: Values, colour:
 
 
 def outlines(panel: Any, output: Output, axes: List[int], slices: Optional[Dict[int, float]] = None) -> None:
-    """The boxes of a refined grid in a plane, where the view wants them."""
+    """The boxes of a refined grid in a plane, if requested."""
     if not output.view.boxes:
         return
     across, up = axes
@@ -109,7 +109,7 @@ def _exact(panel: Any, output: Output, label: str) -> None:
 
 
 def _limit(panel: Any, limits: Range, log: bool) -> None:
-    """The range of the values on an axis, with a margin where it is that of a film."""
+    """The range of the values on an axis, with a margin in a film."""
     if log:
         panel.set_yscale("log")
     low, high = limits
@@ -125,7 +125,7 @@ def _limit(panel: Any, limits: Range, log: bool) -> None:
 
 
 def plain_marks(axis: Any) -> None:
-    """Marks 1, 2, 3 on a logarithmic axis instead of powers, where it spans less than two decades."""
+    """Ticks 1, 2, 3 on a logarithmic axis, instead of powers, if it spans less than two decades."""
     low, high = axis.get_view_interval()
     if high < 100 * low:
         axis.set_major_formatter(matplotlib.ticker.LogFormatter())
@@ -134,10 +134,10 @@ def plain_marks(axis: Any) -> None:
 
 def image(panel: Any, output: Output, quantity: Quantity, axes: List[int],
           slices: Optional[Dict[int, float]] = None) -> Any:
-    """A field in a plane; what the colour bar belongs to."""
+    """Draws a field in a plane; returns the object for the colour bar."""
     owners = output.owners(quantity)
     if len(owners) > 1:
-        output.notes.append(f"{quantity.label}: only that of {owners[0]}; --material names another")
+        output.notes.append(f"{quantity.label}: only that of {owners[0]}; --material selects another one")
     values = output.field(quantity, owners[0], slices=slices)
     across, up = axes
     pad = output.grid.spacing / 2 if quantity.variable.centring == "node" else np.zeros(3)
@@ -150,7 +150,7 @@ def image(panel: Any, output: Output, quantity: Quantity, axes: List[int],
 
 def cloud(panel: Any, output: Output, quantity: Quantity, axes: List[int], width: float,
           slices: Optional[Dict[int, float]] = None) -> Any:
-    """Particles in a plane, on a panel so wide [pt]; what the colour bar belongs to."""
+    """Draws particles in a plane, on a panel of this width [pt]; returns the object for the colour bar."""
     materials = output.materials_with(quantity.variable)
     found = [output.particles(quantity, name, slices=slices) for name in materials]
     x, values = (np.concatenate(part) for part in zip(*found))
@@ -166,7 +166,7 @@ def cloud(panel: Any, output: Output, quantity: Quantity, axes: List[int], width
 
 
 def _places(panel: Any, output: Output, places: Dict[str, Values], axes: List[int], width: float) -> None:
-    """The particles of each material in a colour of its own, without values."""
+    """Draws the particles of each material in one colour, without values."""
     area = _point_area(output, np.concatenate(list(places.values())), axes, width)
     for colour, (material, x) in zip(COLOURS * len(places), places.items()):
         panel.scatter(x[:, axes[0]], x[:, axes[1]], s=area, color=colour, linewidths=0, label=material, rasterized=True)
@@ -186,14 +186,14 @@ def _frame(panel: Any, output: Output, across: int, up: int) -> None:
 
 
 def set_ticks(panel: Any, output: Output, across: int, up: int) -> None:
-    """As many marks as there is room for: a short axis gets few."""
+    """As many ticks as fit: a short axis gets few."""
     long = [high - low for low, high in map(output.extent, (across, up))]
     for axis, length, least in (("x", long[0], 1), ("y", long[1], 2)):
         panel.locator_params(axis=axis, nbins=int(np.clip(round(6 * length / max(long)), least, 5)))
 
 
 def colouring(output: Output, quantity: Quantity, values: Values) -> Dict[str, Any]:
-    """Colour map and scale for values: those of the view; of a difference the same to both sides of 0."""
+    """Colour map and scale for values: those of the view; for a difference, symmetric about 0."""
     low, high = bounds(output, quantity, values)
     cmap = output.view.cmap or ("RdBu_r" if output.other and quantity.is_scalar else "viridis")
     scale = matplotlib.colors.LogNorm if output.view.log else matplotlib.colors.Normalize
@@ -201,13 +201,13 @@ def colouring(output: Output, quantity: Quantity, values: Values) -> Dict[str, A
 
 
 def bounds(output: Output, quantity: Quantity, values: Values) -> Tuple[float, float]:
-    """The least and the greatest value that have a colour of their own."""
+    """The smallest and the largest value in the range of the colour map."""
     low, high = output.view.limits(quantity.label)
     known = values[np.isfinite(values)]
     if output.view.log:
         known = known[known > 0]
         if not len(known) and (low is None or high is None):
-            raise ArchiveError(f"'{quantity.label}' has no values above 0, so there is no logarithmic scale of them")
+            raise ArchiveError(f"'{quantity.label}' has no values above 0, so a logarithmic scale is impossible")
     least, most = (float(known.min()), float(known.max())) if len(known) else (0.0, 1.0)
     if output.other and quantity.is_scalar and low is None and high is None:
         least, most = -max(abs(least), abs(most)), max(abs(least), abs(most))
@@ -219,7 +219,7 @@ def bounds(output: Output, quantity: Quantity, values: Values) -> Tuple[float, f
 
 
 def _point_area(output: Output, x: Values, axes: List[int], width: float) -> float:
-    """Area [pt^2] of points that just touch where the particles lie as dense as in the mean occupied cell."""
+    """Area [pt^2] of points that just touch if the particles are as dense as in the average occupied cell."""
     grid = output.grid
     cells = np.unique(np.floor((x - grid.lower) / grid.spacing)[:, axes], axis=0)
     area = np.prod(grid.spacing[axes]) * len(cells) / max(len(x), 1)
@@ -228,12 +228,12 @@ def _point_area(output: Output, x: Values, axes: List[int], width: float) -> flo
 
 
 def marker_size(count: int) -> float:
-    """Points small enough that `count` of them can be told apart."""
+    """Point size at which `count` points can be distinguished."""
     return float(np.clip(80 / np.sqrt(max(count, 1)), 0.8, 5))
 
 
 def widen(panel: Any) -> None:
-    """Keeps a constant from being drawn as its rounding errors."""
+    """Prevents a constant from being drawn as its rounding errors."""
     low, high = panel.get_ylim()
     middle, least = (low + high) / 2, 1e-6 * max(abs(low), abs(high), 1e-12)
     if high - low < least:

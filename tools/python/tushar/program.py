@@ -1,4 +1,4 @@
-"""Where the simulator and its scenes are."""
+"""The locations of the simulator and its scenes."""
 from __future__ import annotations
 
 import os
@@ -41,7 +41,7 @@ def find_sus(sus: Optional[Path] = None) -> str:
     if named:
         found = shutil.which(os.fspath(named))
         if not found:
-            raise SusError(f"'{os.fspath(named)}'{'' if sus else ', which $SUS names,'} is no program")
+            raise SusError(f"'{os.fspath(named)}'{'' if sus else ', which $SUS names,'} is not a program")
         return os.path.abspath(found)
     built = [ROOT / "build" / preset / "sus" for preset in PRESETS]
     for path in [*built, *sorted((ROOT / "build").glob("*/sus"))]:
@@ -49,13 +49,13 @@ def find_sus(sus: Optional[Path] = None) -> str:
             return str(path)
     installed = shutil.which("sus")
     if not installed:
-        raise SusError(f"there is no sus: not in $SUS, not in {ROOT / 'build'}, not on the PATH; tools/run builds it "
-                       "in the repository, and $SUS may name it: SUS=REPOSITORY/build/release/sus")
+        raise SusError(f"sus was not found in $SUS, in {ROOT / 'build'} or on the PATH; tools/run builds it in the "
+                       f"repository, and $SUS can name it: SUS=REPOSITORY/build/release/sus")
     return installed
 
 
 def command_of(sus: Path, scene: Path, sets: Sequence[str], folder: Path, options: Sequence[str] = ()) -> List[str]:
-    """A run that prints nothing; its files and report.json go into `folder`."""
+    """A run that prints nothing; its files and report.json are written to `folder`."""
     words = [str(sus), str(scene_path(scene)), "--quiet", "--json", str(pathlib.Path(folder, "report.json")),
              "--output", str(folder), *options]
     for override in sets:
@@ -64,20 +64,20 @@ def command_of(sus: Path, scene: Path, sets: Sequence[str], folder: Path, option
 
 
 def run_scene(sus: Path, scene: Path, sets: Sequence[str], folder: Path) -> Dict[str, Any]:
-    """Runs a scene with overrides, its files in `folder`: the report. `failure` is a sentence for one that died, else
-    empty. SceneError for a scene that does not run."""
+    """Runs a scene with overrides, with its files in `folder`; returns the report. `failure` is a sentence for one that
+    died, else empty. SceneError for a scene that does not run."""
     from tushar.runs import read_report
     done = subprocess.run(command_of(sus, scene, sets, folder), capture_output=True, text=True)
     if done.returncode not in (0, 4):
         raise SceneError(f"{scene}: {done.stderr.strip() or 'sus failed'}", done.returncode)
     report = read_report(folder)
     if done.returncode == 0 and report is None:
-        raise SceneError(f"{sus} wrote no report: is it sus?")
+        raise SceneError(f"{sus} wrote no report; it may not be sus")
     return {"failure": done.stderr.strip()} if report is None else report
 
 
 def ensure_built(sus: str) -> None:
-    """Installs what is missing and builds the release preset, if that is the program and it is not there."""
+    """Installs missing packages and builds the release preset, if this is the program and it does not exist."""
     if sus == SUS and not os.path.exists(sus):
         subprocess.run(["bash", "-euc", '. tools/lib/build.sh; install_missing "${packages[@]}"; build release sus'],
                        cwd=ROOT, check=True)

@@ -33,7 +33,7 @@ class Box:
         return self._read(self._row)
 
     def centres(self) -> Values:
-        """The middles of its cells, x fastest (n, 3) [m]."""
+        """The centres of its cells, x fastest (n, 3) [m]."""
         lines = [self.lower[axis] + (np.arange(self.cells[axis]) + 0.5) * self.spacing[axis] for axis in range(3)]
         z, y, x = np.meshgrid(*lines[::-1], indexing="ij")
         return np.column_stack([x.ravel(), y.ravel(), z.ravel()])
@@ -55,7 +55,7 @@ class Refined(Array):
 
     @property
     def cell_values(self) -> Values:
-        """Values of all cells as they are, box by box: (n,) or (n, components), read now."""
+        """Values of all actual cells, box by box: (n,) or (n, components), read now."""
         return np.asarray(self._parts[0][()])
 
     @property
@@ -65,11 +65,11 @@ class Refined(Array):
 
     @property
     def levels(self) -> List[Grid]:
-        """The grid of each level, as if all cells were of it; the coarsest first."""
+        """The uniform grid of each level, the coarsest first."""
         return [self.grid.level(number) for number in range(self.grid.levels)]
 
     def level(self, number: int) -> Values:
-        """Values as if all cells were of a level: means of finer cells, coarser ones repeated."""
+        """Values on a uniform grid of cells of a level: means of finer cells, and repeated values of coarser ones."""
         target = self.grid.level(number)
         found = np.zeros((*target.cells[::-1], *self.shape[3:]))
         for box in self.boxes:
@@ -98,8 +98,8 @@ class Refined(Array):
 
 def sampled(grid: Grid, key: Sequence[Any], read: Callable[[int], Values], kind: Any,
             tail: Tuple[int, ...] = ()) -> Values:
-    """Values at the cells of the finest level that a key (z, y, x) of numbers and slices selects; a number leaves an
-    axis of one. `read` gives those of the box of a row."""
+    """Values at the finest cells that a key (z, y, x) of numbers and slices selects; a number selects an axis of length
+    one. `read` gives those of the box of a row."""
     rows = [_selected(item, int(count)) for item, count in zip(key, grid.cells[::-1])]
     found = np.empty((*map(len, rows), *tail), kind)
     for number, box in enumerate(grid.boxes):
@@ -113,7 +113,7 @@ def sampled(grid: Grid, key: Sequence[Any], read: Callable[[int], Values], kind:
 
 
 def levels_at(grid: Grid, key: Sequence[Any]) -> Values:
-    """The level of the cell that covers each cell of the finest level, of those that a key selects."""
+    """The level of the actual cell at each finest cell that a key selects."""
     def read(row: int) -> Values:
         return np.full((grid.boxes[row, 4:] - grid.boxes[row, 1:4])[::-1], grid.boxes[row, 0])
 
@@ -121,14 +121,14 @@ def levels_at(grid: Grid, key: Sequence[Any]) -> Values:
 
 
 def cells_of(grid: Grid) -> Tuple[Values, Values]:
-    """Middles (n, 3) [m] and levels (n,) of all cells of a refined grid, box by box."""
+    """Centres (n, 3) [m] and levels (n,) of all cells of a refined grid, box by box."""
     boxes = [Box(grid, row, lambda row: np.zeros(0)) for row in range(len(grid.boxes))]
     levels = [np.full(int(np.prod(box.cells)), box.level) for box in boxes]
     return np.concatenate([box.centres() for box in boxes]), np.concatenate(levels)
 
 
 def _selected(item: Any, count: int) -> Values:
-    """The numbers that a number or a slice selects of so many."""
+    """The indices that a number or a slice selects from a given length."""
     if isinstance(item, slice):
         return np.arange(count)[item]
     if not -count <= item < count:
@@ -147,8 +147,8 @@ def _all_axes(items: Tuple[Any, ...], axes: int) -> Tuple[Any, ...]:
 
 
 def _onto(values: Values, axis: int, low: int, high: int, ratio: float) -> Tuple[Values, int, int]:
-    """Values along an axis and the cells [low, high) they fill, in cells that are smaller by a ratio, or greater: then
-    their part of the mean of each."""
+    """Values along an axis, and the cells [low, high) that they fill, in cells that are smaller or larger by a ratio;
+    in larger cells, their contribution to the mean."""
     if ratio >= 1:
         times = round(ratio)
         return np.repeat(values, times, axis), low * times, high * times

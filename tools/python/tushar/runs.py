@@ -18,7 +18,7 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OM
 
 
 class Temporary:
-    """A folder that goes away when nothing refers to this object any more."""
+    """A folder that is deleted when nothing refers to this object any more."""
 
     def __init__(self) -> None:
         self.path = tempfile.mkdtemp(prefix="tushar-")
@@ -96,7 +96,7 @@ def _finish(command: List[str], ranks: int, timeout: Optional[float], scene: Pat
 
 
 def _end(process: subprocess.Popen[str]) -> None:
-    """Ends a run, which may write its output first, for ten seconds."""
+    """Ends a run, which has ten seconds to write its output first."""
     process.terminate()
     try:
         process.communicate(timeout=10)
@@ -106,26 +106,26 @@ def _end(process: subprocess.Popen[str]) -> None:
 
 
 def launcher(ranks: int) -> List[str]:
-    """The words that start a program on several ranks; none for one."""
+    """The command that starts a program on several ranks; empty for one."""
     return [] if ranks == 1 else ["mpirun", "-n", str(ranks)]
 
 
 def error_of(code: int, errors: str, done: Run) -> SusError:
-    """The error that belongs to an exit code, with the messages of sus."""
+    """The error for an exit code, with the messages of sus."""
     said = errors.strip() or str(done.report.get("failure", ""))
     if code < 0:
-        said = said or f"sus was ended by signal {-code}"
+        said = said or f"sus was killed by signal {-code}"
     said = said.replace("sus: ", "", 1) or f"sus failed with exit code {code}"
     return BY_EXIT_CODE.get(code, SusError)(said, code, done)
 
 
 def sets_of(overrides: Mapping[str, Any]) -> List[str]:
-    """PATH=VALUE for each override, as `sus --set` takes it."""
+    """PATH=VALUE for each override, for `sus --set`."""
     return [f"{path}={text_of(value)}" for path, value in overrides.items()]
 
 
 def text_of(value: Any) -> str:
-    """A value as scenes write it: 0.1, true, [200,1,1]."""
+    """A value in the notation of scenes: 0.1, true, [200,1,1]."""
     if isinstance(value, str):
         return value
     if hasattr(value, "tolist"):  # numpy's numbers and arrays
@@ -138,7 +138,7 @@ def text_of(value: Any) -> str:
 
 
 def read_report(folder: Path) -> Optional[Dict[str, Any]]:
-    """The report that a run left in its folder; None where it left none."""
+    """The report that a run has left in its folder; None if it has left none."""
     path = pathlib.Path(folder, "report.json")
     if not path.exists():
         return None

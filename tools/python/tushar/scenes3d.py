@@ -76,12 +76,13 @@ def to_yt(snapshot: Snapshot) -> Any:
     if fields:
         return yt.load_uniform_grid({**fields, **particles}, tuple(map(int, grid.cells)), **common)
     if not particles:
-        raise ArchiveError(f"output {snapshot.index} of '{snapshot.archive.folder}' holds neither cells nor particles")
+        raise ArchiveError(f"output {snapshot.index} of '{snapshot.archive.folder}' contains neither cells nor "
+                           "particles")
     return yt.load_particles({name: values for (_, name), values in particles.items()}, **common)
 
 
 def _of_cells(snapshot: Snapshot) -> Dict[Any, Tuple[Values, str]]:
-    """Component -> values (x, y, z) and unit, as yt has them."""
+    """Component -> values (x, y, z) and unit, as yt expects them."""
     found: Dict[Any, Tuple[Values, str]] = {}
     for name, variable, owner in fields_of(snapshot):
         if variable.centring == "cell":
@@ -93,7 +94,7 @@ def _of_cells(snapshot: Snapshot) -> Dict[Any, Tuple[Values, str]]:
 
 
 def _of_particles(snapshot: Snapshot) -> Dict[Any, Tuple[Values, str]]:
-    """yt's names of positions, and those of the archive; only what all materials have."""
+    """yt's names of positions, and those of the archive; only variables that all materials have."""
     found: Dict[Any, Tuple[Values, str]] = {}
     everything = snapshot.particles()
     if not len(everything):

@@ -1,4 +1,4 @@
-"""A scene in place of an archive: it is run, with its report on the screen, and a tool draws the archive."""
+"""A scene given instead of an archive: it is run, with its report on the screen, and a tool draws the archive."""
 from __future__ import annotations
 
 import os
@@ -18,13 +18,14 @@ BY_TIME, BY_STEPS = "DataArchiver/outputInterval", "DataArchiver/outputTimestepI
 
 
 def is_scene(path: str) -> bool:
-    """Whether a word of the command line names a scene, and not an archive."""
+    """Whether an argument of the command line names a scene instead of an archive."""
     return path.endswith(".ups")
 
 
 def film_interval(scene: str, sets: Sequence[str]) -> Optional[float]:
-    """The time between outputs [s] that gives a film enough of them; None where the scene has enough, counts steps, or
-    is overridden in that by `sets` (PATH=VALUE), and where its times cannot be read here."""
+    """The time between outputs [s] that gives enough of them for a film; None if the scene has enough outputs or
+    counts steps, if `sets` (PATH=VALUE) overrides the time, or if the times of the scene cannot be
+    read."""
     overrides = dict(item.partition("=")[::2] for item in sets)
     try:
         root: Any = ElementTree.parse(scene).getroot()
@@ -39,8 +40,8 @@ def film_interval(scene: str, sets: Sequence[str]) -> Optional[float]:
 
 
 def run_shown(scene: str, sets: Sequence[str]) -> str:
-    """Runs a scene by tools/run, or by the program that $SUS names: the folder of its archive. The output of sus goes
-    to standard error. SusError, with the exit code of sus, for a run that failed; sus has printed why."""
+    """Runs a scene with tools/run, or with the program in $SUS; returns the folder of its archive. The output of sus
+    goes to standard error. SusError, with the exit code of sus, for a run that failed; sus has printed why."""
     program = [find_sus()] if os.environ.get("SUS") else ["bash", str(ROOT / "tools/run")]
     overrides = [word for item in sets for word in ("--set", item)]
     with tempfile.TemporaryDirectory() as folder:
@@ -49,7 +50,7 @@ def run_shown(scene: str, sets: Sequence[str]) -> str:
         report: Dict[str, Any] = read_report(folder) or {}
     archive = str(report.get("archive", ""))
     if code:
-        kept = f"; what it saved is in {archive}" if archive else ""
+        kept = f"; its outputs are in {archive}" if archive else ""
         code = 128 - code if code < 0 else code
         raise SusError(f"the run of {scene} ended with exit code {code}, so nothing is drawn{kept}", code)
     if not archive:
@@ -67,6 +68,6 @@ def _wait(process: subprocess.Popen[bytes]) -> int:
 
 
 def overrides_for(scene: str, sets: Sequence[str], film: bool) -> List[str]:
-    """`sets`, and for a film what makes the scene save often enough."""
+    """`sets` and, for a film, overrides that make the scene save often enough."""
     interval = film_interval(scene, sets) if film else None
     return [*sets, *([f"{BY_TIME}={interval:g}"] if interval else [])]

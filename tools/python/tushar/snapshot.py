@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from tushar.archive import Archive, Variable
 
 ID = "p.particleID"
-NO_IDS = f'the scene does not save the names of particles; add <save label="{ID}"/> to its DataArchiver'
+NO_IDS = f'the scene does not save the ids of particles; add <save label="{ID}"/> to its DataArchiver'
 
 
 class Snapshot:
@@ -58,12 +58,12 @@ class Snapshot:
             except OSError as error:
                 if not os.path.exists(self.path):
                     raise ArchiveError(f"the file of output {self.index}, '{self.path}', is missing") from None
-                raise ArchiveError(f"cannot read '{self.path}', which is damaged or not whole: {error}") from None
+                raise ArchiveError(f"cannot read '{self.path}', which is damaged or incomplete: {error}") from None
         return self._opened
 
     @property
     def grid(self) -> Grid:
-        """The grid; of a refined one that of its finest level, with the boxes that there are."""
+        """The grid; for a refined grid, that of its finest level, with the actual boxes."""
         if self._grid is None:
             group = self.file["grid"]
             kept = group.attrs
@@ -82,12 +82,12 @@ class Snapshot:
 
     @property
     def reference(self) -> Dict[str, Values]:
-        """Column -> values of the exact solution; empty where the archive has none."""
+        """Column -> values of the exact solution; empty if the archive has none."""
         return {name: column[()] for name, column in self.file.get("reference", {}).items()}
 
     @property
     def variables(self) -> List[str]:
-        """Names of the variables that this output holds."""
+        """Names of the variables in this output."""
         return [name for name in self.archive.variables if self._holds(name)]
 
     def _holds(self, name: str) -> bool:
@@ -106,7 +106,7 @@ class Snapshot:
         return self._field(variable, material)
 
     def particles(self, material: Optional[str] = None) -> Particles:
-        """The particles of a material, or of all that there are."""
+        """The particles of a material, or of all materials."""
         known = self.materials
         return Particles(self, [check_name("material", material, known)] if material else list(known), material)
 
@@ -119,10 +119,11 @@ class Snapshot:
             return self._on_grid(group[name], variable)
         names = [material] if material else [other for other in variable.materials if name in group.get(other, {})]
         if len(names) > 1:
-            raise ArchiveError(f"'{name}' belongs to several materials; name one: {', '.join(names)}")
+            raise ArchiveError(f"'{name}' belongs to several materials; choose one: {', '.join(names)}")
         if not names or name not in group.get(names[0], {}):
-            why = "; a step computes it, and this is the start" if self.file.attrs["step"] == 0 else ""
-            raise ArchiveError(f"output {self.index} holds no '{name}'{why}")
+            initial = self.file.attrs["step"] == 0
+            why = "; it is computed in a step, and this output is the initial state" if initial else ""
+            raise ArchiveError(f"output {self.index} contains no '{name}'{why}")
         return self._on_grid(group[names[0]][name], variable)
 
     def _on_grid(self, data: h5py.Dataset, variable: Variable) -> Array:
@@ -135,8 +136,8 @@ class Snapshot:
         return Array(parts, variable.name, variable.unit, variable.description)
 
     def to_pandas(self, of: Optional[str] = None, material: Optional[str] = None) -> Any:
-        """A DataFrame with a row for each particle, cell or node: `of` is "particles", "cells" or "nodes"; without it
-        the first of them that is there. Units are in `frame.attrs["units"]`."""
+        """A DataFrame with a row for each particle, cell or node: `of` is "particles", "cells" or "nodes"; by default
+        the first of these that exists. Units are in `frame.attrs["units"]`."""
         from tushar import frames
         return frames.of_snapshot(self, of, material)
 
@@ -177,7 +178,7 @@ class Particles:
 
     @property
     def ids(self) -> Array:
-        """The names that particles keep for life. ArchiveError where the scene does not save them."""
+        """The permanent ids of particles. ArchiveError where the scene does not save them."""
         if ID not in self.variables:
             raise ArchiveError(NO_IDS)
         return self[ID]
@@ -188,10 +189,10 @@ class Particles:
         parts = [group[name] for group in groups if name in group]
         if not parts:
             of = f" of material '{self._asked}'" if self._asked else ""
-            raise ArchiveError(f"output {self.snapshot.index} holds no '{name}'{of}")
+            raise ArchiveError(f"output {self.snapshot.index} contains no '{name}'{of}")
         return Snapshot._array(parts, variable)
 
     def to_pandas(self) -> Any:
-        """A DataFrame with a row for each particle, by its id where that is saved."""
+        """A DataFrame with a row for each particle, by its id if this is saved."""
         from tushar import frames
         return frames.of_particles(self)

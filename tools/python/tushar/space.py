@@ -1,5 +1,4 @@
-"""Views of three dimensions, drawn by pyvista where it is installed: particles as balls, fields as surfaces of equal
-value."""
+"""Views of three dimensions, drawn by pyvista if it is installed: particles as balls, fields as isosurfaces."""
 from __future__ import annotations
 
 import os
@@ -18,7 +17,7 @@ VTK_WITHOUT_SCREEN = 9, 4  # from this version on VTK draws where there is no di
 
 
 def _pyvista() -> Any:
-    """pyvista, or None where it is not installed or could not draw here."""
+    """pyvista, or None if it is not installed or cannot draw."""
     try:
         pyvista = need("pyvista", "a view in three dimensions")
     except MissingLibrary:
@@ -31,7 +30,7 @@ def _pyvista() -> Any:
 
 
 class Mark(NamedTuple):
-    """A word beside the box: where, and on which side of that place."""
+    """A label next to the box: its position, and its alignment there."""
     place: Tuple[float, ...]
     text: str
     side: str
@@ -39,13 +38,13 @@ class Mark(NamedTuple):
 
 
 class Seen(NamedTuple):
-    """A picture (height, width, 3) in bytes, and the words to write on it, their places in pixels."""
+    """A picture (height, width, 3) in bytes, and the labels to write on it, with positions in pixels."""
     pixels: Values
     marks: List[Mark]
 
 
 def render(output: Output, quantity: Quantity) -> Optional[Seen]:
-    """A quantity in the whole grid; None where pyvista is not at hand."""
+    """A quantity in the whole grid; None if pyvista is not available."""
     pyvista = _pyvista()
     if pyvista is None:
         return None
@@ -71,7 +70,7 @@ def render(output: Output, quantity: Quantity) -> Optional[Seen]:
 
 
 def _marks(output: Output) -> List[Mark]:
-    """The ends and the name of each axis, beside the edges of the box that the camera sees at the border."""
+    """The ends and the name of each axis, next to the edges of the box at the border of the view."""
     (x0, x1), (y0, y1), (z0, z1) = (output.extent(axis) for axis in range(3))
     edges = (("x", (x0, x1), lambda x: (x, y1, z0), "left", "top"),
              ("y", (y0, y1), lambda y: (x1, y, z0), "right", "top"),
@@ -106,7 +105,7 @@ def _balls(pyvista: Any, plotter: Any, output: Output, quantity: Quantity) -> No
 
 
 def _surfaces(pyvista: Any, plotter: Any, output: Output, quantity: Quantity) -> None:
-    """Surfaces of equal value between the least and the greatest, through the values at the middles of cells."""
+    """Isosurfaces between the smallest and the largest value, from the values at cell centres."""
     owner = output.owners(quantity)[0]
     values = output.field(quantity, owner)
     lines = output.grid.coordinates(quantity.variable.centring)
@@ -123,7 +122,7 @@ def _surfaces(pyvista: Any, plotter: Any, output: Output, quantity: Quantity) ->
 
 
 def _colours(output: Output, quantity: Quantity, values: Values, of: Optional[Values] = None) -> Values:
-    """Bytes (n, 3) for values, as the colour bar has them for all values."""
+    """Colours (n, 3) in bytes for values, as in the colour bar for all values."""
     import matplotlib
     colours = colouring(output, quantity, values if of is None else of)
     shown = matplotlib.colormaps[colours["cmap"]](colours["norm"](values), bytes=True)

@@ -15,14 +15,14 @@ from tushar.runs import Run, run
 
 @dataclass
 class Point:
-    """One combination: its values by path, and the run, or the error that it ended with."""
+    """One combination: its values by path, and the run, or the error with which it ended."""
     values: Dict[str, Any]
     run: Optional[Run] = None
     error: Optional[SusError] = None
 
     @property
     def report(self) -> Dict[str, Any]:
-        """The report of the run, also of one that failed; {} where there is none."""
+        """The report of the run, even of a failed one; {} if there is none."""
         done = self.run or (self.error.run if self.error else None)
         return done.report if done else {}
 
@@ -35,7 +35,8 @@ class Point:
         return self.run.archive
 
     def row(self) -> Dict[str, Any]:
-        """Its values, and the numbers of its report: steps, time, seconds, errors.*, drift.*; failure, a sentence."""
+        """Its values, and the numbers of its report: steps, time, seconds, errors.*, drift.*; and failure, a
+        message."""
         report = self.report
         known = {"steps": report.get("steps"), "time": report.get("time"),
                  "seconds": report.get("wall", {}).get("loop")}
@@ -69,9 +70,9 @@ class Sweep(List[Point]):
 def sweep(scene: Path, values: Mapping[str, Sequence[Any]], *, jobs: Optional[int] = None, ranks: int = 1,
           threads: int = 1, output: Optional[Path] = None, sets: Optional[Mapping[str, Any]] = None,
           **options: Any) -> Sweep:
-    """Runs a scene with every combination of `values`, path -> values, `jobs` of them at a time (as many as there are
-    cores for if None). `sets` are overrides for all. Archives go to `output`/000, 001, …, else to folders that go away
-    with the sweep. A run that fails is a point with an error; the others go on. `options` are those of `run`."""
+    """Runs a scene with every combination of `values`, path -> values, `jobs` at a time (if None, as many as the cores
+    allow). `sets` are overrides for all. Archives go to `output`/000, 001, …, else to folders that go away with the
+    sweep. A run that fails is a point with an error; the others go on. `options` are those of `run`."""
     combinations = [dict(zip(values, chosen)) for chosen in itertools.product(*values.values())]
     common = dict(sets or {})
 

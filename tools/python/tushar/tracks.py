@@ -18,7 +18,7 @@ FEW = 64  # rows that are read one by one; of more, all between the first and th
 
 class Tracks:
     """Particles by their ids over all outputs: `tracks["p.x"]` has the shape (times, ids) or (times, ids, components),
-    not a number where a particle is not there. Whatever is asked for is read then, and not kept."""
+    NaN if a particle does not exist. Whatever is asked for is read then, and not kept."""
 
     def __init__(self, archive: Archive, ids: Optional[Sequence[int]], material: Optional[str]) -> None:
         self.archive, self.material = archive, material
@@ -56,11 +56,12 @@ class Tracks:
                 seen |= self._read(snapshot, name, row)
         if not seen.all():
             gone = [str(number) for number in self.ids[~seen]]
-            raise ArchiveError(f"no output has a particle of id {', '.join(gone[:5])}{', …' if len(gone) > 5 else ''}")
+            raise ArchiveError(f"no output has a particle with id "
+                               f"{', '.join(gone[:5])}{', …' if len(gone) > 5 else ''}")
         return values[..., 0] if components == 1 else values
 
     def _read(self, snapshot: Snapshot, name: str, row: Values) -> Values:
-        """Writes the values of an output into `row`; which of the ids were found."""
+        """Writes the values of an output into `row`; returns which ids were found."""
         found = np.zeros(len(self.ids), bool)
         for material in [self.material] if self.material else snapshot.materials:
             group = snapshot.file["particles"][check_name("material", material, snapshot.materials)]
@@ -88,7 +89,7 @@ class Tracks:
 
 
 def rows_of(data: h5py.Dataset, rows: Values) -> Values:
-    """Rows of a dataset, in any order, without reading those far off."""
+    """Rows of a dataset, in any order, without reading distant ones."""
     if len(rows) <= FEW:
         return np.stack([data[int(row)] for row in rows])
     first = int(rows.min())

@@ -1,4 +1,4 @@
-"""The part of an output that a picture shows: which values, where, and of which material."""
+"""The part of an output that a picture shows: variable, region and material."""
 from __future__ import annotations
 
 import dataclasses
@@ -19,7 +19,7 @@ Range = Tuple[Optional[float], Optional[float]]
 
 @dataclass(frozen=True)
 class View:
-    """The choices of a picture; None and {} leave them to it."""
+    """The options of a picture; None and {} select the defaults."""
     slices: Dict[int, float] = field(default_factory=dict)  # axis -> place [m]
     range: Optional[Range] = None
     log: bool = False
@@ -32,7 +32,7 @@ class View:
 
     def __post_init__(self) -> None:
         if self.log and self.other:
-            raise ArchiveError("a difference has values below 0, so --log and --diff do not go together")
+            raise ArchiveError("a difference has values below 0, so --log and --diff cannot be combined")
 
     def with_ranges(self, ranges: Dict[str, Range]) -> View:
         return dataclasses.replace(self, ranges=ranges)
@@ -41,7 +41,7 @@ class View:
         return dataclasses.replace(self, planes=planes)
 
     def limits(self, label: str) -> Range:
-        """The least and the greatest value to show of a label; None where the values decide."""
+        """The smallest and the largest value to show for a label; None if they follow from the values."""
         return self.range or self.ranges.get(label, (None, None))
 
 
@@ -61,8 +61,8 @@ class Quantity:
             check_name(f"component of {base}", tail, names)
             return Quantity(label, archive.variables[base], names.index(tail))
         if label in archive.globals:
-            raise ArchiveError(f"'{label}' is one number for all places, and a picture shows values in the grid; "
-                               f"tools/uda {archive.folder} {label} prints it over time")
+            raise ArchiveError(f"'{label}' is a global value, which cannot be drawn on the grid; tools/uda "
+                               f"{archive.folder} {label} prints it over time")
         return Quantity(label, archive.variables[check_name("variable", label, archive.variables)])
 
     @property
@@ -70,7 +70,8 @@ class Quantity:
         return self.variable.components == 1 or self.component is not None
 
     def scalar(self, values: Values, axis: Optional[int] = None) -> Values:
-        """The component that is meant; of a vector on a line along an axis that along it; else the magnitude."""
+        """The requested component; for a vector on a line along an axis, by default the component along it; otherwise
+        the magnitude."""
         if self.variable.components == 1:
             return values
         if self.component is not None:
@@ -91,7 +92,7 @@ class Output:
                 used = ", ".join("xyz"[other] for other in self.grid.axes)
                 raise ArchiveError(f"there is no slice at {'xyz'[axis]}: the grid has only {used}")
         if len(view.slices) >= self.grid.dimension:
-            raise ArchiveError("slices along all axes leave nothing to draw")
+            raise ArchiveError("with slices along all axes, nothing remains to draw")
         self.axes = [axis for axis in self.grid.axes if axis not in view.slices]
         if view.material:
             check_name("material", view.material, snapshot.archive.materials)
@@ -105,7 +106,7 @@ class Output:
             return None
         other = self.view.other.at(self.snapshot.time)
         if abs(other.time - self.snapshot.time) > 1e-9 * max(abs(self.snapshot.time), 1e-300):
-            self.notes.append(f"the difference is to t = {other.time:g} s, the nearest output of "
+            self.notes.append(f"the difference is relative to t = {other.time:g} s, the nearest output of "
                               f"'{self.view.other.folder}'")
         return other
 
@@ -116,7 +117,7 @@ class Output:
         if self.view.material:
             held = [name for name in held if name == self.view.material]
         if not held:
-            raise ArchiveError(f"output {self.snapshot.index} holds no '{variable.name}' of "
+            raise ArchiveError(f"output {self.snapshot.index} contains no '{variable.name}' of "
                                + (f"material '{self.view.material}'" if self.view.material else "any particles"))
         return held
 
@@ -150,14 +151,14 @@ class Output:
 
     def field(self, quantity: Quantity, owner: Optional[str], axis: Optional[int] = None,
               slices: Optional[Dict[int, float]] = None) -> Values:
-        """Values of a field along the axes that are left, that of the highest first: (y, x) of a plane."""
+        """Values of a field along the remaining axes, the last axis first: (y, x) for a plane."""
         name, centring = quantity.variable.name, quantity.variable.centring
         key = self.place(centring, slices)
         values = self.snapshot[name, owner][key]
         if self.other:
             if not self.other.grid == self.grid:
                 raise ArchiveError(f"the grids differ, {shape_of(self.grid)} here and {shape_of(self.other.grid)} in "
-                                   f"'{self.other.archive.folder}': there is no difference to draw")
+                                   f"'{self.other.archive.folder}', so there is no difference to draw")
             values = values - self.other[name, owner][key]
         return quantity.scalar(np.asarray(values), axis)
 
@@ -170,8 +171,8 @@ class Output:
         return tuple(rows[::-1])
 
     def cells_along(self, axis: int) -> Tuple[Values, Values, Values]:
-        """Of the cells of a refined grid along the one axis that is left: their middles [m], their levels, and which of
-        the finest cells lie there; of a difference all of the finest."""
+        """For the cells of a refined grid along the only remaining axis: their centres [m], their levels, and the
+        indices of finest cells; for a difference, all finest cells."""
         levels = levels_at(self.grid, self.place("cell")).ravel()
         number = np.arange(len(levels))
         width = np.where(bool(self.other), 1, 2 ** (self.grid.levels - 1 - levels))
@@ -180,7 +181,7 @@ class Output:
         return middles[first], levels[first], number[first]
 
     def boxes(self, slices: Optional[Dict[int, float]] = None) -> List[Tuple[Values, Values]]:
-        """The corners [m] of the boxes of a refined grid, of those that slices cut."""
+        """The corners [m] of those boxes of a refined grid that slices cut."""
         cuts = self.view.slices if slices is None else slices
         rows = {cut: self.grid.nearest("cell", cut, place) for cut, place in cuts.items()}
         found = []
@@ -195,8 +196,8 @@ class Output:
         return float(self.grid.lower[axis]), float(self.grid.upper[axis])
 
     def planes(self, quantity: Quantity) -> Tuple[float, float, float]:
-        """The places of three slices that show most [m]: the middle of the grid or, for particles, the rows of cells
-        with the most of them."""
+        """The positions of the three most informative slices [m]: the middle of the grid or, for particles, the rows of
+        cells with most particles."""
         if self.view.planes:
             return self.view.planes
         if quantity.variable.centring != "particle":
@@ -228,5 +229,6 @@ def _minus(own: Particles, other: Particles, name: str) -> Tuple[Values, Values]
         _, mine, theirs = np.intersect1d(own.ids.values, other.ids.values, return_indices=True)
         return x[mine], here[mine] - there[theirs]
     if len(here) != len(there):
-        raise ArchiveError(f"{len(here)} particles here and {len(there)} there: a difference needs {ID} in both")
+        raise ArchiveError(f"{len(here)} particles in one archive and {len(there)} in the other: a difference needs "
+                           f"{ID} in both")
     return x, here - there

@@ -1,88 +1,119 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
-#include "core/base/lanes.hpp"
-#include "core/core.hpp"
+#include "components/mpm/gas/conserving/rows.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
-/// One vector for each particle of a batch.
-template <int D>
-using LanesVec = Eigen::Matrix<Lanes, D, 1, Eigen::DontAlign>;
 /// The velocity modes of each particle of a batch, as in Modes.
 template <int D>
-using LanesModes = Eigen::Matrix<Lanes, D, (1 << D) - 1, Eigen::DontAlign>;
+using LanesModes = LanesMatrix<D, (1 << D) - 1>;
 
-/// Particles side by side, one per lane.
+/// Particles in lanes, at most one from each cell: lane k belongs to the k-th cell of a row that begins at `start`, so
+/// the values that the particles read from the grid or add to it are also consecutive. Lanes not in use repeat another
+/// particle.
 template <int D>
 struct Batch {
-  int count = 0;  ///< number of lanes in use; the others repeat the last particle
-  LaneIntegers place;
-  std::array<LaneIntegers, D> cell;
+  Index<D> start;                    ///< cell of the first lane
+  LaneIntegers place;                ///< of the particles
+  std::array<LaneIntegers, D> cell;  ///< of the particles
+  Lanes::Mask used;
+  bool isFull;        ///< whether all lanes are in use
+  bool isContiguous;  ///< whether the particles are consecutive in memory
 
-  void add(int particle, const Index<D>& in) {
-    place[count] = particle;
-    for (int d = 0; d < D; ++d) cell[d][count] = in[d];
-    ++count;
-  }
-  void fillUp() {
-    for (int lane = count; lane < Lanes::count; ++lane) {
-      place[lane] = place[lane - 1];
-      for (LaneIntegers& along : cell) along[lane] = along[lane - 1];
-    }
+  /// Takes the particles at `places`; lanes where `takes` is 0 have none.
+  Batch(const Index<D>& first, const LaneIntegers& places, const LaneIntegers& takes)
+      : start(first), place(places), used(__builtin_convertvector(takes, Lanes::Mask)), isFull(all(used)) {
+    for (std::size_t d = 0; d < D; ++d) cell[d] = LaneIntegers{} + first[static_cast<int>(d)];
+    cell[0] += ascending();
+    if (!isFull) repeat();
+    const LaneIntegers next = place == place[0] + ascending();
+    isContiguous = isFull && all(__builtin_convertvector(next, Lanes::Mask));
   }
   /// These values in the lanes in use, 0 in the others.
-  Lanes only(const Lanes& values) const {
-    return count == Lanes::count ? values : Lanes::of([&](int lane) { return lane < count ? values[lane] : 0.0; });
+  Lanes only(const Lanes& values) const { return isFull ? values : select(used, values, 0); }
+  /// Whether something holds in every lane in use.
+  bool holds(const Lanes::Mask& mask) const { return all(mask | ~used); }
+
+ private:
+  static LaneIntegers ascending() {
+    LaneIntegers lanes;
+    for (int lane = 0; lane < Lanes::count; ++lane) lanes[lane] = lane;
+    return lanes;
+  }
+  /// Repeats the first particle in the lanes not in use.
+  void repeat() {
+    int some = 0;
+    while (used[some] == 0) ++some;
+    const LaneIntegers takes = __builtin_convertvector(used, LaneIntegers);
+    place = takes ? place : LaneIntegers{} + place[some];
+    cell[0] = takes ? cell[0] : LaneIntegers{} + cell[0][some];
   }
 };
 
-/// Calls `visit(batch)` for all particles of the cells of a box, in the order of `forEach` over cells. A batch lies in
-/// one row of cells.
+/// Calls `visit(batch)` for batches that hold each particle of the cells of a box once.
 template <int D, class T, class Visit>
-void forEachBatch(const Box& box, const ParticleView<T>& view, Visit&& visit) {
-  Batch<D> batch;
-  const auto flush = [&] {
-    batch.fillUp();
-    visit(std::as_const(batch));
-    batch.count = 0;
-  };
-  forEach<D>(box, [&](const Index<D>& cell) {
-    for (const int p : view.in(cell)) {
-      batch.add(p, cell);
-      if (batch.count == Lanes::count) flush();
+[[gnu::always_inline]] inline void forEachBatch(const Box& box, const ParticleView<T>& view, Visit&& visit) {
+  forEachRow<D>(box, [&](Index<D> cell, int count) {
+    for (int done = 0; done < count; done += Lanes::count, cell[0] += Lanes::count) {
+      LaneIntegers place{}, end{};
+      int most = 0;
+      Index<D> at = cell;
+      for (int lane = 0; lane < std::min(Lanes::count, count - done); ++lane, ++at[0]) {
+        const data::ParticleRange particles = view.in(at);
+        place[lane] = particles.first;
+        end[lane] = particles.last;
+        most = std::max(most, particles.size());
+      }
+      for (; most > 0; --most, place += 1) {
+        const Batch<D> batch(cell, place, place < end);
+        visit(batch);
+      }
     }
-    if (batch.count > 0 && cell[0] == box.upper[0] - 1) flush();
   });
 }
 
-template <int D>
-Lanes load(const ParticleView<const double>& view, const Batch<D>& batch) {
-  return Lanes::of([&](int lane) { return view[batch.place[lane]]; });
-}
-template <int D, int Rows, int Columns>
-auto load(const ParticleView<const Eigen::Matrix<double, Rows, Columns, Eigen::DontAlign>>& view,
-          const Batch<D>& batch) {
-  Eigen::Matrix<Lanes, Rows, Columns, Eigen::DontAlign> values;
-  for (int column = 0; column < Columns; ++column)
-    for (int row = 0; row < Rows; ++row)
-      values(row, column) = Lanes::of([&](int lane) { return view[batch.place[lane]](row, column); });
-  return values;
+/// The values of a variable of the batch's particles, `numbers` consecutive ones for each; `at(place)` points to the
+/// first.
+template <int numbers, int D, class At>
+[[gnu::always_inline]] inline std::array<Lanes, numbers> loadColumns(const Batch<D>& batch, At&& at) {
+  if constexpr (numbers <= Lanes::count)
+    if (batch.isContiguous) return unpack<numbers>(at(batch.place[0]));
+  return columnsOf<numbers>([&](int lane) { return at(batch.place[lane]); });
 }
 
 template <int D>
-void store(const Lanes& values, const ParticleView<double>& view, const Batch<D>& batch) {
-  for (int lane = 0; lane < batch.count; ++lane) view[batch.place[lane]] = values[lane];
+[[gnu::always_inline]] inline Lanes load(const ParticleView<const double>& view, const Batch<D>& batch) {
+  return loadColumns<1>(batch, [&](int p) { return &view[p]; })[0];
 }
 template <int D, int Rows, int Columns>
-void store(const Eigen::Matrix<Lanes, Rows, Columns, Eigen::DontAlign>& values,
-           const ParticleView<Eigen::Matrix<double, Rows, Columns, Eigen::DontAlign>>& view, const Batch<D>& batch) {
-  for (int lane = 0; lane < batch.count; ++lane) {
-    auto& target = view[batch.place[lane]];
-    for (int column = 0; column < Columns; ++column)
-      for (int row = 0; row < Rows; ++row) target(row, column) = values(row, column)[lane];
-  }
+[[gnu::always_inline]] inline auto load(
+    const ParticleView<const Eigen::Matrix<double, Rows, Columns, Eigen::DontAlign>>& view, const Batch<D>& batch) {
+  return matrixOf<Rows, Columns>(loadColumns<Rows * Columns>(batch, [&](int p) { return view[p].data(); }));
+}
+
+/// The reverse of loadColumns.
+template <int D, std::size_t numbers, class At>
+[[gnu::always_inline]] inline void storeColumns(const std::array<Lanes, numbers>& columns, const Batch<D>& batch,
+                                                At&& at) {
+  if constexpr (numbers <= Lanes::count)
+    if (batch.isContiguous) return pack(columns, at(batch.place[0]));
+  std::array<double, numbers> unused;
+  storeColumns(columns, Lanes::count,
+               [&](int lane) { return batch.used[lane] != 0 ? at(batch.place[lane]) : unused.data(); });
+}
+
+template <int D>
+[[gnu::always_inline]] inline void store(const Lanes& values, const ParticleView<double>& view, const Batch<D>& batch) {
+  storeColumns(std::array{values}, batch, [&](int p) { return &view[p]; });
+}
+template <int D, int Rows, int Columns>
+[[gnu::always_inline]] inline void store(
+    const LanesMatrix<Rows, Columns>& values,
+    const ParticleView<Eigen::Matrix<double, Rows, Columns, Eigen::DontAlign>>& view, const Batch<D>& batch) {
+  storeColumns(coefficientsOf<Rows, Columns>(values), batch, [&](int p) { return view[p].data(); });
 }
 
 }  // namespace tushar::mpm::gas::conserving

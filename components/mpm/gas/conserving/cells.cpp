@@ -1,36 +1,62 @@
 #include "components/mpm/gas/conserving/cells.hpp"
 
 #include <Eigen/Geometry>
+#include <optional>
+
+#include "components/mpm/gas/conserving/grid_fields.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
 namespace {
 
 /// Harmonic mean; 0 if the signs differ.
-double harmonicMean(double a, double b) { return a * b > 0 ? 2 * a * b / (a + b) : 0.0; }
+Lanes harmonicMean(Lanes a, Lanes b) { return select(a * b > 0, 2 * a * b / (a + b), 0); }
 
 /// 0 if a velocity difference is below .05 c, 1 from .15 c on.
-double sensor(double difference, double soundSpeed) {
-  if (!(soundSpeed > 0)) return 1;
-  return std::clamp(10 * (difference / soundSpeed - 0.05), 0.0, 1.0);
+Lanes sensor(Lanes difference, Lanes soundSpeed) {
+  return select(soundSpeed > 0, clamp(10 * (difference / soundSpeed - 0.05), 0.0, 1.0), 1);
 }
 
-/// The compression of a cell and its neighbours, from the velocity gradients.
+/// The velocity differences over cells, along each axis, and their sum Delta. Beyond the rim of the grid a cell counts
+/// as its own neighbour.
 template <int D>
-Compression compressionOf(const Level& level, CellView<const Tensor<D>> gradient, const Index<D>& cell) {
-  const double h = level.minSpacing();
+class Differences : public GridFields<D, D + 1> {
+ public:
+  static constexpr std::size_t total = D;
+
+  Differences(const Patch& patch, const CellView<const Tensor<D>>& gradient) : GridFields<D, D + 1>(patch.cells()) {
+    const double h = patch.level().minSpacing();
+    const auto set = [&](const Index<D>& cell, const Tensor<D>& of) {
+      for (int d = 0; d < D; ++d) this->at(static_cast<std::size_t>(d), cell) = h * of(d, d);
+      this->at(total, cell) = h * of.trace();
+    };
+    const Box& cells = gradient.box();
+    forEach<D>(cells, [&](const Index<D>& cell) { set(cell, gradient[cell]); });
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1}) {
+        if (cells.lower[d] < patch.cells().lower[d] && side == 0) continue;
+        if (cells.upper[d] > patch.cells().upper[d] && side == 1) continue;
+        Box rim = patch.cells();
+        (side == 0 ? rim.upper[d] : rim.lower[d]) = side == 0 ? rim.lower[d] + 1 : rim.upper[d] - 1;
+        forEach<D>(rim, [&](const Index<D>& cell) { set(cell + Index<D>::unit(d) * (2 * side - 1), gradient[cell]); });
+      }
+  }
+};
+
+/// The compression of cells and their neighbours.
+template <int D>
+Compression compressionOf(const Differences<D>& differences, const Index<D>& first) {
+  constexpr std::size_t total = Differences<D>::total;
   Compression result;
-  result.difference = h * gradient[cell].trace();
+  result.difference = differences.readRow(total, first);
   result.nearby = -result.difference;
   for (int d = 0; d < D; ++d) {
-    const double own = h * gradient[cell](d, d);
-    double explained = 0;
-    for (const int side : {-1, 1}) {
-      Index<D> next = cell;
-      next[d] += side;
-      if (!gradient.box().contains(next)) next = cell;
-      explained += harmonicMean(own, h * gradient[next](d, d));
-      result.nearby = std::max(result.nearby, -h * gradient[next].trace());
+    const std::size_t along = static_cast<std::size_t>(d);
+    const Lanes own = differences.readRow(along, first);
+    Lanes explained = 0;
+    for (const Index<D>& next : {first - Index<D>::unit(d), first + Index<D>::unit(d)}) {
+      explained += harmonicMean(own, differences.readRow(along, next));
+      result.nearby = max(result.nearby, -differences.readRow(total, next));
     }
     result.smooth += own - 0.5 * explained;
   }
@@ -38,8 +64,8 @@ Compression compressionOf(const Level& level, CellView<const Tensor<D>> gradient
 }
 
 template <int D>
-Tensor<D> cofactor(const Tensor<D>& f) {
-  Tensor<D> c;
+LanesTensor<D> cofactor(const LanesTensor<D>& f) {
+  LanesTensor<D> c;
   if constexpr (D == 1) {
     c(0, 0) = 1;
   } else if constexpr (D == 2) {
@@ -52,26 +78,21 @@ Tensor<D> cofactor(const Tensor<D>& f) {
 
 }  // namespace
 
-CellState shockViscosity(double pressure, double density, double soundSpeed, double difference,
+CellState shockViscosity(Lanes pressure, Lanes density, Lanes soundSpeed, Lanes difference,
                          const Viscosity& viscosity) {
-  const double jump = std::max(-difference, 0.0);
+  const Lanes jump = max(-difference, 0.0);
   return {pressure, density * jump * (viscosity.quadratic * jump + viscosity.linear * soundSpeed), 1};
 }
 
-CellState smoothViscosity(double pressure, double density, double soundSpeed, const Compression& compression,
+CellState smoothViscosity(Lanes pressure, Lanes density, Lanes soundSpeed, const Compression& compression,
                           const Viscosity& viscosity) {
-  const double difference = compression.difference;
-  CellState state{pressure, 0, sensor(std::abs(difference), soundSpeed)};
-  if (difference < 0) {
-    const double s = sensor(-difference, soundSpeed);
-    const double j = -(s * difference + (1 - s) * std::max(difference, std::min(0.0, compression.smooth)));
-    state.viscosity = density * j * (viscosity.quadratic * j + viscosity.linear * soundSpeed);
-  } else if (difference > 0) {
-    const double z =
-        std::clamp(compression.smooth, 0.0, difference) * std::clamp(compression.nearby / difference, 0.0, 1.0);
-    state.viscosity = -std::min(viscosity.linear * density * soundSpeed * z, 0.4 * pressure);
-  }
-  return state;
+  const Lanes difference = compression.difference, s = sensor(-difference, soundSpeed);
+  const Lanes j = -(s * difference + (1 - s) * max(difference, min(0.0, compression.smooth)));
+  const Lanes compressed = density * j * (viscosity.quadratic * j + viscosity.linear * soundSpeed);
+  const Lanes z = clamp(compression.smooth, 0.0, difference) * clamp(compression.nearby / difference, 0.0, 1.0);
+  const Lanes expanding = -min(viscosity.linear * density * soundSpeed * z, 0.4 * pressure);
+  return {pressure, select(difference < 0, compressed, select(difference > 0, expanding, 0)),
+          sensor(abs(difference), soundSpeed)};
 }
 
 template <int D, class Scheme>
@@ -79,19 +100,21 @@ void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscos
                      CellView<const double> internalEnergy, CellView<const Tensor<D>> gradient,
                      CellView<double> pressure, CellView<double> artificial, CellView<double> shock) {
   const Level& level = patch.level();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+  constexpr bool isSmooth = Scheme::transfer == Transfer::affineFlip;
+  std::optional<Differences<D>> differences;
+  if (isSmooth) differences.emplace(patch, gradient);
+  forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
+    const Lanes m = load(mass, cells), p = (gas.gamma - 1) * load(internalEnergy, cells) / level.cellVolume();
+    const Lanes rho = m / level.cellVolume(), c = sqrt(gas.gamma * p / rho);
     CellState state;
-    if (mass[cell] > 0) {
-      const double p = (gas.gamma - 1) * internalEnergy[cell] / level.cellVolume();
-      const double rho = mass[cell] / level.cellVolume(), c = std::sqrt(gas.gamma * p / rho);
-      if constexpr (Scheme::transfer == Transfer::apic)
-        state = shockViscosity(p, rho, c, level.minSpacing() * gradient[cell].trace(), viscosity);
-      else
-        state = smoothViscosity(p, rho, c, compressionOf<D>(level, gradient, cell), viscosity);
-    }
-    pressure[cell] = state.pressure;
-    artificial[cell] = state.viscosity;
-    shock[cell] = state.shock;
+    if constexpr (isSmooth)
+      state = smoothViscosity(p, rho, c, compressionOf<D>(*differences, cells.first), viscosity);
+    else
+      state = shockViscosity(p, rho, c, level.minSpacing() * load(gradient, cells).trace(), viscosity);
+    const Lanes::Mask holdsGas = m > 0;
+    store(select(holdsGas, state.pressure, 0), pressure, cells);
+    store(select(holdsGas, state.viscosity, 0), artificial, cells);
+    store(select(holdsGas, state.shock, 1), shock, cells);
   });
 }
 
@@ -99,14 +122,17 @@ template <int D, class Scheme>
 void computeStress(const Patch& patch, const Gas& gas, CellView<const double> pressure,
                    CellView<const double> artificial, CellView<const Tensor<D>> gradient, double dt,
                    CellView<Tensor<D>> stress) {
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+  forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
+    const Lanes p = load(pressure, cells), q = load(artificial, cells);
+    LanesTensor<D> all = LanesTensor<D>::Identity();
     if constexpr (Scheme::transfer == Transfer::apic) {
-      stress[cell] = (pressure[cell] + artificial[cell]) * Tensor<D>::Identity();
+      all *= p + q;
     } else {
-      const Tensor<D> half = 0.5 * dt * gradient[cell];
-      const double later = pressure[cell] * std::clamp(1 - gas.gamma * half.trace(), 0.3, 2.0) + artificial[cell];
-      stress[cell] = later * cofactor<D>(Tensor<D>::Identity() + half);
+      const LanesTensor<D> half = 0.5 * dt * load(gradient, cells);
+      const Lanes later = p * clamp(1 - gas.gamma * half.trace(), 0.3, 2.0) + q;
+      all = later * cofactor<D>(all + half);
     }
+    store(all, stress, cells);
   });
 }
 

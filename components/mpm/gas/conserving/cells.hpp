@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpm/gas/conserving/labels.hpp"
+#include "components/mpm/gas/conserving/rows.hpp"
 #include "components/mpm/gas/conserving/scheme.hpp"
 #include "components/mpm/gas/material.hpp"
 #include "components/mpm/gas/mirror_symmetry.hpp"
@@ -13,37 +14,37 @@ template <int D>
 void computeVelocityGradient(const Patch& patch, const Gas&, NodeView<const Vec<D>> velocity,
                              CellView<Tensor<D>> gradient) {
   const Level& level = patch.level();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    gradient[cell] = sumOverCorners<D>([&](int k) {
-      const Vec<D> v = velocity[Linear<D>::node(cell, k)];
-      Tensor<D> share;
+  forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
+    const LanesTensor<D> sum = sumOverCorners<D>([&](int k) {
+      const LanesVec<D> v = load(velocity, cells + Linear<D>::node({}, k));
+      LanesTensor<D> share;
       for (int d = 0; d < D; ++d) share.col(d) = Linear<D>::centreGradient(level, k, d) * v;
       return share;
     });
+    store(sum, gradient, cells);
   });
 }
 
-/// Pressure, artificial viscosity and shock sensor of a cell.
+/// Pressure, artificial viscosity and shock sensor of cells, one per lane.
 struct CellState {
-  double pressure = 0, viscosity = 0, shock = 1;
+  Lanes pressure = 0, viscosity = 0, shock = 1;
 };
 
-/// The compression of a cell and its neighbours along the axes. The velocity difference over a cell along an axis is
+/// The compression of cells and their neighbours along the axes. The velocity difference over a cell along an axis is
 /// the derivative times the least cell width h; Delta is the sum of these differences over the axes [m/s].
 struct Compression {
-  double difference = 0;  ///< Delta of the cell
-  double smooth = 0;      ///< J_0: Delta less van Leer's harmonic means with the differences of neighbours
-  double nearby = 0;      ///< largest -Delta of the neighbours
+  Lanes difference = 0;  ///< Delta of the cell
+  Lanes smooth = 0;      ///< J_0: Delta minus van Leer's harmonic means with the differences of neighbours
+  Lanes nearby = 0;      ///< largest -Delta of the neighbours
 };
 
 /// q under compression, Delta < 0:  rho |Delta| (C_q |Delta| + C_l c).
-CellState shockViscosity(double pressure, double density, double soundSpeed, double difference,
-                         const Viscosity& viscosity);
+CellState shockViscosity(Lanes pressure, Lanes density, Lanes soundSpeed, Lanes difference, const Viscosity& viscosity);
 
 /// q = rho |J| (C_q |J| + C_l c) where the gas is compressed, with J = Delta at shocks and J = J_0 where the flow is
 /// smooth; s = min(1, 10 max(0, -Delta / c - .05)) blends the two. Where the gas expands next to a compressed cell, q
 /// is negative, at least -0.4 p: this removes the overshoot behind a shock.
-CellState smoothViscosity(double pressure, double density, double soundSpeed, const Compression& compression,
+CellState smoothViscosity(Lanes pressure, Lanes density, Lanes soundSpeed, const Compression& compression,
                           const Viscosity& viscosity);
 
 /// p = (gamma - 1) IE_c / V_c, q by shockViscosity (apic) or smoothViscosity (affineFlip), and the sensor of shocks.

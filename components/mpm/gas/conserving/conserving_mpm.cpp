@@ -16,7 +16,7 @@ namespace tushar::mpm::gas::conserving {
 
 namespace {
 
-/// The accesses by which a group reads its labels: at the start of the step, or as computed by an earlier task of the
+/// The accesses with which a group reads its labels: at the start of the step, or as computed by an earlier task of the
 /// list.
 constexpr auto atStart = [](const auto& label) { return requiresOld(label); };
 constexpr auto asComputed = [](const auto& label) { return requiresNew(label); };

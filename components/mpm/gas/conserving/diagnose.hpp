@@ -7,25 +7,47 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// Kinetic (the motion about the mean included), internal and total energy of all particles [J].
+/// Adds to a Sum in one lane for each cell of a part of a row.
+class LanesSum {
+ public:
+  explicit LanesSum(Sum& sum) : sum_(&sum) {}
+  LanesSum(const LanesSum&) = delete;
+  LanesSum& operator=(const LanesSum&) = delete;
+  ~LanesSum() {
+    for (int lane = 0; lane < Lanes::count; ++lane) sum_->merge({value_[lane], error_[lane], rest_[lane]});
+  }
+  void add(Lanes x) {
+    data::addExactly(value_, x);
+    data::addExactly(error_, x);
+    rest_ += x;
+  }
+
+ private:
+  Lanes value_ = 0, error_ = 0, rest_ = 0;
+  Sum* sum_;
+};
+
+/// Kinetic (including the motion about the mean), internal and total energy of all particles [J].
 template <int D>
 void sumEnergy(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy, Sum& kinetic,
                Sum& internal, Sum& total) {
-  WideSum kineticSum(kinetic), internalSum(internal), totalSum(total);
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    double ke = 0, ie = 0;
-    for (const int p : mass.in(cell)) {
-      ke += mass[p] * (0.5 * velocity[p].squaredNorm() + affineEnergy[p]);
-      ie += mass[p] * internalEnergy[p];
-    }
-    kineticSum.add(ke);
-    internalSum.add(ie);
-    totalSum.add(ke + ie);
+  LanesSum kineticSum(kinetic), internalSum(internal), totalSum(total);
+  forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
+    std::array<double, Lanes::count> ke{}, ie{};
+    for (int lane = 0; lane < cells.count; ++lane)
+      for (const int p : mass.in(cells.at(lane))) {
+        ke[lane] += mass[p] * (0.5 * velocity[p].squaredNorm() + affineEnergy[p]);
+        ie[lane] += mass[p] * internalEnergy[p];
+      }
+    const Lanes moving = Lanes::at(ke.data()), warm = Lanes::at(ie.data());
+    kineticSum.add(moving);
+    internalSum.add(warm);
+    totalSum.add(moving + warm);
   });
 }
 
-/// Cross-section of the grid: the extent along the axes that the scene leaves out, m^(3-D).
+/// Cross-section of the grid: its extent along the axes that the scene does not use, m^(3-D).
 template <int D>
 double crossSection(const Level& level) {
   double area = level.cellVolume();
@@ -46,7 +68,7 @@ void computeDensity(const Patch& patch, const Gas& gas, ParticleView<const doubl
   }
 }
 
-/// Momentum over mass of the parts of particles in each cell; 0 in cells without any.
+/// Momentum divided by mass, for the parts of particles in each cell; 0 in cells without any.
 template <int D>
 void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,
                          ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
@@ -68,7 +90,7 @@ void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<
       }
       for (std::size_t d = 0; d < D; ++d) brought[d][Footprint<D>::number(k)] = part * m * there[static_cast<int>(d)];
     });
-    momentum.add(footprint, batch.count, brought);
+    momentum.add(footprint, brought);
   });
   momentum.finish();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
@@ -83,8 +105,8 @@ void computeCellDensity(const Patch& patch, const Gas&, CellView<const double> m
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { density[cell] = mass[cell] / patch.level().cellVolume(); });
 }
 
-/// Errors of M_c / V_c, momentum over mass, and pressure and internal energy of M_c / V_c and IE_c / M_c, against exact
-/// cell means.
+/// Errors relative to exact cell means, of M_c / V_c, of momentum divided by mass, and of the pressure and internal
+/// energy that follow from M_c / V_c and IE_c / M_c.
 template <int D>
 void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                       const reference::Clock* clock, CellView<const double> mass, CellView<const Vec<D>> velocity,

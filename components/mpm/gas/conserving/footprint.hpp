@@ -123,9 +123,10 @@ struct Span {
 /// The cells and nodes that boxes touch, one box per lane: the product of their spans.
 template <int D>
 struct Footprint {
-  /// Cells that a box may reach beyond that of its centre: boxes are shorter than 2 h, in one dimension than 3 h.
+  /// Number of cells by which a box may extend beyond the cell of its centre: boxes are shorter than 2 h (in one
+  /// dimension, than 3 h).
   static constexpr int overhang = D == 1 ? 2 : 1;
-  /// Cells beyond a patch whose particles may touch its nodes.
+  /// Layers of cells around a patch whose particles may touch its nodes.
   static constexpr int reach = overhang + 1;
   /// Cells along an axis that boxes of one batch may overlap.
   static constexpr int most = Span<overhang>::most;
@@ -133,6 +134,7 @@ struct Footprint {
   static constexpr double longest = D == 1 ? 3 : 2;
 
   std::array<Span<overhang>, D> along;
+  Index<D> start;  ///< the cell of the first lane
 
   Footprint(const Level& level, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges)
       : Footprint(level, batch, centre, edges, std::make_index_sequence<D>()) {}
@@ -143,11 +145,11 @@ struct Footprint {
     return all;
   }
 
-  /// The first cell of each box, which has the number of the node below it.
-  std::array<LaneIntegers, D> first() const {
-    std::array<LaneIntegers, D> all;
-    for (std::size_t d = 0; d < D; ++d) all[d] = along[d].first;
-    return all;
+  /// The first cell of the first lane, which has the number of the node below it. Those of the other lanes follow.
+  Index<D> first() const {
+    Index<D> first = start;
+    for (std::size_t d = 0; d < D; ++d) first[static_cast<int>(d)] -= along[d].below;
+    return first;
   }
 
   /// Sum of `value(k, part)` over the cells k of the footprint; the same for the mirror image.
@@ -196,7 +198,7 @@ struct Footprint {
   template <std::size_t... Axis>
   Footprint(const Level& level, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges,
             std::index_sequence<Axis...>)
-      : along{{{level, static_cast<int>(Axis), batch.cell[Axis], centre[Axis], edges[Axis]}...}} {}
+      : along{{{level, static_cast<int>(Axis), batch.cell[Axis], centre[Axis], edges[Axis]}...}}, start(batch.start) {}
 
   template <int Axis, class Value>
   Lanes sumAlong(Index<D>& k, const Lanes& part, Value& value) const {

@@ -27,18 +27,11 @@ class GridSums : public GridFields<D, N> {
 
   explicit GridSums(const Box& cells) : Fields(cells), lost_(N * this->size()) {}
 
-  /// Adds to the nodes or cells of the footprints of a batch. Lanes not in use add 0.
-  void add(const Footprint<D>& footprint, int count, const Brought& brought) {
-    const typename Fields::Near near(*this, footprint.first(), count);
-    const LaneIntegers& places = Fields::placesOf(near);
-    for (std::size_t n = 0; n < N; ++n) {
-      const Pair field{this->values(n), lost_.data() + n * this->size()};
-      if (Fields::areConsecutive(near))
-        addRows<D - 1>(field + places[0], footprint, brought[n].data());
-      else
-        for (int lane = 0; lane < count; ++lane)
-          addOne<D - 1>(field + places[lane], footprint, brought[n].data(), lane);
-    }
+  /// Adds to the nodes or cells of the footprints of a batch, for which lanes not in use must bring 0.
+  void add(const Footprint<D>& footprint, const Brought& brought) {
+    const std::size_t first = this->place(footprint.first());
+    for (std::size_t n = 0; n < N; ++n)
+      addRows<D - 1>({this->values(n) + first, lost_.data() + n * this->size() + first}, footprint, brought[n].data());
   }
   void finish() {
     double* const values = this->values(0);
@@ -53,22 +46,6 @@ class GridSums : public GridFields<D, N> {
     Pair operator+(int by) const { return {sum + by, lost + by}; }
   };
 
-  /// Adds the values of one lane.
-  template <int Axis>
-  void addOne(Pair field, const Footprint<D>& footprint, const Lanes* brought, int lane) {
-    const int end = footprint.along[Axis].cells + More;
-    for (int k = 0; k < end; ++k, brought += Footprint<D>::stride(Axis), field = field + this->stride(Axis)) {
-      if constexpr (Axis == 0) {
-        CarefulSum<double> sum{*field.sum, *field.lost};
-        sum.add((*brought)[lane]);
-        *field.sum = sum.sum;
-        *field.lost = sum.lost;
-      } else {
-        addOne<Axis - 1>(field, footprint, brought, lane);
-      }
-    }
-  }
-  /// Adds the values of particles in consecutive cells of a row.
   template <int Axis>
   void addRows(Pair field, const Footprint<D>& footprint, const Lanes* brought) {
     const int end = footprint.along[Axis].cells + More;

@@ -22,7 +22,7 @@ const input::Schema<Section>& sectionSchema();
 extern std::unique_ptr<Component> (*makeConservingMpm)(const Level& level, const ConservingGasDynamics& method,
                                                        const std::vector<Gas>& gases);
 
-/// The method on a grid of that dimension, defaults filled in.
+/// The method on a grid of this dimension, with defaults filled in.
 ConservingGasDynamics settle(const Section& read, int dimension);
 
 }  // namespace tushar::mpm::gas::conserving

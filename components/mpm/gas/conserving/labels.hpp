@@ -13,7 +13,7 @@ inline constexpr ParticleLabel<Vec<D>> edges{"p.edges", "m", "edge lengths of th
                                              Bound::positive};
 template <int D>
 inline constexpr ParticleLabel<Modes<D>> modes{
-    "p.velocityModes", "1/s", "velocity gradient in the particle, and its mixed derivatives", Bound::finite};
+    "p.velocityModes", "1/s", "velocity gradient in the particle, and mixed second derivatives", Bound::finite};
 inline constexpr ParticleLabel<double> heat{
     "p.heat", "J/kg", "e - p_inf / rho, if there are several gases; 0 at a pressure of -p_inf", Bound::nonNegative};
 inline constexpr ParticleLabel<double> affineEnergy{
@@ -33,10 +33,10 @@ inline constexpr CellLabel<double> mass{"c.mass", "kg", "mass of the parts of pa
 inline constexpr CellLabel<double> internalEnergy{
     "c.internalEnergy", "J", "internal energy of the parts of particles in the cell", Bound::nonNegative};
 inline constexpr CellLabel<double> fill{"c.fill", "1",
-                                        "volume of the parts of particles in the cell, over that of the cell"};
+                                        "volume of the parts of particles in the cell, as a fraction of the cell"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> velocity{"c.velocity", "m/s",
-                                            "momentum over mass, of the parts of particles in the cell"};
+                                            "momentum divided by mass, for the parts of particles in the cell"};
 template <int D>
 inline constexpr CellLabel<Tensor<D>> velocityGradient{"c.velocityGradient", "1/s",
                                                        "velocity gradient at the centre of the cell"};

@@ -35,7 +35,7 @@ struct Mixture {
 struct GasInCells {
   CellView<const double> mass;            ///< kg
   CellView<const double> internalEnergy;  ///< J
-  CellView<const double> fill;            ///< fraction of the cell's volume
+  CellView<const double> fill;            ///< fraction of the volume of the cell
 
   /// `read` is requiresOld or requiresNew, as a function of a label.
   static GasInCells from(auto& take, const auto& read) {
@@ -48,7 +48,7 @@ struct Cells {
   const std::vector<Gas>& gases;
   const std::vector<GasInCells>& held;  ///< one for each gas
 
-  /// Volume of a gas over that of all gases in the cell.
+  /// Volume of a gas divided by that of all gases in the cell.
   template <class Index>
   double share(std::size_t gas, const Index& cell) const {
     double all = 0;
@@ -75,7 +75,7 @@ struct Cells {
 };
 
 /// epsilon = e - p_inf / rho of each particle, with rho = m / V of its box; negative at pressures below -p_inf, at
-/// which the gas tears.
+/// which the gas ruptures.
 template <int D>
 void computeHeat(const Patch& patch, const Gas& gas, ParticleView<const double> mass, ParticleView<const Vec<D>> edges,
                  ParticleView<const double> internalEnergy, ParticleView<double> heat) {
@@ -102,8 +102,8 @@ void mixAtNodes(const Patch&, const std::vector<Gas>& gases, const NodeViews<dou
   });
 }
 
-/// Throws InputError if the gases leave a part of a cell empty at the start, or overlap, as the pressure of a mixture
-/// acts on the whole grid.
+/// Throws InputError if the gases leave a part of a cell empty at the start, or overlap, since the pressure of a
+/// mixture acts on the whole grid.
 template <int D>
 void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellViews<double>& fill) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
@@ -133,9 +133,9 @@ void computeMixturePressure(const Patch& patch, const std::vector<Gas>& gases, c
     const CellState state = shockViscosity(mixture.pressure(), mixture.density, std::sqrt(mixture.soundSpeedSquared()),
                                            difference, viscosity);
     for (std::size_t k = 0; k < gases.size(); ++k) {
-      pressure[k][cell] = state.pressure;
-      artificial[k][cell] = state.viscosity;
-      shock[k][cell] = state.shock;
+      pressure[k][cell] = state.pressure[0];
+      artificial[k][cell] = state.viscosity[0];
+      shock[k][cell] = state.shock[0];
     }
   });
 }
@@ -204,14 +204,14 @@ void measureMixtureSignals(const Patch& patch, const std::vector<Gas>& gases, co
     for (int k = 0; k < Linear<D>::nodes; ++k)
       fastest = std::max(fastest, velocity.front()[Linear<D>::node(cell, k)].norm());
     onGrid = std::max(onGrid, fastest + std::sqrt(cSquared));
-    inGas = std::max(inGas, signalInCell<D>(patch.level(), gradient.front()[cell], cSquared));
+    inGas = std::max(inGas, signalInCells(patch.level(), gradient.front()[cell].trace(), cSquared)[0]);
   });
   pastGrid.add(onGrid);
   pastGas.add(inGas);
 }
 
-/// Errors of the means over cells against exact ones: density, velocity (momentum over mass), pressure and internal
-/// energy of the mixture.
+/// Errors of the means over cells, relative to exact means: density, velocity (momentum over mass), pressure and
+/// internal energy of the mixture.
 template <int D>
 void measureMixtureError(const Patch& patch, const std::vector<Gas>& gases, const reference::GasReference* exact,
                          const reference::Clock* clock, const std::vector<GasInCells>& held,

@@ -82,7 +82,7 @@ void gatherInCells(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
       parts[0][Footprint<D>::number(k)] = part * m;
       parts[1][Footprint<D>::number(k)] = part * energy;
     });
-    sums.add(footprint, batch.count, parts);
+    sums.add(footprint, parts);
   });
   sums.finish();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {

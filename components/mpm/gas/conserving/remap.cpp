@@ -5,9 +5,6 @@ namespace tushar::mpm::gas::conserving {
 
 namespace {
 
-template <int D>
-using LanesTensor = Eigen::Matrix<Lanes, D, D, Eigen::DontAlign>;
-
 /// Sums over the parts of particles in each cell; offsets dx are from the middle of the cell.
 template <int D>
 struct CellSums {
@@ -29,19 +26,18 @@ constexpr bool isMixed(std::size_t a) { return (a & (a - 1)) != 0; }
 template <int D>
 using Contents = GridFields<D, 2>;
 
-/// Van Leer's limited slopes of a cell variable, relative to its value, 1/m; 0 at the rim of the grid. They are scaled
-/// so that in boxes of these edges the variable is at least a fifth of its mean everywhere.
+/// Van Leer's limited slopes of a cell variable, relative to its value, 1/m; 0 at the sides of the grid. They are
+/// scaled so that in boxes of these edges the variable is at least a fifth of its mean everywhere.
 template <int D>
 LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std::size_t field, const Batch<D>& batch,
                            const LanesVec<D>& edges) {
-  const typename Contents<D>::Near near(contents, batch.cell, batch.count);
-  const Lanes value = contents.read(field, near, {});
+  const Lanes value = contents.readRow(field, batch.start);
   LanesVec<D> slopes;
   for (int d = 0; d < D; ++d) {
-    const Lanes rise = contents.read(field, near, Index<D>::unit(d)) - value;
-    const Lanes fall = value - contents.read(field, near, Index<D>{} - Index<D>::unit(d));
+    const Lanes rise = contents.readRow(field, batch.start + Index<D>::unit(d)) - value;
+    const Lanes fall = value - contents.readRow(field, batch.start - Index<D>::unit(d));
     const Lanes slope = 2 * level.inverseSpacing(d) * (rise * fall) / ((rise + fall) * value);
-    slopes[d] = select(rise * fall > 0, slope, 0);
+    slopes[d] = batch.only(select(rise * fall > 0, slope, 0));
     if (level.isPeriodic(d)) continue;
     const Lanes cell = widen(batch.cell[d]);
     slopes[d] = select(cell > 0, select(cell < level.cells().upper[d] - 1, slopes[d], 0), 0);
@@ -155,7 +151,7 @@ void cut(const Level& level, const Batch<D>& batch, const OldBoxes<D>& boxes, co
     part.internal *= warm;
     bring<D>(brought, Footprint<D>::number(k), part, part.x - middle, u, gradient, modes, max(surplus, 0));
   });
-  sums.add(footprint, batch.count, brought);
+  sums.add(footprint, brought);
 }
 
 /// The contents of consecutive cells of a row, one per lane.
@@ -194,8 +190,8 @@ struct Contained {
   }
 };
 
-/// The box of a new particle: its cell or, next to an empty cell, the part of it that the gas reaches, so that gas does
-/// not spread into a vacuum by a cell with every remap. At least a tenth of the cell wide.
+/// The box of a new particle: its cell or, next to an empty cell, the part of the cell that the gas occupies, so that
+/// gas does not spread into a vacuum by one cell with every remap. At least a tenth of the cell wide.
 template <int D>
 struct NewBox {
   Vec<D> centre, edges;

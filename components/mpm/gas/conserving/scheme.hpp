@@ -9,13 +9,13 @@ namespace tushar::mpm::gas::conserving {
 /// The update of particle velocities from those of the grid.
 enum class Transfer {
   apic,       ///< the grid's velocity, with its gradient, replaces theirs: Jiang et al., ACM Trans. Graph. 34 (2015) 51
-  affineFlip  ///< its change is added to theirs where the gas is smooth; like apic at shocks
+  affineFlip  ///< the change of the grid's velocity is added to theirs where the flow is smooth; at shocks like apic
 };
 
 /// When to replace particles by one per cell.
 struct Remap {
   int every = 4;             ///< steps
-  double overfilled = 0.02;  ///< or when gas exceeds the volume of a cell by this fraction
+  double overfilled = 0.02;  ///< or when the gas in a cell exceeds its volume by this fraction
 };
 
 /// The `conserving_gas_dynamics` section.
@@ -33,7 +33,7 @@ struct ConservingGasDynamics {
 struct Apic {
   static constexpr Transfer transfer = Transfer::apic;
   static constexpr double faceTime = 1.0;     ///< faces move with v + faceTime dt a
-  static constexpr double spareEnergy = 0.5;  ///< fraction of e that may compensate for missing kinetic energy
+  static constexpr double spareEnergy = 0.5;  ///< fraction of e that may compensate for a lack of kinetic energy
 };
 struct AffineFlip {
   static constexpr Transfer transfer = Transfer::affineFlip;

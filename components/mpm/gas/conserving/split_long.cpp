@@ -22,7 +22,7 @@ GasBox<D> half(const GasBox<D>& whole, int axis, int side) {
   return part;
 }
 
-/// Adds a piece, halved along each axis from `axis` on where it is too long.
+/// Adds a piece, halved along each axis from `axis` on along which it is too long.
 template <int D>
 void addHalved(const Patch& patch, double longestInCells, const GasBox<D>& piece, int axis, ParticleMaker& maker,
                const NewBoxes<D>& fresh) {
@@ -42,13 +42,12 @@ void addHalved(const Patch& patch, double longestInCells, const GasBox<D>& piece
 template <int D>
 void splitLong(const Patch& patch, double longestInCells, const OldBoxes<D>& old, ParticleMaker& maker,
                const NewBoxes<D>& fresh) {
-  Vec<D> longest;
-  for (int d = 0; d < D; ++d) longest[d] = longestInCells * patch.level().spacing(d);
-  bool any = false;
-  forEach<D>(old.x.cells(), [&](const Index<D>& cell) {
-    for (const int p : old.x.in(cell)) any = any || (old.edges[p].array() > longest.array()).any();
+  Lanes::Mask isLong{};
+  forEachBatch<D>(old.x.cells(), old.x, [&](const Batch<D>& batch) {
+    const LanesVec<D> edges = load(old.edges, batch);
+    for (int d = 0; d < D; ++d) isLong |= edges[d] > longestInCells * patch.level().spacing(d);
   });
-  if (!any) return maker.keepAll();
+  if (all(~isLong)) return maker.keepAll();
   forEach<D>(old.x.cells(), [&](const Index<D>& cell) {
     for (const int p : old.x.in(cell)) addHalved(patch, longestInCells, old.at(p), 0, maker, fresh);
   });

@@ -1,25 +1,28 @@
 #pragma once
 
 #include "components/mpm/gas/conserving/labels.hpp"
+#include "components/mpm/gas/conserving/rows.hpp"
 #include "components/mpm/gas/conserving/scheme.hpp"
 #include "components/mpm/gas/material.hpp"
 #include "components/mpm/gas/tasks/fastest_signal.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
-/// dt <= 0.4 over the rates at which cells are compressed, -div v, cool by expansion, (gamma - 1) div v, and are
+/// dt <= 0.4 divided by the rates at which cells are compressed, -div v, cool by expansion, (gamma - 1) div v, and are
 /// stretched along an axis, |dv_d/dx_d|: no box doubles its length, no cell loses half its volume or energy. In cells
 /// without gas the rates count half: a front moves by at most .8 of the width of an empty cell.
 template <int D>
 void limitDeformation(const Patch& patch, const Gas& gas, CellView<const double> mass,
                       CellView<const Tensor<D>> gradient, Minimum& dt) {
-  double fastest = 0;
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const double divergence = gradient[cell].trace(), stretch = gradient[cell].diagonal().cwiseAbs().maxCoeff();
-    const double rate = std::max({-divergence, (gas.gamma - 1) * divergence, stretch});
-    fastest = std::max(fastest, mass[cell] > 0 ? rate : 0.5 * rate);
+  Lanes most = 0;
+  forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
+    const LanesTensor<D> g = load(gradient, cells);
+    const Lanes divergence = g.trace();
+    Lanes rate = max(-divergence, (gas.gamma - 1) * divergence);
+    for (int d = 0; d < D; ++d) rate = max(rate, abs(g(d, d)));
+    most = max(most, select(load(mass, cells) > 0, rate, 0.5 * rate));
   });
-  if (fastest > 0) dt.add(0.4 / fastest, "deformation");
+  if (const double fastest = greatest(most); fastest > 0) dt.add(0.4 / fastest, "deformation");
 }
 
 /// dt = min(cfl h / max c, advectiveCfl h / max |v_d|) over the particles, and limitDeformation.
@@ -38,30 +41,30 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, const ConservingG
   limitDeformation<D>(patch, gas, mass, gradient, dt);
 }
 
-/// The largest speed of signals in a cell relative to its gas [m/s], 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|,
-/// where Delta is the velocity difference over the cell, as shocks are faster than sound. The form is that of D. J.
-/// Benson, Comput. Methods Appl. Mech. Eng. 99 (1992) 235; with these factors a moving gas has hardly a greater error
-/// than one at rest, and one at rest has that of |v| + c alone.
-template <int D>
-double signalInCell(const Level& level, const Tensor<D>& gradient, double soundSpeedSquared) {
-  const double q = 1.4 * level.minSpacing() * std::abs(gradient.trace());
-  return 1.25 * (q + std::sqrt(q * q + soundSpeedSquared));
+/// The largest speed of signals in cells relative to its gas [m/s], 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|,
+/// where Delta is the velocity difference across the cell, since shocks are faster than sound. The form is that of D.
+/// J. Benson, Comput. Methods Appl. Mech. Eng. 99 (1992) 235; with these factors a moving gas has hardly a greater
+/// error than one at rest, and one at rest has that of |v| + c alone.
+inline Lanes signalInCells(const Level& level, Lanes divergence, Lanes soundSpeedSquared) {
+  const Lanes q = 1.4 * level.minSpacing() * abs(divergence);
+  return 1.25 * (q + sqrt(q * q + soundSpeedSquared));
 }
 
-/// The largest speeds of signals [m/s]: of particles relative to the grid, |v| + c; and signalInCell.
+/// The largest speeds of signals [m/s]: of particles relative to the grid, |v| + c; and signalInCells.
 template <int D>
 void measureSignals(const Patch& patch, const Gas& gas, ParticleView<const Vec<D>> velocity,
                     ParticleView<const double> internalEnergy, CellView<const double> mass,
                     CellView<const double> cellInternalEnergy, CellView<const Tensor<D>> gradient, Maximum& pastGrid,
                     Maximum& pastGas) {
   pastGrid.add(fastestSignal<D>(gas, velocity, internalEnergy));
-  double fastest = 0;
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    if (!(mass[cell] > 0)) return;
-    const double cSquared = gas.soundSpeedSquared(cellInternalEnergy[cell] / mass[cell]);
-    fastest = std::max(fastest, signalInCell<D>(patch.level(), gradient[cell], cSquared));
+  const double perEnergy = gas.soundSpeedSquared(1);
+  Lanes fastest = 0;
+  forEachRowPart<D>(patch.cells(), [&](const RowPart<D>& cells) {
+    const Lanes m = load(mass, cells), cSquared = perEnergy * (load(cellInternalEnergy, cells) / m);
+    const Lanes signal = signalInCells(patch.level(), load(gradient, cells).trace(), cSquared);
+    fastest = max(fastest, select(m > 0, signal, 0));
   });
-  pastGas.add(fastest);
+  pastGas.add(greatest(fastest));
 }
 
 /// dt = cfl h over the smaller of the two speeds of measureSignals; and limitDeformation. Boxes move with the gas, so

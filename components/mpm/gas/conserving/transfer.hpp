@@ -18,31 +18,34 @@ typename Footprint<D>::template Field<D - 1> fieldOf(const LanesVec<D>& velocity
   return field;
 }
 
-/// Sums over boxes: mass and momentum at nodes; mass, internal energy and volume in cells.
-template <int D>
+/// Sums over boxes: mass and momentum at nodes; mass, internal energy and, if `Fills`, volume in cells.
+template <int D, bool Fills>
 struct Gathering {
-  GridSums<D, 1 + D, 1> nodes;
-  GridSums<D, 3, 0> cells;
+  using Nodes = GridSums<D, 1 + D, 1>;
+  using Cells = GridSums<D, Fills ? 3 : 2, 0>;
+
+  Nodes nodes;
+  Cells cells;
 
   explicit Gathering(const Box& around) : nodes(around), cells(around) {}
 
-  void add(const Batch<D>& batch, const Footprint<D>& footprint, const Lanes& mass, const Lanes& energy,
-           const Lanes& volume, const typename Footprint<D>::template Field<D - 1>& velocity) {
-    typename GridSums<D, 3, 0>::Brought parts;
+  void add(const Footprint<D>& footprint, const Lanes& mass, const Lanes& energy, const Lanes& volume,
+           const typename Footprint<D>::template Field<D - 1>& velocity) {
+    typename Cells::Brought parts;
     footprint.forEachPart([&](const Index<D>& k, const Lanes& part) {
       const std::size_t place = Footprint<D>::number(k);
       parts[0][place] = part * mass;
       parts[1][place] = part * energy;
-      parts[2][place] = part * volume;
+      if constexpr (Fills) parts[2][place] = part * volume;
     });
-    cells.add(footprint, batch.count, parts);
-    typename GridSums<D, 1 + D, 1>::Brought brought;
+    cells.add(footprint, parts);
+    typename Nodes::Brought brought;
     footprint.forEachWeight(velocity, [&](const Index<D>& k, const Lanes& w, const LanesVec<D>& u) {
       const std::size_t place = Footprint<D>::number(k);
       brought[0][place] = w * mass;
       for (std::size_t d = 0; d < D; ++d) brought[d + 1][place] = brought[0][place] * u[static_cast<int>(d)];
     });
-    nodes.add(footprint, batch.count, brought);
+    nodes.add(footprint, brought);
   }
   void finish() {
     nodes.finish();
@@ -79,22 +82,22 @@ struct ParticlesToGrid {
 
 /// m_i = sum w m,   v_i = sum w m u(x_i) / m_i on the patch's nodes,   M_c = sum o m,   IE_c = sum o m e in its cells;
 /// w and o as in Footprint, u the velocity of the particle's modes. Symmetry planes: no normal velocity.
-/// Calls `visitFill(cell, volume)` with the volume of the boxes in each cell.
-template <int D, class Visit>
+/// If `Fills`, calls `visitFill(cell, volume)` with the volume of the boxes in each cell.
+template <int D, bool Fills, class Visit>
 void gatherOnGrid(const Patch& patch, const ParticlesToGrid<D>& t, Visit&& visitFill) {
-  Gathering<D> sums(t.x.cells());
+  Gathering<D, Fills> sums(t.x.cells());
   forEachBatch<D>(t.x.cells(), t.x, [&](const Batch<D>& batch) {
     const LanesVec<D> size = load(t.edges, batch);
     const Footprint<D> footprint(patch.level(), batch, load(t.x, batch), size);
     const Lanes m = batch.only(load(t.mass, batch));
-    sums.add(batch, footprint, m, m * load(t.internalEnergy, batch), batch.only(size.prod()),
+    sums.add(footprint, m, m * load(t.internalEnergy, batch), batch.only(size.prod()),
              fieldOf<D>(load(t.velocity, batch), load(t.modes, batch)));
   });
   sums.finish();
   forEach<D>(t.cellMass.box(), [&](const Index<D>& cell) {
     t.cellMass[cell] = sums.cells.at(0, cell);
     t.cellInternalEnergy[cell] = sums.cells.at(1, cell);
-    visitFill(cell, sums.cells.at(2, cell));
+    if constexpr (Fills) visitFill(cell, sums.cells.at(2, cell));
   });
   forEach<D>(t.nodeMass.box(), [&](const Index<D>& node) {
     const double m = sums.nodes.at(0, node), inverse = m > 0 ? 1 / m : 0;
@@ -108,35 +111,51 @@ void gatherOnGrid(const Patch& patch, const ParticlesToGrid<D>& t, Visit&& visit
 /// The task that only calls gatherOnGrid.
 template <int D>
 void interpolateParticlesToGrid(const Patch& patch, const Gas&, const ParticlesToGrid<D>& transfer) {
-  gatherOnGrid<D>(patch, transfer, [](const Index<D>&, double) {});
+  gatherOnGrid<D, false>(patch, transfer, [](const Index<D>&, double) {});
 }
 
-/// Calls gatherOnGrid, and computes the volume of the boxes in each cell over that of the cell: 1 if they tile the gas.
+/// Calls gatherOnGrid, and computes the volume fraction of the boxes in each cell, which is 1 if they tile the cell.
 template <int D>
 void interpolateAndMeasureFill(const Patch& patch, const Gas&, const ParticlesToGrid<D>& transfer,
                                CellView<double> fill, Maximum& greatest) {
   double inverse = 1;
   for (int d = 0; d < D; ++d) inverse *= patch.level().inverseSpacing(d);
-  gatherOnGrid<D>(patch, transfer, [&](const Index<D>& cell, double volume) {
+  gatherOnGrid<D, true>(patch, transfer, [&](const Index<D>& cell, double volume) {
     fill[cell] = volume * inverse;
     greatest.add(fill[cell]);
   });
 }
 
-/// Sums of (E1)-(E3) of updateParticles over the nodes on a line (Axis = 0), on a plane, or of the whole footprint
+/// Sums of (E1)-(E3) of updateParticles over the nodes on a line (Axis = 0), on a plane, or in the whole footprint
 /// (Axis = D - 1), with the weights along these axes.
-template <int D, int Axis>
+template <int D, class Scheme, int Axis>
 struct Gathered {
-  std::array<LanesVec<D>, (1 << (Axis + 1))> moments;  ///< y phi_a
-  std::array<LanesVec<D>, Axis + 1> lower, upper;      ///< velocity of the lower and upper faces across each axis, m/s
-  LanesVec<D> moving = LanesVec<D>::Zero();            ///< mean of that velocity over the nodes, m/s
-  Lanes slipEnergy = 0;                                ///< beta (2 - beta) |r|² / 2, J/kg
-  Lanes square = 0;                                    ///< |y|², J/kg
+  static constexpr bool apic = Scheme::transfer == Transfer::apic;
+  /// The velocity of a face [m/s]; without apic only its normal component.
+  using FaceVelocity = std::conditional_t<apic, LanesVec<D>, Lanes>;
+
+  std::array<LanesVec<D>, apic ? 1 : 1 << (Axis + 1)> moments;  ///< y phi_a; apic: only the first
+  std::array<FaceVelocity, Axis + 1> lower, upper;              ///< of the faces across each axis
+  LanesVec<D> moving = LanesVec<D>::Zero();                     ///< mean of v + faceTime dt a over the nodes, m/s
+  Lanes slipEnergy = 0;                                         ///< beta (2 - beta) |r|² / 2, J/kg
+  Lanes square = 0;                                             ///< |y|², J/kg
 
   Gathered() {
     moments.fill(LanesVec<D>::Zero());
-    lower.fill(LanesVec<D>::Zero());
-    upper.fill(LanesVec<D>::Zero());
+    for (int d = 0; d <= Axis; ++d) lower[static_cast<std::size_t>(d)] = ofFace(d, LanesVec<D>::Zero());
+    upper = lower;
+  }
+  static FaceVelocity ofFace(int axis, const LanesVec<D>& velocity) {
+    if constexpr (apic)
+      return velocity;
+    else
+      return velocity[axis];
+  }
+  static Lanes normal(int axis, const FaceVelocity& velocity) {
+    if constexpr (apic)
+      return velocity[axis];
+    else
+      return velocity;
   }
   Gathered& operator+=(const Gathered& other) {
     for (std::size_t a = 0; a < moments.size(); ++a) moments[a] += other.moments[a];
@@ -151,11 +170,12 @@ struct Gathered {
   }
 };
 
-/// Grid fields that update particles: v and dt a at nodes along each axis, beta at nodes, f in cells.
+/// Grid fields that update particles: v, v + dt a and v + faceTime dt a at nodes along each axis, 1 - beta and
+/// beta (2 - beta) / 2 at nodes, f in cells.
 template <int D>
-struct Motion : GridFields<D, 2 * D + 2> {
-  static constexpr std::size_t change = D, relaxation = 2 * D, work = 2 * D + 1;
-  using GridFields<D, 2 * D + 2>::GridFields;
+struct Motion : GridFields<D, 3 * D + 3> {
+  static constexpr std::size_t accelerated = D, moving = 2 * D, kept = 3 * D, slip = kept + 1, work = kept + 2;
+  using GridFields<D, 3 * D + 3>::GridFields;
 };
 
 /// The variables that updateParticles reads and writes.
@@ -195,16 +215,21 @@ struct ParticleUpdate {
   }
 };
 
-template <int D>
+template <int D, class Scheme>
 Motion<D> motionOn(const Patch& patch, const ParticleUpdate<D>& update, double dt) {
   Motion<D> motion(patch.cells());
   forEach<D>(update.nodeVelocity.box(), [&](const Index<D>& node) {
-    for (int d = 0; d < D; ++d) {
-      motion.at(d, node) = update.nodeVelocity[node][d];
-      motion.at(Motion<D>::change + static_cast<std::size_t>(d), node) = dt * update.acceleration[node][d];
+    for (std::size_t d = 0; d < D; ++d) {
+      const double v = update.nodeVelocity[node][static_cast<int>(d)];
+      const double dv = dt * update.acceleration[node][static_cast<int>(d)];
+      motion.at(d, node) = v;
+      motion.at(Motion<D>::accelerated + d, node) = v + dv;
+      motion.at(Motion<D>::moving + d, node) = v + Scheme::faceTime * dv;
     }
+    const double beta = Scheme::transfer == Transfer::apic ? 1.0 : update.relaxation[node];
+    motion.at(Motion<D>::kept, node) = 1 - beta;
+    motion.at(Motion<D>::slip, node) = 0.5 * beta * (2 - beta);
   });
-  motion.copy(Motion<D>::relaxation, update.relaxation);
   motion.copy(Motion<D>::work, update.work);
   return motion;
 }
@@ -213,72 +238,75 @@ Motion<D> motionOn(const Patch& patch, const ParticleUpdate<D>& update, double d
 template <int D>
 struct Reader {
   const Motion<D>& motion;
-  typename Motion<D>::Near near;
+  Index<D> first;
 
-  Lanes operator()(std::size_t field, const Index<D>& k) const { return motion.read(field, near, k); }
+  Lanes operator()(std::size_t field, const Index<D>& k) const { return motion.readRow(field, first + k); }
+  LanesVec<D> vector(std::size_t field, const Index<D>& k) const {
+    LanesVec<D> values;
+    for (std::size_t d = 0; d < D; ++d) values[static_cast<int>(d)] = (*this)(field + d, k);
+    return values;
+  }
 };
 
 /// Adds nodes of a line, one per lane.
 template <int D, class Scheme>
 [[gnu::always_inline]] inline void addNode(const Footprint<D>& footprint, const Index<D>& at, const Reader<D>& read,
-                                           const LanesVec<D>& field, Gathered<D, 0>& sum) {
+                                           const LanesVec<D>& field, Gathered<D, Scheme, 0>& sum) {
+  using Sum = Gathered<D, Scheme, 0>;
   const auto& span = footprint.along[0];
   const std::size_t k = at[0];
   const Lanes w = span.weight[k];
-  LanesVec<D> v, dv;
-  for (int d = 0; d < D; ++d) {
-    v[d] = read(static_cast<std::size_t>(d), at);
-    dv[d] = read(Motion<D>::change + static_cast<std::size_t>(d), at);
-  }
-  const Lanes beta = Scheme::transfer == Transfer::apic ? Lanes(1.0) : read(Motion<D>::relaxation, at);
-  const LanesVec<D> r = field - v, moving = v + Scheme::faceTime * dv;
-  const LanesVec<D> y = v + dv + (1 - beta) * r, wy = w * y;
+  const LanesVec<D> r = field - read.vector(0, at), moving = read.vector(Motion<D>::moving, at);
+  const LanesVec<D> y = read.vector(Motion<D>::accelerated, at) + read(Motion<D>::kept, at) * r, wy = w * y;
   sum.moments[0] += wy;
-  sum.moments[1] += span.arm[k] * wy;
-  sum.lower[0] += span.atLower[k] * moving;
-  sum.upper[0] += span.atUpper[k] * moving;
+  if constexpr (!Sum::apic) sum.moments[1] += span.arm[k] * wy;
+  sum.lower[0] += span.atLower[k] * Sum::ofFace(0, moving);
+  sum.upper[0] += span.atUpper[k] * Sum::ofFace(0, moving);
   sum.moving += w * moving;
-  sum.slipEnergy += w * (0.5 * beta * (2 - beta)) * r.squaredNorm();
+  sum.slipEnergy += w * read(Motion<D>::slip, at) * r.squaredNorm();
   sum.square += wy.dot(y);
 }
 
 /// Adds a line to a plane, or a plane to the footprint.
-template <int D, int Axis>
+template <int D, class Scheme, int Axis>
 [[gnu::always_inline]] inline void addSlice(const Footprint<D>& footprint, std::size_t k,
-                                            const Gathered<D, Axis - 1>& slice, Gathered<D, Axis>& sum) {
+                                            const Gathered<D, Scheme, Axis - 1>& slice,
+                                            Gathered<D, Scheme, Axis>& sum) {
+  using Sum = Gathered<D, Scheme, Axis>;
   constexpr std::size_t half = std::size_t{1} << Axis;
   const auto& span = footprint.along[Axis];
   const Lanes w = span.weight[k];
-  for (std::size_t a = 0; a < half; ++a) {
+  for (std::size_t a = 0; a < slice.moments.size(); ++a) {
     sum.moments[a] += w * slice.moments[a];
-    sum.moments[a + half] += w * span.arm[k] * slice.moments[a];
+    if constexpr (!Sum::apic) sum.moments[a + half] += w * span.arm[k] * slice.moments[a];
   }
   for (std::size_t d = 0; d < Axis; ++d) {
     sum.lower[d] += w * slice.lower[d];
     sum.upper[d] += w * slice.upper[d];
   }
-  sum.lower[Axis] += span.atLower[k] * slice.moving;
-  sum.upper[Axis] += span.atUpper[k] * slice.moving;
+  sum.lower[Axis] += span.atLower[k] * Sum::ofFace(Axis, slice.moving);
+  sum.upper[Axis] += span.atUpper[k] * Sum::ofFace(Axis, slice.moving);
   sum.moving += w * slice.moving;
   sum.slipEnergy += w * slice.slipEnergy;
   sum.square += w * slice.square;
 }
 
 template <int D, class Scheme, int Axis>
-[[gnu::always_inline]] inline Gathered<D, Axis> gatherFromNodes(
+[[gnu::always_inline]] inline Gathered<D, Scheme, Axis> gatherFromNodes(
     const Footprint<D>& footprint, Index<D>& at, const Reader<D>& read,
     const typename Footprint<D>::template Field<Axis>& field) {
   const auto& span = footprint.along[Axis];
-  return span.template sumOverNodes<Gathered<D, Axis>>([&](int node, Gathered<D, Axis>& sum) {
+  using Sum = Gathered<D, Scheme, Axis>;
+  return span.template sumOverNodes<Sum>([&](int node, Sum& sum) __attribute__((always_inline)) {
     at[Axis] = node;
     const std::size_t k = node;
     if constexpr (Axis == 0)
       addNode<D, Scheme>(footprint, at, read, field[0] + span.arm[k] * field[1], sum);
     else
-      addSlice<D, Axis>(footprint, k,
-                        gatherFromNodes<D, Scheme, Axis - 1>(footprint, at, read,
-                                                             Footprint<D>::template slice<Axis>(field, span.arm[k])),
-                        sum);
+      addSlice<D, Scheme, Axis>(footprint, k,
+                                gatherFromNodes<D, Scheme, Axis - 1>(
+                                    footprint, at, read, Footprint<D>::template slice<Axis>(field, span.arm[k])),
+                                sum);
   });
 }
 
@@ -291,8 +319,9 @@ Lanes workOn(const Footprint<D>& footprint, const Reader<D>& read) {
 /// Requires a smaller time step if a box would shrink below 0.4 of its length or become longer than `most`.
 template <int D>
 void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after, double most, Minimum& factor) {
-  if (all((after > 0.4 * before) & (after < most), batch.count)) return;
-  for (int lane = 0; lane < batch.count; ++lane) {
+  if (batch.holds((after > 0.4 * before) & (after < most))) return;
+  for (int lane = 0; lane < Lanes::count; ++lane) {
+    if (batch.used[lane] == 0) continue;
     const double length = before[lane], change = after[lane] - length;
     if (!(after[lane] > 0.4 * length)) factor.add(-0.5 * length / change, "compression");
     if (!(after[lane] < most)) factor.add(0.9 * (most - length) / change, "stretch");
@@ -302,8 +331,9 @@ void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after, 
 /// Requires a smaller time step if work would take more than 0.8 of the internal energy, or make it negative.
 template <int D>
 void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy, Minimum& factor) {
-  if (all((work > -0.8) & (energy >= 0), batch.count)) return;
-  for (int lane = 0; lane < batch.count; ++lane) {
+  if (batch.holds((work > -0.8) & (energy >= 0))) return;
+  for (int lane = 0; lane < Lanes::count; ++lane) {
+    if (batch.used[lane] == 0) continue;
     if (!(work[lane] > -0.8)) factor.add(-0.7 / work[lane], "cooling");
     if (!(energy[lane] >= 0)) factor.add(0.5, "cooling");
   }
@@ -321,11 +351,11 @@ void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy,
 template <int D, class Scheme>
 void updateParticles(const Patch& patch, const Gas&, const ParticleUpdate<D>& update, double dt, Minimum& factor) {
   constexpr bool apic = Scheme::transfer == Transfer::apic;
-  const Motion<D> motion = motionOn<D>(patch, update, dt);
+  const Motion<D> motion = motionOn<D, Scheme>(patch, update, dt);
   forEachBatch<D>(patch.cells(), update.x, [&](const Batch<D>& batch) {
     const Footprint<D> footprint(patch.level(), batch, load(update.x, batch), load(update.edges, batch));
     const LanesModes<D> u = load(update.modes, batch);
-    const Reader<D> read{motion, {motion, footprint.first(), batch.count}};
+    const Reader<D> read{motion, footprint.first()};
     Index<D> at;
     const auto taken =
         gatherFromNodes<D, Scheme, D - 1>(footprint, at, read, fieldOf<D>(load(update.velocity, batch), u));
@@ -336,7 +366,8 @@ void updateParticles(const Patch& patch, const Gas&, const ParticleUpdate<D>& up
     for (std::size_t d = 0; d < D; ++d) {
       const auto& span = footprint.along[d];
       const int axis = static_cast<int>(d);
-      const Lanes lower = span.lower + dt * taken.lower[d][axis], upper = span.upper + dt * taken.upper[d][axis];
+      const Lanes lower = span.lower + dt * taken.normal(axis, taken.lower[d]);
+      const Lanes upper = span.upper + dt * taken.normal(axis, taken.upper[d]);
       centre[axis] = 0.5 * (lower + upper);
       size[axis] = upper - lower;
       limitEdges(batch, span.length(), size[axis], Footprint<D>::longest * patch.level().spacing(axis), factor);

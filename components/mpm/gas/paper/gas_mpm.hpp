@@ -26,7 +26,7 @@ class GasMpm : public GasMethod<GasDynamics> {
   void scheduleMeasureError(TaskList&, const reference::GasReference&, const reference::Clock&) const override;
 
  private:
-  /// Cells beyond a patch whose particles touch its nodes.
+  /// Layers of cells around a patch whose particles touch its nodes.
   static constexpr int reach = Linear<D>::reach;
 
   /// Whether particles keep their mass, so that mass and energy are conserved, instead of (4)-(5).

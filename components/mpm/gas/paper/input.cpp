@@ -18,7 +18,7 @@ const Schema<Redistribution>& redistributeSchema() {
           .choice(
               "mode", &Redistribution::mode, {{"split_merge", Mode::splitMerge}, {"reseed", Mode::reseed}},
               Mode::splitMerge,
-              "halve large particles and join close ones, or put new ones at the centres of equal parts of the cell")
+              "halve large particles and merge close ones, or put new ones at the centres of equal parts of the cell")
           .ours()
           .value("min_particles", &Redistribution::minParticles, 2, "1",
                  "smallest number of particles in a cell that is not empty", input::positive())
@@ -71,11 +71,10 @@ void checkSeeds(const Redistribution& how, int dimension) {
   const int along = how.seededAlongAxis(dimension);
   const int seeds = static_cast<int>(std::pow(along, dimension));
   if (how.mode != Redistribution::Mode::reseed || seeds <= how.maxParticles) return;
-  throw InputError(
-      {{how.where, "MPM/gas_dynamics/redistribute",
-        fmt::format("target_particles: {} in a cell become {}, {} along each of {} axes, but max_particles is "
-                    "{}; lower one or raise the other",
-                    how.targetParticles, seeds, along, dimension, how.maxParticles)}});
+  throw InputError({{how.where, "MPM/gas_dynamics/redistribute",
+                     fmt::format("target_particles: {} in a cell become {}, {} along each of {} axes, but "
+                                 "max_particles is {}; decrease target_particles or increase max_particles",
+                                 how.targetParticles, seeds, along, dimension, how.maxParticles)}});
 }
 
 }  // namespace tushar::mpm::gas::paper

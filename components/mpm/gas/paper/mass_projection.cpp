@@ -76,7 +76,7 @@ class MassProjection : public simulation::Analysis {
   const std::vector<Gas>* materials_;
 };
 
-/// Why the module cannot measure this run; empty if it can.
+/// Why the module cannot be used in this run; empty if it can.
 std::string misfit(const GasMpm<1>* mpm, const Level& level) {
   if (level.dimension() > 1)
     return fmt::format("works only in one dimension, like its theorem, but this grid has {}; remove the module",
@@ -162,8 +162,8 @@ void measureMassProjection(const Patch& patch, const Gas&, ParticleView<const Ve
 
 simulation::AnalysisKind massProjectionKind() {
   return simulation::plainModule(
-      "massProjection", "error of the nodal mass against its bound",
-      "Error of the nodal mass against its bound, equations (19)-(23) of Tran, Kim & Berzins.", makeModule);
+      "massProjection", "error of the nodal mass, compared with its bound",
+      "Error of the nodal mass, compared with its bound, equations (19)-(23) of Tran, Kim & Berzins.", makeModule);
 }
 
 }  // namespace tushar::mpm::gas::paper

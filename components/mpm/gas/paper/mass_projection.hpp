@@ -20,13 +20,14 @@ simulation::AnalysisKind massProjectionKind();
 namespace g {
 using namespace gas::g;
 inline constexpr NodeLabel<double> massProjectionError{
-    "g.massProjectionError", "kg", "E_m^i: integral of shape function times density, less the mass from particles"};
+    "g.massProjectionError", "kg",
+    "E_m^i: integral of shape function times density, minus the mass gathered from particles"};
 inline constexpr NodeLabel<double> massProjectionBound{"g.massProjectionBound", "kg", "bound of |E_m^i|"};
 }  // namespace g
 
-/// The largest |E_m^i| over the volume of a cell, which is |E_m^i| / h in the paper.
+/// The largest |E_m^i| divided by the volume of a cell, which is |E_m^i| / h in the paper.
 inline constexpr ReductionLabel<Maximum> massProjectionError{
-    "MassProjectionError", "kg/m^3", "largest error of the mass projection, over the cell volume"};
+    "MassProjectionError", "kg/m^3", "largest error of the mass projection, divided by the cell volume"};
 inline constexpr ReductionLabel<Maximum> massProjectionRatio{
     "MassProjectionRatio", "1", "largest ratio of the error of the mass projection to its bound"};
 
@@ -40,7 +41,7 @@ struct PlacedDensity {
 /// sqrt(1 / (12 N²) + 1/N sum_k (z_k - (2k-1)/(2N))²), (20) with z in [0,1]; Hickernell, Math. Comp. 67 (1998) 299.
 double discrepancy(const std::vector<PlacedDensity>& particles);
 
-/// The contribution of a cell to the errors of its lower and its upper node, over its volume [kg/m³].
+/// The contribution of a cell to the errors of its lower and its upper node, divided by its volume [kg/m³].
 struct CellProjection {
   std::array<double, 2> error{};  ///< one bracket of (22)
   std::array<double, 2> bound{};  ///< one term of (23); |d(rho S_i)/dx| at xi is its root mean square over the cell
@@ -50,8 +51,8 @@ struct CellProjection {
 /// the cell: piecewise linear between its points, from place 0 to place 1.
 CellProjection projectCell(const std::vector<PlacedDensity>& particles, const std::vector<PlacedDensity>& line);
 
-/// E_m^i and its bound at the nodes [kg], the greatest |E_m^i| over the cell volume [kg/m³] and over its bound. A node
-/// beside a cell without particles has neither: it gets 0 for both.
+/// E_m^i and its bound at the nodes [kg], and the greatest ratios of |E_m^i| to the cell volume [kg/m³] and to its
+/// bound. A node beside a cell without particles has neither: it gets 0 for both.
 void measureMassProjection(const Patch& patch, const Gas& gas, ParticleView<const Vec<1>> x,
                            ParticleView<const double> density, NodeView<double> error, NodeView<double> bound,
                            Maximum& greatestError, Maximum& greatestRatio);

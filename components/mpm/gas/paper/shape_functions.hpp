@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// The quantities common to the positions of all cells of a level, computed once.
+/// Quantities that are the same for all cells of a level, computed once.
 template <int D>
 struct CellPlaces {
   Vec<D> middle;          ///< middle of the grid, m

@@ -21,11 +21,11 @@ void refuseOverlap(const Gas& gas, const GasObject& object, const Vec3& point) {
 InputProblem emptyBody(const Level& level, const GasObject& object) {
   const std::string leftOut = level.axesLeftOut(), middle = ", in the middle of the grid along " + leftOut;
   const Index3& each = object.particlesPerCell;
-  return {object.where, "geom_object",
-          fmt::format(
-              "it has no particle: none of the points where particles start ([{},{},{}] per cell{}) lies inside its "
-              "shape",
-              each[0], each[1], each[2], leftOut.empty() ? "" : middle)};
+  return {
+      object.where, "geom_object",
+      fmt::format(
+          "it has no particle: none of the points where particles start ([{},{},{}] per cell{}) is inside its shape",
+          each[0], each[1], each[2], leftOut.empty() ? "" : middle)};
 }
 
 void refuseImpossible(const GasObject& object, const Vec3& point, double density, double pressure,

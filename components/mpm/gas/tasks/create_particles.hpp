@@ -67,8 +67,8 @@ void checkBodies(const Level& level, const Gas& gas) {
 }
 
 /// Fills each body with its particles: `particlesPerCell` along each axis, in the middle of equal parts of the cell,
-/// x_p = (c + (k + 1/2) / N) h, or where the body's `placement` puts them, if its shape owns that point. They have the
-/// body's state at that point.
+/// x_p = (c + (k + 1/2) / N) h, or as the `placement` of the body says. Only points that belong to the shape get a
+/// particle. They have the body's state at that point.
 ///
 /// The id of a particle is its cell's number and its place in the cell, so that it does not depend on the patches.
 /// Throws InputError where two bodies contain the same point, and for a body without a particle on the grid.

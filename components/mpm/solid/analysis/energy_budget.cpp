@@ -13,8 +13,7 @@ namespace tushar::mpm::solid {
 
 namespace {
 
-/// Whether all work of strain is stored, as a function of F: then StrainEnergy is exact, however large the strain of a
-/// step.
+/// Whether all strain work is stored as a function of F; then StrainEnergy is exact, even for large strains in a step.
 bool storesAllStrain(const Problem& problem) {
   return !problem.start.solution &&
          std::all_of(problem.materials.begin(), problem.materials.end(), [](const Material& material) {
@@ -48,7 +47,8 @@ class EnergyBudget : public simulation::Analysis {
 std::unique_ptr<simulation::Analysis> makeModule(const Component& component, const Level&) {
   const auto* solids = dynamic_cast<const Solids*>(&component);
   if (!solids || !solids->measuresWork())
-    throw std::invalid_argument("only solids with explicit time steps have an energy budget; remove the module");
+    throw std::invalid_argument(
+        "the energy budget is available only for solids with explicit time steps; remove the module");
   return std::make_unique<EnergyBudget>(storesAllStrain(solids->problem()));
 }
 

@@ -45,15 +45,16 @@ std::unique_ptr<simulation::Analysis> makeManufacturedError(const Component& com
   const auto* solids = dynamic_cast<const Solids*>(&component);
   if (!solids || !solids->problem().start.solution)
     throw std::invalid_argument(
-        "measures against the solution of <RunMMSProblem> in <MPM>, which is missing; remove the module");
+        "compares with the solution of <RunMMSProblem> in <MPM>, which is missing; remove the module");
   return make(solids->problem(), level.dimension());
 }
 
 }  // namespace
 
 simulation::AnalysisKind manufacturedErrorKind() {
-  return simulation::plainModule("manufacturedError", "errors of particles against the solution of RunMMSProblem",
-                                 "Errors of particles against the solution of RunMMSProblem.", makeManufacturedError);
+  return simulation::plainModule("manufacturedError", "errors of particles relative to the solution of RunMMSProblem",
+                                 "Errors of particles relative to the solution of RunMMSProblem.",
+                                 makeManufacturedError);
 }
 
 }  // namespace tushar::mpm::solid

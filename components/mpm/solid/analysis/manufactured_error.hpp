@@ -6,7 +6,8 @@
 
 namespace tushar::mpm::solid {
 
-/// `manufacturedError`: the errors of the particles' displacement and velocity against the solution of `RunMMSProblem`.
+/// `manufacturedError`: the errors of the particles' displacement and velocity relative to the solution of
+/// `RunMMSProblem`.
 simulation::AnalysisKind manufacturedErrorKind();
 
 /// Lengths of u_p - u(X_p, t) and v_p - v(X_p, t), where X_p = x_p - u_p is the initial position of the particle.

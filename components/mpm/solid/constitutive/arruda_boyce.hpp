@@ -10,10 +10,10 @@
 
 namespace tushar::mpm::solid {
 
-/// Rubber whose chains lock: the network of eight chains of Arruda & Boyce, J. Mech. Phys. Solids 41 (1993) 389, eq.
-/// 33, whose inverse of Langevin's function is a series of five terms, here of the isochoric part of the deformation,
-/// with the pressure of comp_neo_hook. With I the trace of J^(-2/3) F Fᵀ and l the stretch at which chains lock, W = G
-/// sum_k c_k (I^k - 3^k) / l^(2k-2) + K/2 ((J² - 1)/2 - ln J), c = 1/2, 1/20, 11/1050, 19/7000, 519/673750.
+/// Rubber with chains of limited stretch: the eight-chain network of Arruda & Boyce, J. Mech. Phys. Solids 41 (1993)
+/// 389, eq. 33, whose inverse of Langevin's function is a series of five terms, here of the isochoric part of the
+/// deformation, with the pressure of comp_neo_hook. With I the trace of J^(-2/3) F Fᵀ and l the stretch at which chains
+/// lock, W = G sum_k c_k (I^k - 3^k) / l^(2k-2) + K/2 ((J² - 1)/2 - ln J), c = 1/2, 1/20, 11/1050, 19/7000, 519/673750.
 struct ArrudaBoyce8 {
   struct State {};
   using Capabilities = CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature,
@@ -53,7 +53,7 @@ struct ArrudaBoyce8 {
       return change;
     });
   }
-  /// c² = (K + 4/3 G (s + 2 I ds/dI)) J / rho_0: at least that of Uintah's, which has G alone.
+  /// c² = (K + 4/3 G (s + 2 I ds/dI)) J / rho_0: at least as large as Uintah's, which is computed with G.
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     const Network n(d.deformationGradient);
     const double shear = shearModulus * (stiffening(n.first) + 2 * n.first * stiffeningSlope(n.first));

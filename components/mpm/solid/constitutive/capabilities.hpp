@@ -59,8 +59,8 @@ struct PlaceAndTime {
 
 // Stress and its tangent.
 
-/// J sigma, Pa, and the wave speed, m/s, of several particles at once, with the arithmetic of one: templates for a Real
-/// that is double or Lanes. Offer it where explicit steps spend their time in the stress.
+/// J sigma, Pa, and the wave speed, m/s, of several particles at once, with the same arithmetic as for one: templates
+/// for a Real that is double or Lanes. Offer it where explicit steps spend their time in the stress.
 struct Vectorized {
   struct Name {
     int kirchhoffStress;
@@ -70,7 +70,7 @@ struct Vectorized {
     constexpr bool isNamed = providesCapability<M, Vectorized>;
     constexpr bool isAbsent = requires { &Both<M, Name>::kirchhoffStress; };
     static_assert(isNamed || isAbsent,
-                  "a member kirchhoffStress is used only if the model names capability::Vectorized");
+                  "the member `kirchhoffStress` is used only if the model lists capability::Vectorized");
     constexpr bool isFunctionOfF = providesCapability<M, DependsOnDeformationOnly>;
     static_assert(!isNamed || isFunctionOfF, "capability::Vectorized needs capability::DependsOnDeformationOnly");
     constexpr bool hasStress = requires { Member<M, TensorOf<Lanes>, const TensorOf<Lanes>&>{&M::kirchhoffStress}; };
@@ -98,7 +98,7 @@ struct NominalTangent {
     constexpr bool isNamed = providesCapability<M, NominalTangent>;
     constexpr bool isAbsent = requires { &Both<M, Name>::nominalTangent; };
     static_assert(isNamed || isAbsent,
-                  "a member nominalTangent is used only if the model names capability::NominalTangent");
+                  "the member `nominalTangent` is used only if the model lists capability::NominalTangent");
     constexpr bool fits = requires {
       Member<M, Matrix9, const Deformation&, const Matrix3&, const typename M::State&>{&M::nominalTangent};
     };
@@ -122,7 +122,7 @@ struct BulkSpeed {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, BulkSpeed>;
     constexpr bool isAbsent = requires { &Both<M, Name>::bulkSpeed; };
-    static_assert(isNamed || isAbsent, "a member bulkSpeed is used only if the model names capability::BulkSpeed");
+    static_assert(isNamed || isAbsent, "the member `bulkSpeed` is used only if the model lists capability::BulkSpeed");
     constexpr bool fits = requires {
       Member<M, double, double, const Deformation&, const Matrix3&, const typename M::State&>{&M::bulkSpeed};
     };
@@ -145,7 +145,7 @@ struct InitialWaveSpeed {
     constexpr bool isNamed = providesCapability<M, InitialWaveSpeed>;
     constexpr bool isAbsent = requires { &Both<M, Name>::initialWaveSpeed; };
     static_assert(isNamed || isAbsent,
-                  "a member initialWaveSpeed is used only if the model names capability::InitialWaveSpeed");
+                  "the member `initialWaveSpeed` is used only if the model lists capability::InitialWaveSpeed");
     constexpr bool fits = requires { Member<M, double, double>{&M::initialWaveSpeed}; };
     static_assert(!isNamed || fits,
                   "capability::InitialWaveSpeed needs the public member `double initialWaveSpeed(double "
@@ -164,7 +164,7 @@ struct OwnViscosity {
     constexpr bool isNamed = providesCapability<M, OwnViscosity>;
     constexpr bool isAbsent = requires { &Both<M, Name>::ownViscosity; };
     static_assert(isNamed || isAbsent,
-                  "a member ownViscosity is used only if the model names capability::OwnViscosity");
+                  "the member `ownViscosity` is used only if the model lists capability::OwnViscosity");
     constexpr bool fits = requires {
       { &M::ownViscosity } -> std::same_as<const ArtificialViscosity*>;
     };
@@ -177,8 +177,8 @@ struct OwnViscosity {
 
 // Heat.
 
-/// Constants of the material besides those of the model, filled in after the model has been read. Offer it where the
-/// model needs the density, the specific heat or the melting temperature.
+/// Constants of the material in addition to those of the model, filled in after the model has been read. Offer it where
+/// the model needs the density, the specific heat or the melting temperature.
 struct ConstantsOfMaterial {
   struct Name {
     int material;
@@ -188,7 +188,7 @@ struct ConstantsOfMaterial {
     constexpr bool isNamed = providesCapability<M, ConstantsOfMaterial>;
     constexpr bool isAbsent = requires { &Both<M, Name>::material; };
     static_assert(isNamed || isAbsent,
-                  "a member material is filled only if the model names capability::ConstantsOfMaterial");
+                  "the member `material` is filled only if the model lists capability::ConstantsOfMaterial");
     constexpr bool fits = requires {
       { &M::material } -> std::same_as<MaterialConstants M::*>;
     };
@@ -198,7 +198,7 @@ struct ConstantsOfMaterial {
   }
 };
 
-/// Change of the temperature by the work of the step, K; `stress` and `state` are those at its end. Offer it for
+/// Change of the temperature due to the work of the step, K; `stress` and `state` are those at its end. Offer it for
 /// materials that plastic work or compression heats.
 struct TemperatureChange {
   struct Name {
@@ -209,7 +209,7 @@ struct TemperatureChange {
     constexpr bool isNamed = providesCapability<M, TemperatureChange>;
     constexpr bool isAbsent = requires { &Both<M, Name>::temperatureChange; };
     static_assert(isNamed || isAbsent,
-                  "a member temperatureChange is used only if the model names capability::TemperatureChange");
+                  "the member `temperatureChange` is used only if the model lists capability::TemperatureChange");
     constexpr bool fits = requires {
       Member<M, double, const Deformation&, const Matrix3&, const typename M::State&>{&M::temperatureChange};
     };
@@ -231,7 +231,7 @@ struct HeatCapacity {
     constexpr bool isNamed = providesCapability<M, HeatCapacity>;
     constexpr bool isAbsent = requires { &Both<M, Name>::heatCapacity; };
     static_assert(isNamed || isAbsent,
-                  "a member heatCapacity is used only if the model names capability::HeatCapacity");
+                  "the member `heatCapacity` is used only if the model lists capability::HeatCapacity");
     constexpr bool fits = requires { Member<M, double, const Matrix3&, double>{&M::heatCapacity}; };
     static_assert(!isNamed || fits,
                   "capability::HeatCapacity needs the public member `double heatCapacity(const Matrix3& "
@@ -250,7 +250,7 @@ struct ViscousHeat {
     constexpr bool isNamed = providesCapability<M, ViscousHeat>;
     constexpr bool isAbsent = requires { &Both<M, Name>::addViscousHeat; };
     static_assert(isNamed || isAbsent,
-                  "a member addViscousHeat is used only if the model names capability::ViscousHeat");
+                  "the member `addViscousHeat` is used only if the model lists capability::ViscousHeat");
     constexpr bool fits = requires { Member<M, void, typename M::State&, double>{&M::addViscousHeat}; };
     static_assert(!isNamed || fits,
                   "capability::ViscousHeat needs the public member `void addViscousHeat(State&, double heat) const`");
@@ -258,8 +258,7 @@ struct ViscousHeat {
   }
 };
 
-/// Whether a point with F, a stress (Pa) and a temperature (K) is molten: it fails then where the scene has an
-/// <erosion>.
+/// Whether a point with F, a stress (Pa) and a temperature (K) is molten: it then fails if the scene has an <erosion>.
 struct Melting {
   struct Name {
     int isMolten;
@@ -268,12 +267,33 @@ struct Melting {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, Melting>;
     constexpr bool isAbsent = requires { &Both<M, Name>::isMolten; };
-    static_assert(isNamed || isAbsent, "a member isMolten is used only if the model names capability::Melting");
+    static_assert(isNamed || isAbsent, "the member `isMolten` is used only if the model lists capability::Melting");
     constexpr bool fits = requires { Member<M, bool, const Matrix3&, const Matrix3&, double>{&M::isMolten}; };
     static_assert(
         !isNamed || fits,
         "capability::Melting needs the public member `bool isMolten(const Matrix3& deformationGradient, const Matrix3& "
         "stress, double temperature) const`");
+    return true;
+  }
+};
+
+/// Whether plastic flow in the step has lost its stability; `stress` (Pa) and `state` are those at its end, before
+/// damage. The particle fails then where the scene has an <erosion>.
+struct Stability {
+  struct Name {
+    int isUnstable;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = providesCapability<M, Stability>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::isUnstable; };
+    static_assert(isNamed || isAbsent, "a member isUnstable is used only if the model names capability::Stability");
+    constexpr bool fits = requires {
+      Member<M, bool, const Deformation&, const Matrix3&, const typename M::State&>{&M::isUnstable};
+    };
+    static_assert(!isNamed || fits,
+                  "capability::Stability needs the public member `bool isUnstable(const Deformation&, const Matrix3& "
+                  "stress, const State&) const`");
     return true;
   }
 };
@@ -290,7 +310,8 @@ struct OptionalState {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, OptionalState>;
     constexpr bool isAbsent = requires { &Both<M, Name>::keepsState; };
-    static_assert(isNamed || isAbsent, "a member keepsState is used only if the model names capability::OptionalState");
+    static_assert(isNamed || isAbsent,
+                  "the member `keepsState` is used only if the model lists capability::OptionalState");
     constexpr bool fits = requires { Member<M, bool>{&M::keepsState}; };
     static_assert(!isNamed || fits, "capability::OptionalState needs the public member `bool keepsState() const`");
     return true;
@@ -307,7 +328,8 @@ struct PartialState {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, PartialState>;
     constexpr bool isAbsent = requires { &Both<M, Name>::keptNumbers; };
-    static_assert(isNamed || isAbsent, "a member keptNumbers is used only if the model names capability::PartialState");
+    static_assert(isNamed || isAbsent,
+                  "the member `keptNumbers` is used only if the model lists capability::PartialState");
     constexpr bool fits = requires { Member<M, int>{&M::keptNumbers}; };
     static_assert(!isNamed || fits, "capability::PartialState needs the public member `int keptNumbers() const`");
     return true;
@@ -324,14 +346,15 @@ struct Nonlocal {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, Nonlocal>;
     constexpr bool isAbsent = requires { &Both<M, Name>::nonlocalLength; };
-    static_assert(isNamed || isAbsent, "a member nonlocalLength is used only if the model names capability::Nonlocal");
+    static_assert(isNamed || isAbsent,
+                  "the member `nonlocalLength` is used only if the model lists capability::Nonlocal");
     constexpr bool fits = requires { Member<M, double>{&M::nonlocalLength}; };
     static_assert(!isNamed || fits, "capability::Nonlocal needs the public member `double nonlocalLength() const`");
     return true;
   }
 };
 
-/// Variables of Uintah's model of the same name, which are always 0 here, for scenes that save them.
+/// Variables of Uintah's model of the same name that are always 0 in this model, for scenes that save them.
 struct AbsentVariables {
   struct Name {
     int absentVariables;
@@ -341,7 +364,7 @@ struct AbsentVariables {
     constexpr bool isNamed = providesCapability<M, AbsentVariables>;
     constexpr bool isAbsent = requires { &Both<M, Name>::absentVariables; };
     static_assert(isNamed || isAbsent,
-                  "a member absentVariables is used only if the model names capability::AbsentVariables");
+                  "the member `absentVariables` is used only if the model lists capability::AbsentVariables");
     constexpr bool fits = requires { requires isListOfVariables<decltype(&M::absentVariables)>; };
     static_assert(!isNamed || fits,
                   "capability::AbsentVariables needs the public member `static constexpr std::array<StateVariable, N> "
@@ -351,9 +374,10 @@ struct AbsentVariables {
 };
 
 /// Every capability that a constitutive model can name.
-using OfModels = CapabilityList<DependsOnDeformationOnly, IgnoresTemperature, FBar, PlaceAndTime, Vectorized,
-                                NominalTangent, BulkSpeed, InitialWaveSpeed, InitialVolumeRatio, InitialStress,
-                                OwnViscosity, ConstantsOfMaterial, TemperatureChange, HeatCapacity, ViscousHeat,
-                                Melting, OptionalState, PartialState, StateByParticle, Nonlocal, AbsentVariables>;
+using OfModels =
+    CapabilityList<DependsOnDeformationOnly, IgnoresTemperature, FBar, PlaceAndTime, Vectorized, NominalTangent,
+                   BulkSpeed, InitialWaveSpeed, InitialVolumeRatio, InitialStress, OwnViscosity, ConstantsOfMaterial,
+                   TemperatureChange, HeatCapacity, ViscousHeat, Melting, Stability, OptionalState, PartialState,
+                   StateByParticle, Nonlocal, AbsentVariables>;
 
 }  // namespace tushar::mpm::solid::capability

@@ -21,7 +21,7 @@ struct InitialVolumeRatio {
     constexpr bool isNamed = providesCapability<M, InitialVolumeRatio>;
     constexpr bool isAbsent = requires { &Both<M, Name>::initialVolumeRatio; };
     static_assert(isNamed || isAbsent,
-                  "a member initialVolumeRatio is used only if the model names capability::InitialVolumeRatio");
+                  "the member `initialVolumeRatio` is used only if the model lists capability::InitialVolumeRatio");
     constexpr bool fits = requires { Member<M, double>{&M::initialVolumeRatio}; };
     static_assert(!isNamed || fits,
                   "capability::InitialVolumeRatio needs the public member `double initialVolumeRatio() const`");
@@ -40,7 +40,7 @@ struct InitialStress {
     constexpr bool isNamed = providesCapability<M, InitialStress>;
     constexpr bool isAbsent = requires { &Both<M, Name>::initialStress; };
     static_assert(isNamed || isAbsent,
-                  "a member initialStress is used only if the model names capability::InitialStress");
+                  "the member `initialStress` is used only if the model lists capability::InitialStress");
     constexpr bool fits = requires { Member<M, Matrix3>{&M::initialStress}; };
     static_assert(!isNamed || fits,
                   "capability::InitialStress needs the public member `Matrix3 initialStress() const`");
@@ -60,8 +60,8 @@ struct StateByParticle {
       { model.initialState(Birth{}) } -> std::same_as<typename M::State>;
     };
     static_assert(isNamed == fits,
-                  "a public member `State initialState(const Birth&) const` and capability::StateByParticle need each "
-                  "other");
+                  "capability::StateByParticle and the public member `State initialState(const Birth&) const` require "
+                  "each other");
     return true;
   }
 };

@@ -12,7 +12,7 @@ struct CapabilityList {
   template <class Capability>
   static constexpr bool contains = (std::same_as<Capability, Names> || ...);
 
-  /// True, or compilation stops with a sentence about a member of T that disagrees with its capabilities. The list
+  /// True; otherwise compilation stops with a message about a member of T that contradicts its capabilities. The list
   /// itself holds all capabilities that a type of this kind may name.
   template <class T>
   static consteval bool check() {
@@ -30,8 +30,8 @@ struct CapabilityList {
 template <class T, class Capability>
 inline constexpr bool providesCapability = T::Capabilities::template contains<Capability>;
 
-/// A name that T and `Name` both have is ambiguous here: `requires { &Both<T, Name>::x; }` is true exactly where T has
-/// no member x, of whatever type and access.
+/// A name that T and `Name` both have is ambiguous here: `requires { &Both<T, Name>::x; }` is true if and only if T has
+/// no member x, of any type and access.
 template <class T, class Name>
 struct Both : T, Name {};
 

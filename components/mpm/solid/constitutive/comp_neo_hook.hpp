@@ -38,7 +38,7 @@ struct CompNeoHook {
            {"yield_stress", "hardening_modulus", "alpha", "yield_distrib", "yield_range", "yield_seed"})
         tags.ignored(tag, "it does not yield unless <usePlasticity> is true");
       for (const char* tag : {"strain_limit", "reduction_factor"}) tags.ignored(tag, "from older versions of Uintah");
-      tags.ignored("useModifiedEOS", "only Uintah's coupled fluid reads it");
+      tags.ignored("useModifiedEOS", "only the fluid coupling of Uintah uses it");
       addInitialPressure(tags);
       refuseSwitch(tags, "usePlasticity", "for plasticity, use the model UCNH");
       refuseSwitch(tags, "reinitializeCMData", "bodies keep their state from the start");

@@ -84,7 +84,7 @@ consteval bool checkFunctions() {
   return true;
 }
 
-/// True, or compilation stops with a sentence that says what is missing in M.
+/// True; otherwise compilation stops with a message that says what is missing in M.
 template <class M>
 consteval bool isConstitutiveModel() {
   constexpr bool hasState = requires { typename M::State; };

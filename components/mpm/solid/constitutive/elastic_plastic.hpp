@@ -12,6 +12,7 @@
 #include "components/mpm/solid/constitutive/plasticity/return_tangent.hpp"
 #include "components/mpm/solid/constitutive/plasticity/shear_and_melting.hpp"
 #include "components/mpm/solid/constitutive/plasticity/specific_heat.hpp"
+#include "components/mpm/solid/constitutive/plasticity/stability.hpp"
 #include "components/mpm/solid/constitutive/polar.hpp"
 #include "components/mpm/solid/constitutive/tangent.hpp"
 #include "core/input/refuse.hpp"
@@ -34,10 +35,10 @@ struct ElasticPlastic {
     double energy;                                               ///< J/kg
     std::array<Tensor, MaxwellDeviator::greatestCount> maxwell;  ///< s_j of the Maxwell elements, Pa
   };
-  using Capabilities =
-      CapabilityList<capability::AbsentVariables, capability::ConstantsOfMaterial, capability::NominalTangent,
-                     capability::BulkSpeed, capability::InitialWaveSpeed, capability::TemperatureChange,
-                     capability::HeatCapacity, capability::ViscousHeat, capability::Melting, capability::PartialState>;
+  using Capabilities = CapabilityList<capability::AbsentVariables, capability::ConstantsOfMaterial,
+                                      capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed,
+                                      capability::TemperatureChange, capability::HeatCapacity, capability::ViscousHeat,
+                                      capability::Melting, capability::Stability, capability::PartialState>;
   static constexpr std::array<StateVariable, 9> stateVariables{
       {{"p.plasticStrain", "1", "equivalent plastic strain"},
        {"p.plasticStrainRate", "1/s", "equivalent plastic strain rate in the last step"},
@@ -65,6 +66,7 @@ struct ElasticPlastic {
   bool computesHeat = false;  ///< otherwise the specific heat is that of the material
   SpecificHeatModel specificHeat;
   std::variant<VonMisesYield, GursonYield> yieldCondition;    ///< with GursonYield the model is GursonPlastic
+  StabilityCheck stability;                                   ///< what flow makes particles fail
   bool poresEvolve = true;                                    ///< this and the following: only with GursonYield
   double initialPorosity = 0.002, porosityDeviation = 0.002;  ///< f at the start, mean and standard deviation, 1
   bool porositySpreads = false;                               ///< f at the start is normally distributed
@@ -124,7 +126,7 @@ struct ElasticPlastic {
                              const State&) const {
     return stressWork(d, oldStress, stress);
   }
-  /// Rise of the temperature by plastic work, chi sigma_y de_p / (rho c), and by the change of volume.
+  /// Increase of the temperature due to plastic work, chi sigma_y de_p / (rho c), and to the change of volume.
   double temperatureChange(const Deformation& d, const Matrix3& stress, const State& state) const {
     const double equivalent = std::sqrt(1.5) * deviator(stress).norm(), j = d.deformationGradient.determinant();
     const VolumeState volume = volumeState(d, 0, 0);
@@ -145,6 +147,15 @@ struct ElasticPlastic {
   void addViscousHeat(State& state, double heat) const { state.energy += heat; }
   bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const {
     return temperature > compressionOf(deformation.determinant(), -stress.trace() / 3, temperature).meltTemperature;
+  }
+  bool isUnstable(const Deformation& d, const Matrix3& stress, const State& state) const {
+    const FlowState end = flowStateOf(compressionOf(d, stress), state, d.timeStep);
+    if (!(state.plasticStrainRate > 0) || isFluid(end)) return false;
+    const double hardening = std::visit(
+        [&]<class Flow>(const Flow& model) { return RadialReturn<Flow>(model, end, d.timeStep).hardening(end); }, flow);
+    const PlasticTangent tangent{bulkModulus, end.shearModulus, hardening};
+    const Matrix3 rate = 0.5 * (d.velocityGradient + d.velocityGradient.transpose());
+    return std::visit([&](const auto& check) { return check.fails(tangent, stress, rate); }, stability);
   }
 
  private:
@@ -184,10 +195,10 @@ struct ElasticPlastic {
   static void acceptWhatDoesNotMatter(input::Schema<ElasticPlastic>& tags) {
     tags.ignored("tolerance", "the return is exact to round-off")
         .ignored("coeff_thermal_expansion", "the equation of state includes the temperature")
-        .ignored("critical_stress", "Uintah does not read it either")
-        .ignored("isothermal", "Uintah does not read it either")
-        .ignored("check_failure", "Uintah does not read it either")
-        .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
+        .ignored("critical_stress", "Uintah does not use it either")
+        .ignored("isothermal", "Uintah does not use it either")
+        .ignored("check_failure", "Uintah does not use it either")
+        .ignored("useModifiedEOS", "only the fluid coupling of Uintah uses it")
         .ignored("evolve_damage", "use a <damage_model>")
         .ignored("do_melting", "as in Uintah, there is no shear stress above <melt_temp>");
     declarePores(tags);
@@ -206,8 +217,8 @@ struct ElasticPlastic {
     tags.forms({input::choiceForm({"plastic_convergence_algo"}, {"radialReturn", "biswajit"})});
     typedTag(tags, "yield_condition", &ElasticPlastic::yieldCondition,
              "the model of the yield surface; vonMises if left out", false);
-    refuseTypes(tags, "stability_check", {"none", "drucker", "becker", "drucker_becker"},
-                "has no effect; only none is allowed with <erosion>");
+    typedTag(tags, "stability_check", &ElasticPlastic::stability,
+             "with <erosion>, particles fail where plastic flow loses its stability; none if left out", false);
   }
 
   /// Tags that only the yield condition gurson uses.
@@ -219,8 +230,8 @@ struct ElasticPlastic {
         .value("initial_std_porosity", &Self::porosityDeviation, 0.002, "1", "for gurson: standard deviation",
                input::nonNegative())
         .choice("initial_porosity_distrib", &Self::porositySpreads, {{"constant", false}, {"gauss", true}}, false,
-                "for gurson: distribution of the porosity at the start over the particles; the random numbers differ "
-                "from Uintah's")
+                "for gurson: distribution of the initial porosity among the particles; the random numbers differ from "
+                "Uintah's")
         .value("frac_nucleation", &Self::nucleating, 0.1, "1", "for gurson: total porosity that nucleates",
                input::nonNegative())
         .value("meanstrain_nucleation", &Self::nucleationStrain, 0.3, "1",
@@ -331,7 +342,7 @@ struct ElasticPlastic {
     const VolumeState state = volumeState(d, old, energy);
     return std::visit([&](const auto& model) { return model.meanStress(state); }, equationOfState);
   }
-  /// Derivatives of the mean stress by the dilatation of the step and by ln J, Pa.
+  /// Derivatives of the mean stress with respect to the dilatation of the step and to ln J, Pa.
   std::pair<double, double> meanStressSlopes(const Deformation& d, double old, double energy) const {
     const auto at = [&](double dilated, double swollen) {
       VolumeState state = volumeState(d, old, energy);

@@ -44,7 +44,7 @@ inline double mixedPressure(const Murnaghan& unburned, const Jwl& burned, double
   return (1 - fraction) * unburned.pressure(j) + fraction * burned.pressure(j);
 }
 
-/// Declares a tag with three numbers, which a model keeps as an array: it must be trivially copyable.
+/// Declares a tag with three numbers, which a model stores as an array, since it must be trivially copyable.
 template <class S>
 void declareVector(input::Schema<S>& tags, const std::string& tag, std::array<double, 3> S::*member, bool isRequired,
                    const std::string& sentence) {

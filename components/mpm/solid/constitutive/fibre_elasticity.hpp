@@ -56,19 +56,19 @@ struct FibreElasticity {
     tags.required("bulk_modulus", in<Model>(&FibreElasticity::bulkModulus), "Pa", "K", input::positive())
         .required("c1", in<Model>(&FibreElasticity::c1), "Pa", "first constant of the matrix", input::positive())
         .required("c2", in<Model>(&FibreElasticity::c2), "Pa", "second constant of the matrix", input::nonNegative())
-        .required("c3", in<Model>(&FibreElasticity::c3), "Pa", "factor of the stress of fibres while they straighten",
-                  input::nonNegative())
+        .required("c3", in<Model>(&FibreElasticity::c3), "Pa",
+                  "factor of the stress of fibres while they are being straightened", input::nonNegative())
         .required("c4", in<Model>(&FibreElasticity::c4), "1", "exponential growth of that stress with the stretch",
                   input::nonNegative())
         .required("c5", in<Model>(&FibreElasticity::c5), "Pa", "modulus of straight fibres", input::nonNegative())
         .required("fiber_stretch", in<Model>(&FibreElasticity::straight), "1", "stretch at which fibres are straight",
                   input::atLeast(1))
         .custom("direction_of_symm", readFibre, {"direction_of_symm"},
-                "direction of the fibres at the start; its length does not matter")
+                "direction of the fibres at the start; its length has no effect")
         .forms({input::typeForm({"direction_of_symm"}, std::string(input::typeName<Vec3>), 1)})
         .ignored("max_fiber_strain", "only Uintah's failure_option 1 uses it")
         .ignored("max_matrix_strain", "only Uintah's failure_option 1 uses it")
-        .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it");
+        .ignored("useModifiedEOS", "only the fluid coupling of Uintah uses it");
     refuseSwitch(tags, "failure_option", "neither the fibres nor the matrix fail");
   }
 

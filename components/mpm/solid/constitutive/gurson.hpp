@@ -73,7 +73,7 @@ struct GursonPlastic {
                              const State&) const {
     return stressWork(d, oldStress, stress);
   }
-  /// By plastic work and by the change of volume, K.
+  /// Due to plastic work and to the change of volume, K.
   double temperatureChange(const Deformation& d, const Matrix3&, const State& state) const {
     const VolumeState volume = base.volumeState(d, 0, 0);
     const double byVolume = std::visit([&](const auto& model) { return model.heating(volume); }, base.equationOfState);

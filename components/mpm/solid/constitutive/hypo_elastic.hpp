@@ -26,7 +26,7 @@ struct HypoElastic : IsotropicModuli {
                       input::nonNegative())
             .required("K", input::memberOf<HypoElastic>(&HypoElastic::bulkModulus), "Pa", "bulk modulus",
                       input::positive())
-            .ignored("useModifiedEOS", "Uintah does not read it either");
+            .ignored("useModifiedEOS", "Uintah does not use it either");
     return schema;
   }
   State initialState() const { return {}; }

@@ -128,7 +128,7 @@ struct JwlppMpm {
         .ignored("jwl_rho0", "the material's density is used, as in Uintah");
     for (const char* tag : {"max_burn_timestep_size", "doFastStressCompute", "tolerance_for_Newton_iterations",
                             "max_number_of_Newton_iterations"})
-      tags.ignored(tag, "the burned fraction is integrated to an accuracy of 1e-9, in as many substeps as that takes");
+      tags.ignored(tag, "the burned fraction is integrated to an accuracy of 1e-9, in as many substeps as necessary");
     for (const char* tag : {"useTaylorSeriesForDefGrad", "num_taylor_terms"})
       tags.ignored(tag, "as in Uintah, <minimum_subcycles_for_F> determines how F is integrated");
     return tags;

@@ -16,7 +16,7 @@ namespace tushar::mpm::solid {
 /// Largest number of particles in one call of a constitutive model.
 inline constexpr int stressGroup = 64;
 
-/// Consecutive particles in memory, and the results for them at the end of a step that a caller wants.
+/// Consecutive particles in memory, and the results at the end of a step that the caller requests.
 struct StressPoints {
   int count = 0;
   double timeStep = 0;  ///< s
@@ -74,6 +74,8 @@ class Model {
   virtual double nonlocalLength() const = 0;
   /// Whether a point with F, a stress (Pa) and a temperature (K) is molten; false for models without Melting.
   virtual bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const = 0;
+  /// See capability::Stability; false for models without it.
+  virtual bool isUnstable(const Deformation& d, const Matrix3& stress, const double* state) const = 0;
   /// Coefficients that replace those of the scene.
   virtual std::optional<ArtificialViscosity> ownViscosity() const = 0;
 
@@ -159,6 +161,13 @@ class ModelOf : public Model {
   bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const override {
     if constexpr (providesCapability<M, capability::Melting>)
       return model_.isMolten(deformation, stress, temperature);
+    else
+      return false;
+  }
+  bool isUnstable([[maybe_unused]] const Deformation& d, [[maybe_unused]] const Matrix3& stress,
+                  [[maybe_unused]] const double* state) const override {
+    if constexpr (providesCapability<M, capability::Stability>)
+      return model_.isUnstable(d, stress, load(state));
     else
       return false;
   }

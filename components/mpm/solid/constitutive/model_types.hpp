@@ -6,14 +6,14 @@
 
 namespace tushar::mpm::solid {
 
-/// Pressure against compression, q = rho (A1 c |D| h + A2 D^2 h^2) where D = tr L < 0; von Neumann & Richtmyer, with
-/// the linear term of Landshoff.
+/// Pressure that opposes compression, q = rho (A1 c |D| h + A2 D^2 h^2) where D = tr L < 0; von Neumann & Richtmyer,
+/// with the linear term of Landshoff.
 struct ArtificialViscosity {
   double linear = 0.2;     ///< A1
   double quadratic = 2.0;  ///< A2
 };
 
-/// Constants that a scene gives for a material besides those of its constitutive model.
+/// Constants that a scene gives for a material in addition to those of its constitutive model.
 struct MaterialConstants {
   double density = 0;            ///< at the start of the run, kg/m^3
   double specificHeat = 0;       ///< J/(kg K)

@@ -26,13 +26,13 @@ namespace tushar::mpm::solid {
 struct MohrCoulomb : IsotropicModuli {
   struct State {
     double suction;         ///< s, Pa
-    double specificVolume;  ///< volume of the soil, pores included, over that of its grains, 1
+    double specificVolume;  ///< volume of the soil, including pores, divided by that of its grains, 1
     double cohesion;        ///< c, Pa
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::OptionalState>;
   static constexpr std::array<StateVariable, 3> stateVariables{
       {{"p.Suction", "Pa", "suction of the pore water"},
-       {"p.SpecificVol", "1", "specific volume: volume of the soil, pores included, over that of its grains"},
+       {"p.SpecificVol", "1", "specific volume: volume of the soil, including pores, divided by that of its grains"},
        {"p.cohesion", "Pa", "cohesion"}}};
   static constexpr std::string_view name = "MohrCoulomb";
   static constexpr bool strainEnergyIsRate = true;
@@ -114,8 +114,8 @@ struct MohrCoulomb : IsotropicModuli {
   double saturation(double suction) const {
     return std::pow(1 + std::pow(retentionAlpha * suction, retentionN), -retentionM);
   }
-  /// The suction after a dilatation, Pa: the water that is there fills more of smaller pores, and all of those that
-  /// have closed or open again.
+  /// The suction after a dilatation, Pa: a constant amount of water fills a larger fraction of smaller pores, and all
+  /// of pores that have closed or open again.
   void squeeze(double dilatation, State& state) const {
     constexpr double full = 0.99999;
     const double before = state.specificVolume, now = before * (1 + dilatation);
@@ -142,8 +142,8 @@ struct MohrCoulomb : IsotropicModuli {
       refuseSwitch(tags, tag, "<G> and <K> are constant, and the strength does not soften");
     for (const char* tag : {"m_modul", "nuy", "strain_95", "a", "y_ref", "y", "n", "tFE", "tShear", "n_nonlocalMC",
                             "l_nonlocal", "WR_Param4"})
-      tags.ignored(tag, "belongs to a switch that must be false");
-    tags.ignored("beta", "Uintah does not read it either: the exponent of the rate is <beta_rate>");
+      tags.ignored(tag, "belongs to an option that must be false");
+    tags.ignored("beta", "Uintah does not use it either: the exponent of the rate is <beta_rate>");
     return tags;
   }
   static void declareWater(input::Schema<MohrCoulomb>& tags) {
@@ -168,9 +168,9 @@ struct MohrCoulomb : IsotropicModuli {
         .value("suction", &Self::initialSuction, 0, "Pa", "with UseWaterRetention: suction at the start",
                input::nonNegative())
         .value("SpecVol", &Self::initialSpecificVolume, 0, "1",
-               "with UseWaterRetention: volume of the soil over that of its grains, at the start");
+               "with UseWaterRetention: volume of the soil divided by that of its grains, at the start");
   }
-  /// A switch that Uintah reads as a number: on if it is above 0.
+  /// A flag that Uintah reads as a number: true if it is above 0.
   static void declareSwitch(input::Schema<MohrCoulomb>& tags, const std::string& tag, bool MohrCoulomb::*member,
                             const std::string& sentence) {
     const auto read = [=](MohrCoulomb& object, const input::Element& element, input::Diagnostics& diagnostics) {

@@ -71,7 +71,7 @@ struct MwViscoElastic {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt((springBulk + maxwellBulk) * d.deformationGradient.determinant() / initialDensity);
   }
-  /// Energy stored in both springs: J (s:s/(4 G) + p²/(2 K)) of each.
+  /// Energy stored in both springs: J (s:s/(4 G) + p²/(2 K)) for each.
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3& stress, const State& state) const {
     const Matrix3 viscous = matrixOf(state.deviator), elastic = solid::deviator(stress) - viscous;
     const double pressure = -stress.trace() / 3 - state.pressure;

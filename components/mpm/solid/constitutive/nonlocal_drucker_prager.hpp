@@ -14,9 +14,9 @@
 namespace tushar::mpm::solid {
 
 /// Linear elasticity with the yield surface of Drucker and Prager, J2^(1/2) + alpha I1 = k with I1 = tr sigma, plastic
-/// flow by the same function with alpha_p, and a strength k that changes with plastic strain there and nearby;
-/// Burghardt et al., Comput. Methods Appl. Mech. Engrg. 225 (2012) 55. For a plastic strain rate l' M, |M| = 1,
-/// k = k_o + eta + eta_n, d eta/dt = h_local l', d eta_n/dt = h_nonlocal times the mean of l' within l_nonlocal. The
+/// flow by the same function with alpha_p, and a strength k that changes with the plastic strain at the point and
+/// around it; Burghardt et al., Comput. Methods Appl. Mech. Engrg. 225 (2012) 55. For a plastic strain rate l' M, |M| =
+/// 1, k = k_o + eta + eta_n, d eta/dt = h_local l', d eta_n/dt = h_nonlocal times the mean of l' within l_nonlocal. The
 /// mean is that of the step before, so that a step is explicit in it.
 struct NonlocalDruckerPrager {
   struct State {
@@ -32,7 +32,7 @@ struct NonlocalDruckerPrager {
        {"p.eta", "Pa", "strength gained from the plastic strain at the point"},
        {"p.eta_nl", "Pa", "strength gained from the plastic strain around the point"},
        {"p.plasticIncrement", "1", "plastic strain of the last step"},
-       {"p.meanPlasticIncrement", "1", "mean of that plastic strain within l_nonlocal"}}};
+       {"p.meanPlasticIncrement", "1", "mean of the plastic strain of the last step within l_nonlocal"}}};
   static constexpr std::string_view name = "nonlocal_drucker_prager";
   static constexpr bool strainEnergyIsRate = true;
 
@@ -114,7 +114,7 @@ struct NonlocalDruckerPrager {
   double plasticIncrement(double excess, double hardening) const {
     return std::max(excess / (stiffness() + hardening), 0.0);
   }
-  /// The fall of the trial stress towards a fixed surface per plastic strain, Pa.
+  /// The decrease of the trial stress towards a fixed surface per plastic strain, Pa.
   double stiffness() const { return (shearModulus + 9 * bulkModulus * friction * dilation) / flowScale(); }
   /// Length of the gradient of the flow potential, 1.
   double flowScale() const { return std::sqrt(0.5 + 3 * dilation * dilation); }
@@ -127,9 +127,9 @@ struct NonlocalDruckerPrager {
         .required("alpha", &Self::friction, "1", "coefficient of pressure in the strength", input::nonNegative())
         .required("alpha_p", &Self::dilation, "1", "coefficient of dilation in plastic flow", input::nonNegative())
         .required("k_o", &Self::strength, "Pa", "strength at the start, in shear without pressure", input::positive())
-        .value("h_local", &Self::localModulus, 0, "Pa", "growth of the strength with the plastic strain at the point")
+        .value("h_local", &Self::localModulus, 0, "Pa", "increase of the strength with the plastic strain at the point")
         .value("h_nonlocal", &Self::nonlocalModulus, 0, "Pa",
-               "growth of the strength with the mean plastic strain within l_nonlocal")
+               "increase of the strength with the mean plastic strain within l_nonlocal")
         .value("l_nonlocal", &Self::length, 0, "m", "radius of the mean; 0: only the point itself",
                input::nonNegative())
         .value("minimum_yield_stress", &Self::leastStrength, 0, "Pa", "smallest strength after softening",
@@ -142,7 +142,7 @@ struct NonlocalDruckerPrager {
     tags.check(checkConstants);
     return tags;
   }
-  /// If softening is faster than the fall of the trial stress, no stress is on the surface.
+  /// If softening is faster than the decrease of the trial stress, no stress is on the surface.
   static void checkConstants(const NonlocalDruckerPrager& read, const input::Element& element,
                              input::Diagnostics& diagnostics) {
     const double softest = read.localModulus + std::min(read.nonlocalModulus, 0.0), limit = -read.stiffness();

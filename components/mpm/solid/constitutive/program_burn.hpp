@@ -10,9 +10,9 @@
 namespace tushar::mpm::solid {
 
 /// An explosive with programmed burn: a detonation starts at a point, or from a plane to both sides, and moves at a
-/// given velocity, whatever the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From t_b = T0 + |x -
-/// x_0| / D on, it burns a particle of mass m in the time in which it runs 1.5 (m / rho_0)^(1/3). sigma = -p I, with
-/// the pressures of Murnaghan and of Jones, Wilkins and Lee in proportion.
+/// given velocity, which does not depend on the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From
+/// t_b = T0 + |x - x_0| / D on, it burns a particle of mass m in the time in which it runs 1.5 (m / rho_0)^(1/3). sigma
+/// = -p I, with the pressures of Murnaghan and of Jones, Wilkins and Lee in proportion.
 struct ProgramBurn {
   struct State {
     double burned;  ///< F, 1
@@ -47,8 +47,8 @@ struct ProgramBurn {
   }
   /// Wave speed of the unburned explosive, m/s.
   double initialWaveSpeed(double initialDensity) const { return speed(explosive(), density / initialDensity); }
-  /// c² = -J² dp/dJ / rho_0, of the products as soon as it burns, and of the explosive as long as some is left, which
-  /// is the stiffer one at high compression.
+  /// c² = -J² dp/dJ / rho_0, for the products as soon as it burns, and for the explosive as long as some is left; the
+  /// explosive is the stiffer one at high compression.
   double waveSpeed(double, const Deformation& d, const Matrix3&, const State& state) const {
     const double j = volumeOf(d);
     if (state.burned <= 0) return speed(explosive(), j);
@@ -82,7 +82,7 @@ struct ProgramBurn {
         .required("rho0", &Self::density, "kg/m^3", "density at zero pressure", input::positive())
         .required("D", &Self::detonationVelocity, "m/s", "velocity of the detonation", input::positive())
         .value("T0", &Self::ignitionTime, 0, "s", "time at which the detonation starts")
-        .ignored("P0", "no pressure depends on it");
+        .ignored("P0", "it has no effect on the pressure");
     declareVector(tags, "starting_location", &Self::origin, true, "point (m) at which the detonation starts");
     declareVector(
         tags, "direction_if_plane", &Self::direction, false,

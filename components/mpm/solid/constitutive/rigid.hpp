@@ -20,7 +20,7 @@ struct Rigid {
       input::Schema<Rigid> tags("rigid", "No stress: for bodies that a contact moves.");
       for (const char* tag :
            {"bulk_modulus", "shear_modulus", "K", "G", "useModifiedEOS", "alpha", "coeff_thermal_expansion"})
-        tags.ignored(tag, "nothing depends on it");
+        tags.ignored(tag, "it has no effect");
       return tags;
     }();
     return schema;

@@ -23,7 +23,7 @@ template <class Real>
   return b;
 }
 
-/// The next Lanes::count of `count` tensors in a row; missing ones repeat the last.
+/// The next Lanes::count of `count` consecutive tensors; missing ones repeat the last.
 [[gnu::always_inline]] inline TensorOf<Lanes> lanesOf(const Matrix3* tensors, int count) {
   const std::array<Lanes, 9> numbers =
       columnsOf<9>([&](int lane) { return tensors[count < Lanes::count ? std::min(lane, count - 1) : lane].data(); });
@@ -33,7 +33,7 @@ template <class Real>
   return t;
 }
 
-/// Stores the first `count` tensors of the lanes, at most Lanes::count, in a row.
+/// Stores the first `count` tensors of the lanes, at most Lanes::count, consecutively.
 [[gnu::always_inline]] inline void storeLanes(const TensorOf<Lanes>& t, Matrix3* tensors, int count) {
   std::array<Lanes, 9> numbers;
   for (int i = 0; i < 3; ++i)

@@ -34,7 +34,7 @@ struct ThWater {
     static const input::Schema<Self> schema =
         input::Schema<Self>("TH_water", "Water of Thomsen & Hartka, without viscosity.")
             .required("a", &Self::pressureShift, "K/Pa",
-                      "rate at which the temperature of largest density falls with pressure", input::positive())
+                      "rate at which the temperature of largest density decreases with pressure", input::positive())
             .required("b", &Self::heatSlope, "J/(kg K²)", "rate at which the heat capacity falls with temperature")
             .required("co", &Self::specificHeat, "J/(kg K)", "heat capacity at <To> without pressure",
                       input::positive())
@@ -43,7 +43,7 @@ struct ThWater {
             .required("To", &Self::densestTemperature, "K", "temperature of largest density, without pressure",
                       input::positive())
             .required("L", &Self::curvature, "1/K²", "curvature of the volume around <To>", input::positive())
-            .required("vo", &Self::densestVolume, "m^3/kg", "volume per mass at <To>, without pressure",
+            .required("vo", &Self::densestVolume, "m^3/kg", "specific volume at <To> without pressure",
                       input::positive())
             .value("Pref", &Self::referencePressure, 101325, "Pa", "ambient pressure");
     return schema;
@@ -77,8 +77,8 @@ struct ThWater {
     double byTemperature;  ///< (dv/dT)_p, m^3/(kg K)
     double heat;           ///< c_p, J/(kg K)
   };
-  /// The formula holds to some 1e8 Pa and, without pressure, some 90 K above T_0. Beyond, it would make c_v and then
-  /// the compressibility vanish: at .89 and .86 of the volume at 300 K. This share of the compressibility without
+  /// The formula is valid up to about 1e8 Pa and, without pressure, about 90 K above T_0. Beyond, it would make c_v and
+  /// then the compressibility vanish: at .89 and .86 of the volume at 300 K. This share of the compressibility without
   /// pressure, and of c_p = c_v + T (dp/dT)_v (dv/dT)_p for c_v, is left.
   static constexpr double least = 0.25;
 
@@ -87,8 +87,8 @@ struct ThWater {
     const double difference = at.temperature * at.byTemperature * at.byTemperature / at.byPressure;
     return std::max(at.heat - difference, least / (1 - least) * difference);
   }
-  /// The smaller root of the quadratic equation that v(p, T) is for p: the liquid whose volume falls under pressure. It
-  /// ends at the pressure where `least` of its compressibility is left, and goes on along its tangent there.
+  /// The smaller root p of v(p, T) = v, a quadratic equation: the liquid whose volume falls under pressure. It ends at
+  /// the pressure where `least` of its compressibility is left, and goes on along its tangent there.
   Point pointAt(const Deformation& d) const {
     const double volume = d.deformationGradient.determinant() / material.density, t = d.temperature;
     const double warm = t - densestTemperature, bent = 2 * curvature * pressureShift;

@@ -58,12 +58,12 @@ struct NeoHookPlastic {
                     input::nonNegative())
           .value("alpha", &Self::initialPlasticStrain, 0, "1", "plastic strain at the start", input::nonNegative())
           .choice("yield_distrib", &Self::yieldSpreads, {{"constant", false}, {"uniform", true}}, false,
-                  "distribution of the yield stress over the particles")
+                  "distribution of the yield stress among the particles")
           .value("yield_range", &Self::yieldRange, 0, "Pa", "for uniform: largest deviation from <yield_stress>",
                  input::nonNegative())
           .value("yield_seed", &Self::yieldSeed, 0, "1",
                  "seed of the random yield stresses, which differ from Uintah's")
-          .ignored("useModifiedEOS", "bodies beside a gas keep their own equation of state")
+          .ignored("useModifiedEOS", "bodies in a gas keep their own equation of state")
           .ignored("strain_limit", "from older versions of Uintah")
           .ignored("reduction_factor", "from older versions of Uintah")
           .check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
@@ -130,7 +130,7 @@ struct NeoHookPlastic {
   }
 
  private:
-  /// The elastic trial state, and how far it lies outside the yield surface.
+  /// The elastic trial state, and its distance outside the yield surface.
   struct Trial {
     Matrix3 elastic;       ///< b, 1
     Matrix3 stress;        ///< s = G dev b, Pa

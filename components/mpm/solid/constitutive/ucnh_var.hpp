@@ -154,7 +154,7 @@ struct UcnhVar {
               return std::vector<input::Alternative>{{&tableSchema(), {}}};
             },
             1)})
-        .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
+        .ignored("useModifiedEOS", "only the fluid coupling of Uintah uses it")
         .ignored("initial_pressure", "belongs to useInitialStress");
     refuseSwitch(tags, "useInitialStress", "bodies start without stress");
     return tags;

@@ -140,8 +140,10 @@ struct ViscoPlastic {
                "temperature at which the thermal pressure vanishes", input::nonNegative())
         .value("check_failure", &Self::canFail, false, "1", "whether particles can fail")
         .value("failure_by_stress", &Self::byStress, true, "1",
-               "true: particles fail by the largest principal stress; false: by strain")
-        .value("failure_by_pressure", &Self::byPressure, false, "1", "true: particles fail by the mean stress instead")
+               "true: particles fail when the largest principal stress exceeds the limit; false: when the largest "
+               "principal strain does")
+        .value("failure_by_pressure", &Self::byPressure, false, "1",
+               "true: the mean stress is compared with the limit instead")
         .value("failure_variable_mean", &Self::failureVariable, 1e30, "1", "stress (Pa) or strain at which they fail")
         .value("zero_stress_upon_failure", &Self::losesStress, true, "1", "whether failed particles bear no stress")
         .value("allow_no_tension", &Self::losesTension, false, "1",
@@ -149,14 +151,14 @@ struct ViscoPlastic {
     typedTag(tags, "visco_plasticity_model", &Self::flow, "the model of the inelastic strain rate", true);
     typedTag(tags, "equation_of_state", &Self::equationOfState,
              "the model of the mean stress; default_hyper if left out", false);
-    refuseSwitch(tags, "coeff_thermal_expansion", "heat does not strain the material");
+    refuseSwitch(tags, "coeff_thermal_expansion", "the material does not expand with temperature");
     refuseSwitch(tags, "failure_variable_std", "all particles fail at the same stress or strain");
     refuseSwitch(tags, "remove_particles", "failed particles are kept");
-    refuseTypes(tags, "stability_check", {"none"}, "only none: it has no effect in Uintah");
+    refuseTypes(tags, "stability_check", {"none"}, "only none is allowed: it has no effect in Uintah");
     tags.ignored("failure_variable_distrib", "all particles fail at the same stress or strain")
         .ignored("tolerance", "small strain rates are not rounded to 0")
         .ignored("use_polar_decomposition_RMB", "the rotation is exact to round-off")
-        .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it");
+        .ignored("useModifiedEOS", "only the fluid coupling of Uintah uses it");
     return tags;
   }
 };

@@ -152,7 +152,7 @@ struct ViscoScram {
     }
     return load.greatestSpeed * (1 - resistance * resistance / (intensity * intensity));
   }
-  /// Growth of the radius in a step, m, by the method of Runge and Kutta of fourth order.
+  /// Growth of the radius in a step, m, by the fourth-order Runge-Kutta method.
   double growthOf(const CrackLoad& load, double radius, double timeStep) const {
     const double k1 = crackSpeed(load, radius), k2 = crackSpeed(load, radius + 0.5 * timeStep * k1);
     const double k3 = crackSpeed(load, radius + 0.5 * timeStep * k2), k4 = crackSpeed(load, radius + timeStep * k3);
@@ -201,8 +201,8 @@ struct ViscoScram {
     tags.required("PR", &Self::poissonRatio, "1", "Poisson's ratio", input::between(-0.999, 0.4999))
         .required("CrackParameterA", &Self::crackScale, "m", "a: cracks of this radius halve the stiffness",
                   input::positive())
-        .required("CrackPowerValue", &Self::crackPower, "1", "m: exponent of slow growth", input::positive())
-        .required("CrackMaxGrowthRate", &Self::greatestCrackSpeed, "m/s", "speed that cracks do not exceed",
+        .required("CrackPowerValue", &Self::crackPower, "1", "m: exponent of slow crack growth", input::positive())
+        .required("CrackMaxGrowthRate", &Self::greatestCrackSpeed, "m/s", "largest speed of crack growth",
                   input::nonNegative())
         .required("StressIntensityF", &Self::toughness, "Pa m^(1/2)", "K_0: toughness without friction",
                   input::positive())
@@ -210,28 +210,28 @@ struct ViscoScram {
                   input::between(0, 1.2))
         .required("InitialCrackRadius", &Self::initialCrackRadius, "m", "crack radius at the start",
                   input::nonNegative())
-        .required("CrackGrowthRate", &Self::tensileSpeedUp, "1", "factor by which cracks grow faster in tension",
+        .required("CrackGrowthRate", &Self::tensileSpeedUp, "1", "factor by which crack growth is faster in tension",
                   input::nonNegative())
         .required("Gamma", &Self::gruneisen, "1", "Grüneisen parameter, for heating by compression",
                   input::nonNegative());
     addElements(tags);
     tags.value("use_time_temperature_equation", &Self::ratesFollowTemperature, false, "1",
                "whether relaxation is faster at higher temperatures")
-        .value("T0", &Self::shiftTemperature, 298, "K", "temperature at which the given relaxation rates hold")
+        .value("T0", &Self::shiftTemperature, 298, "K", "temperature to which the given relaxation rates apply")
         .value("C1", &Self::shift1, 6.5, "1", "first constant of Williams, Landel & Ferry")
         .value("C2", &Self::shift2, 120, "K", "second constant of Williams, Landel & Ferry", input::positive())
         .value("CoeffThermalExpansion", &Self::thermalExpansion, 0, "1/K", "thermal expansion coefficient (of lengths)",
                input::nonNegative())
         .ignored("Beta", "Uintah does not use it either")
         .ignored("DCp_DTemperature", "Uintah does not use it either")
-        .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
+        .ignored("useModifiedEOS", "only the fluid coupling of Uintah uses it")
         .ignored("useObjectiveRate", "stresses always rotate with the material");
     for (const char* tag : {"Chi", "delH", "Z", "EoverR", "dynamic_coeff_friction", "volfracHE"})
       tags.ignored(tag, "belongs to the hot spots in Uintah's visco_scram_hs");
     refuseSwitch(tags, "randomize_parameters", "all particles have the given moduli");
-    for (const char* tag : {"useMurnahanEOS", "useBirchMurnaghanEOS", "useJWLEOS", "useJWLCEOS", "gamma", "P0",
-                            "bulkPrime", "A", "B", "C", "R1", "R2", "om", "Cv"})
-      tags.ignored(tag, "only Uintah's coupled fluid reads it");
+    for (const char* tag : {"useMurnahanEOS", "useMurnaghanEOS", "useBirchMurnaghanEOS", "useJWLEOS", "useJWLCEOS",
+                            "gamma", "P0", "bulkPrime", "A", "B", "C", "R1", "R2", "om", "Cv", "rho0"})
+      tags.ignored(tag, "only the fluid coupling of Uintah uses it");
     return tags;
   }
   static void addElements(input::Schema<ViscoScram>& tags) {
@@ -253,8 +253,8 @@ struct ViscoScram {
 };
 static_assert(ConstitutiveModel<ViscoScram>);
 
-/// The same of a material that heat expands: the rate of strain that makes stress is D - alpha dT/dt I, as in Uintah
-/// with T at the start of a step and of the one before.
+/// The same for a material with thermal expansion: the strain rate that causes stress is D - alpha dT/dt I, as in
+/// Uintah with T at the start of this step and of the previous one.
 struct ExpandingViscoScram {
   struct State {
     ViscoScram::State scram;

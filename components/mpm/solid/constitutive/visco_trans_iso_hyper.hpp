@@ -12,11 +12,11 @@
 
 namespace tushar::mpm::solid {
 
-/// Ligament that relaxes: the stress s_e of FibreElasticity, and six Maxwell elements that follow it,
-/// sigma = s_e + sum_k y_k h_k, dh_k/dt = ds_e/dt - h_k/t_k: the quasi-linear viscoelasticity of Fung, with the
-/// recursion of Puso & Weiss, J. Biomech. Eng. 120 (1998) 62, eqs. 10-14. They write it for the second Piola-Kirchhoff
-/// stress, Uintah for the Cauchy stress in fixed axes; here it is the Cauchy stress in axes that rotate with the
-/// material, so that rotation changes nothing and stretching without rotation gives Uintah's stresses.
+/// Relaxing ligament: the stress s_e of FibreElasticity, and six Maxwell elements driven by it, sigma = s_e + sum_k y_k
+/// h_k, dh_k/dt = ds_e/dt - h_k/t_k: the quasi-linear viscoelasticity of Fung, with the recursion of Puso & Weiss, J.
+/// Biomech. Eng. 120 (1998) 62, eqs. 10-14. They write it for the second Piola-Kirchhoff stress, Uintah for the Cauchy
+/// stress in fixed axes; here it is the Cauchy stress in axes that rotate with the material, so that rotation changes
+/// nothing and stretching without rotation gives Uintah's stresses.
 struct ViscoTransIsoHyper : FibreElasticity {
   struct State {
     double stretch;                   ///< of the fibres, 1
@@ -95,7 +95,7 @@ struct ViscoTransIsoHyper : FibreElasticity {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
-  /// W of the elastic stress, as in Uintah; the Maxwell elements hold and dissipate the rest of the work.
+  /// W of the elastic stress, as in Uintah; the Maxwell elements store and dissipate the rest of the work.
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
     return elasticEnergy(d.deformationGradient);
   }
@@ -103,14 +103,14 @@ struct ViscoTransIsoHyper : FibreElasticity {
  private:
   struct Element {
     double share;  ///< y_k, 1
-    double time;   ///< t_k, s; 0: the element does not exist
+    double time;   ///< t_k, s; 0: the element is omitted
   };
   Element element(int k) const {
     const std::array<Element, 6> all{{{y1, t1}, {y2, t2}, {y3, t3}, {y4, t4}, {y5, t5}, {y6, t6}}};
     return all[k];
   }
   bool relaxes() const { return std::max({t1, t2, t3, t4, t5, t6}) > 0; }
-  /// Stiffness of a fast deformation, relative to the elastic one.
+  /// Stiffness in a fast deformation, relative to the elastic stiffness.
   double fastStiffening() const {
     double sum = 1;
     for (int k = 0; k < 6; ++k)
@@ -124,7 +124,7 @@ struct ViscoTransIsoHyper : FibreElasticity {
     addTags(tags);
     tags.choice("StrainEnergy", in<Self>(&FibreElasticity::rubber),
                 {{"MooneyRivlin", Rubber::mooneyRivlin}, {"VerondaWestmann", Rubber::verondaWestmann}},
-                Rubber::mooneyRivlin, "energy of the matrix; <c2> of VerondaWestmann has no unit");
+                Rubber::mooneyRivlin, "strain energy of the matrix; with VerondaWestmann, <c2> has no unit");
     const std::array<std::pair<double Self::*, double Self::*>, 6> members{{{&Self::y1, &Self::t1},
                                                                             {&Self::y2, &Self::t2},
                                                                             {&Self::y3, &Self::t3},
@@ -133,10 +133,10 @@ struct ViscoTransIsoHyper : FibreElasticity {
                                                                             {&Self::y6, &Self::t6}}};
     for (int k = 0; k < 6; ++k) {
       const std::string number = std::to_string(k + 1);
-      tags.required("y" + number, members[k].first, "1", "stiffness of a Maxwell element, relative to the elastic one",
+      tags.required("y" + number, members[k].first, "1",
+                    "stiffness of a Maxwell element, relative to the elastic stiffness", input::nonNegative());
+      tags.required("t" + number, members[k].second, "s", "relaxation time of this element; 0: the element is omitted",
                     input::nonNegative());
-      tags.required("t" + number, members[k].second, "s",
-                    "relaxation time of this element; 0: the element does not exist", input::nonNegative());
     }
     refuseSwitch(tags, "active", "the stress follows from the deformation alone");
     return tags;

@@ -26,7 +26,7 @@ struct Motion {
   Vec3 at(const Vec3& point, double dt) const;
 };
 
-/// How materials act on each other where they share nodes: one `contact` of a scene.
+/// How materials interact where they share nodes: one `contact` of a scene.
 struct Contact {
   enum class Type {
     singleVelocity,     ///< they move as one: no slip, no separation
@@ -40,7 +40,7 @@ struct Contact {
   std::vector<int> materials;  ///< the materials that take part; empty: all
   int master = 0;
   std::array<bool, 3> direction{false, false, true};     ///< whether the others follow the master along x, y, z
-  bool directionIsGiven = false;                         ///< whether the scene gives it
+  bool directionIsGiven = false;                         ///< whether it is given in the scene
   double stopTime = std::numeric_limits<double>::max();  ///< s
   Vec3 velocityAfterStop = Vec3::Zero();                 ///< m/s
   Profile<Vec3> profile;                                 ///< the master's velocity, m/s; empty: it is free
@@ -49,12 +49,13 @@ struct Contact {
   bool actsTwice = true;  ///< whether it also acts on the velocities interpolated from the particles
   int excluded = -1;      ///< at nodes with this material, nothing follows a master or moves as one; -1: none
 
-  double friction = 0;              ///< coefficient mu
-  Profile<double> frictionOfColor;  ///< mu over p.color of the master instead of time; empty: mu is `friction`
-  bool onlyOnApproach = false;      ///< friction: bodies under compression may separate, too
+  double friction = 0;  ///< coefficient mu
+  Profile<double>
+      frictionOfColor;          ///< mu as a function of p.color of the master, instead of time; empty: mu is `friction`
+  bool onlyOnApproach = false;  ///< friction: bodies under compression may also separate
   bool normalsInCells =
-      false;              ///< friction: mass gradients are taken per cell, not per m, as axisymmetric ones in Uintah
-  bool oneNormal = true;  ///< friction: bodies that meet share their normal; otherwise each has its own
+      false;  ///< friction: mass gradients are per cell instead of per m, as in axisymmetric scenes of Uintah
+  bool oneNormal = true;        ///< friction: bodies that meet share their normal; otherwise each has its own
   bool keepsMomentum = false;   ///< friction: one normal, and contact if all stresses are compressive
   double separationFactor = 0;  ///< friction: bodies farther apart than this many cells do not touch
   double volumeConstraint =
@@ -82,21 +83,21 @@ enum class Moment {
 /// The records of all materials (see NodeRecord), whose lanes 0 to 2 are the velocity.
 using Records = std::vector<NodeView<NodeRecord>>;
 
-/// All materials that take part get the velocity of their centre of mass.
+/// All participating materials get the velocity of their centre of mass.
 template <int D>
 void moveAsOne(const Patch& patch, const Contact& contact, const Records& records);
-/// At nodes with the master, the others get its velocity along the contact's directions.
+/// At nodes of the master, the other materials get its velocity along the directions of the contact.
 template <int D>
 void followMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records);
-/// The master's velocity at a node, m/s: its own unless its motion is given.
+/// The velocity of the master at a node, m/s: its current velocity, unless its motion is prescribed.
 template <int D>
 Vec<D> masterVelocity(const Patch& patch, const Contact& contact, const std::optional<Motion>& motion, double dt,
                       const Records& records, const Index<D>& node);
-/// A smaller fraction of the mass at a node counts as a rounding error.
+/// A smaller fraction of the mass at a node is considered a rounding error.
 inline constexpr double leastShare = 1e-14;
 
 /// Whether a material is present at a node: a particle just within reach of the node may leave 1e-30 of its mass there
-/// by rounding, which must not tie other bodies to it.
+/// by rounding, which must not affect other bodies.
 template <int D>
 bool isPresent(const Records& records, int material, const Index<D>& node) {
   double total = 0;
@@ -109,7 +110,7 @@ bool isExcluded(const Contact& contact, const Records& records, const Index<D>& 
   return contact.excluded >= 0 && records[contact.excluded][node][lane::mass] != 0;
 }
 
-/// The changes of velocity in a step that have causes other than stresses and loads.
+/// The causes, other than stresses and loads, of velocity changes in a step.
 struct Acceleration {
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
   double damping = 0;           ///< 1/s
@@ -121,13 +122,13 @@ Vec<D> heldForce(const NodeRecord& record, const Vec<D>& gravity, const Accelera
   const Vec<D> before = lanes<D>(record, lane::before), after = lanes<D>(record, lane::velocity);
   return -record[lane::mass] * ((after - before) / dt - gravity + acceleration.damping * before);
 }
-/// Where the master is, adds to `reaction` the force (N) that holds the others against their stresses and loads, as
-/// Uintah counts it: - sum m ((v* - v) / dt - g + damping v). The records hold v* and v before the contact.
+/// At nodes of the master, adds to `reaction` the force (N) that holds the other materials against their stresses and
+/// loads, as in Uintah: - sum m ((v* - v) / dt - g + damping v). The records hold v* and v before the contact.
 template <int D>
 void sumReaction(const Patch& patch, const Contact& contact, const Acceleration& acceleration, double dt,
                  const Records& records, VectorSum& reaction);
 
-/// Whether a node belongs to a patch and to no other: sums over nodes count it once.
+/// Whether a patch owns a node, so that sums over nodes count it only once.
 template <int D>
 bool isOwned(const Patch& patch, const Index<D>& node) {
   for (int d = 0; d < D; ++d)

@@ -87,10 +87,10 @@ const Schema<FrictionTable>& frictionTableSchema() {
       Schema<FrictionTable>("variable_friction",
                             "The coefficient of friction as a function of the color of the master.")
           .list("entry", &FrictionTable::entries, entry,
-                "in order of increasing color; linear between two entries, constant beyond", 2)
+                "in order of increasing color; linear between entries, constant outside their range", 2)
           .check([](const FrictionTable& table, const Element& element, Diagnostics& diagnostics) {
             input::refuseDescent(table.entries, &FrictionEntry::color, element.children("entry"),
-                                 "its color is not above that of the previous one", diagnostics);
+                                 "its color is not above that of the previous entry", diagnostics);
           });
   return schema;
 }
@@ -104,12 +104,12 @@ void checkPlanes(const ContactSection& read, const Element& element, Diagnostics
     diagnostics.error(
         element, "missing tag <master_material> in <contact>: friction_LRVar takes mu from the color of this material");
   if (!byColor && read.frictionTable)
-    diagnostics.error(element.child("variable_friction").value(), "acts in contacts of type friction_LRVar only");
+    diagnostics.error(element.child("variable_friction").value(), "applies only to contacts of type friction_LRVar");
   if (usesPlanes(read.kind) && !byColor && !read.friction)
     diagnostics.error(element, "missing tag <mu> in <contact>: friction needs a coefficient");
   if (usesPlanes(read.kind) && read.kind != Kind::specifiedFriction && read.excluded)
     diagnostics.error(element.child("ExcludeMaterial").value(),
-                      "acts in contacts of type rigid, specified, specified_friction and single_velocity only");
+                      "applies only to contacts of type rigid, specified, specified_friction and single_velocity");
 }
 
 void checkContact(const ContactSection& read, const Element& element, Diagnostics& diagnostics) {
@@ -117,10 +117,10 @@ void checkContact(const ContactSection& read, const Element& element, Diagnostic
     diagnostics.error(element, "missing tag <mu> in <contact>: friction needs a coefficient");
   if (slides(read.kind) && read.excluded)
     diagnostics.error(element.child("ExcludeMaterial").value(),
-                      "acts in contacts of type rigid, specified and single_velocity only");
+                      "applies only to contacts of type rigid, specified and single_velocity");
   if (!slides(read.kind) && !usesPlanes(read.kind) && read.volumeConstraint > 0)
     diagnostics.error(element.child("volume_constraint").value(),
-                      "acts in contacts of type friction, friction_bard, friction_conserving and approach only");
+                      "applies only to contacts of type friction, friction_bard, friction_conserving and approach");
   if (read.turns && (!hasMaster(read.kind) || read.profileFile.empty()))
     diagnostics.error(element.child("include_rotation").value(),
                       "needs a contact of type rigid, specified or specified_friction and its <filename>");
@@ -134,14 +134,14 @@ void addKinds(Schema<ContactSection>& contact) {
       "null: no contact. single_velocity: all move as one body. rigid: all follow a master, on which no stress acts. "
       "specified, specified_velocity (synonyms): all follow a master with prescribed motion. friction, friction_bard "
       "(synonyms): bodies separate freely and slide with friction, as in Uintah, which tests the pressure of each body "
-      "separately. friction_conserving: the same, but bodies share one normal and are in contact if the stresses of "
-      "all are compressive, which conserves momentum. approach: as friction, but only while bodies approach each "
-      "other. friction_LR: bodies separate freely, conserve momentum and slide with friction along the plane that "
+      "separately. friction_conserving: the same, but bodies share one normal and are in contact only if the stresses "
+      "of all of them are compressive, which conserves momentum. approach: as friction, but only while bodies approach "
+      "each other. friction_LR: bodies separate freely, conserve momentum and slide with friction along the plane that "
       "separates their particles, found by logistic regression (Nairn, Hammerquist & Smith 2020). friction_LRVar: the "
       "same, with mu as a function of the color of the master. specified_friction: bodies separate from a master with "
       "prescribed motion, and slide on it along such planes");
   contact
-      .optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; all by default")
+      .optional("materials", &ContactSection::materials, "1", "indices of the materials that take part; all by default")
       .optional("OneOrTwoStep", &ContactSection::steps, "1",
                 "1: acts only on the velocities at the end of a step; 2: also on those at its start. By default 1 for "
                 "rigid and specified, otherwise 2; with XPIC2 always 2",
@@ -158,17 +158,17 @@ void addMaster(Schema<ContactSection>& contact) {
                 "for rigid, specified: 1 for each of x, y, z along which the others follow the master. By default "
                 "along z, in implicit steps along all",
                 input::between(0, 1))
-      .value("master_material", &ContactSection::master, 0, "1", "for rigid, specified: number of the master",
+      .value("master_material", &ContactSection::master, 0, "1", "for rigid, specified: index of the master",
              input::nonNegative())
       .value("stop_time", &ContactSection::stopTime, std::numeric_limits<double>::max(), "s",
-             "for rigid, specified: time from which all move with velocity_after_stop")
+             "for rigid, specified: time from which all bodies move with velocity_after_stop")
       .value("velocity_after_stop", &ContactSection::velocityAfterStop, Vec3::Zero(), "m/s",
              "for rigid, specified: velocity after stop_time")
       .value("filename", &ContactSection::profileFile, "", "1",
              "for specified: a file with lines `time vx vy vz` for at least two ascending times")
       .value("include_rotation", &ContactSection::turns, false, "1",
-             "for specified: the master also rotates; the lines of <filename> are `time vx vy vz cx cy cz wx wy wz`, "
-             "with a point on the axis (m) and the angular velocity (1/s)")
+             "for specified: the master also rotates; each line of <filename> is `time vx vy vz cx cy cz wx wy wz`, "
+             "where c is a point on the axis (m) and w the angular velocity (1/s)")
       .ignored("rigid_material", "an older name of master_material");
 }
 
@@ -196,7 +196,7 @@ const Schema<ContactSection>& contactSchema() {
     contact.check(checkContact);
     refuseSwitch(contact, "normal_only", "use friction_bard with mu 0");
     for (const char* tag : {"condition", "conditionValue", "conditionAction"})
-      refuseTag(contact, tag, "give a profile over time by <filename>");
+      refuseTag(contact, tag, "give the motion over time in <filename>");
     return contact;
   }();
   return schema;
@@ -213,9 +213,10 @@ std::vector<double> readTable(const Element& tag, const std::string& path, std::
   std::vector<double> numbers;
   for (double number; file >> number;) numbers.push_back(number);
   if (columns > 4 && (numbers.size() % columns != 0 || !file.eof()))
-    diagnostics.error(tag, fmt::format("filename: '{}' needs {} numbers a line with <include_rotation>: `time vx vy vz "
-                                       "cx cy cz wx wy wz`",
-                                       path, columns));
+    diagnostics.error(tag,
+                      fmt::format("filename: '{}' needs {} numbers per line with <include_rotation>: `time vx vy vz "
+                                  "cx cy cz wx wy wz`",
+                                  path, columns));
   return numbers;
 }
 

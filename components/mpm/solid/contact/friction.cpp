@@ -46,7 +46,7 @@ Gathering<D> gatherBodies(const std::vector<std::size_t>& bodies, const Records&
   return all;
 }
 
-/// Whether a body takes part in a contact at a node, with more mass there than rounding leaves.
+/// Whether a body takes part in a contact at a node, and has more mass there than rounding errors.
 template <int D>
 bool isThere(const Contact& contact, const Records& records, double totalMass, std::size_t m, const Index<D>& node) {
   return contact.concerns(static_cast<int>(m)) && records[m][node][lane::mass] >= leastShare * totalMass;
@@ -89,7 +89,7 @@ bool arePressed(const Level& level, const Contact& contact, const Records& recor
   return true;
 }
 
-/// The distance between the other bodies' mass and the body's at a node, m.
+/// The distance between the mass of the other bodies and that of the body at a node, m.
 template <int D>
 double separation(const Gathering<D>& all, const Vec<D>& position, double mass) {
   return ((all.position - position) / (all.mass - mass) - position / mass).norm();

@@ -45,8 +45,9 @@ template <int D>
 using Surfaces = std::vector<ContactSurface<D>>;
 using FrictionHeats = std::vector<std::optional<NodeView<double>>>;
 
-/// Applies the impulses of friction to all materials that take part, where their volumes and distance satisfy the
-/// contact. A change that would strain a cell by more than a half is cut down to that. Adds the heat to `heat`.
+/// Applies the impulses of friction to all participating materials, where their volumes and distance satisfy the
+/// conditions of the contact. A change that would strain a cell by more than a half is cut down to that. Adds the heat
+/// to `heat`.
 ///
 /// As in Uintah the normal of a body is half the difference of its mass gradient and of the mean, by mass, of those of
 /// all others, in axisymmetric scenes per cell, and its own stress says whether it is pressed, so that of three bodies,

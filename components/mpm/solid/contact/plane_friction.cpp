@@ -44,7 +44,8 @@ void eliminate(Square<N>& a, Column<N>& b, int k) {
   }
 }
 
-/// The solution x of a x = b by Gauss with partial pivoting. (Eigen's takes the compiler ten times as long.)
+/// The solution x of a x = b by Gaussian elimination with partial pivoting. (Eigen's takes the compiler ten times as
+/// long.)
 template <int N>
 Column<N> solved(Square<N> a, Column<N> b) {
   for (int k = 0; k < N; ++k) eliminate<N>(a, b, k);
@@ -83,7 +84,7 @@ int foremost(const SeparatingPlanes<D>& planes, const Index<D>& node) {
   return -1;
 }
 
-/// Whether, at a node, a body extends through the plane into the first one.
+/// Whether, at a node, a body extends across the plane into the first one.
 template <int D>
 bool overlaps(const SeparatingPlanes<D>& planes, int first, std::size_t m, const Index<D>& node) {
   return (*planes[m].prominence)[node] <= (*planes[first].prominence)[node];

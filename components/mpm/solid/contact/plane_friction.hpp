@@ -45,11 +45,12 @@ using SeparatingPlanes = std::vector<SeparatingPlane<D>>;
 inline constexpr double noProminence = -std::numeric_limits<double>::max();
 
 /// The body with the most mass and each other one that overlaps it beyond the plane and approaches the centre of mass
-/// exchange the impulse that stops the approach and, by Coulomb's friction, slows the slip; momentum is kept.
+/// exchange the impulse that stops the approach and, by Coulomb's friction, slows the slip; momentum is conserved.
 template <int D>
 void slideAlongPlanes(const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes);
 
-/// Moves the master by `motion`, or freely; bodies that overlap and approach it are stopped, and slowed by friction.
+/// Moves the master as prescribed by `motion`, or freely; bodies that overlap and approach it are stopped, and slowed
+/// by friction.
 template <int D>
 void slideOnMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
                    const SeparatingPlanes<D>& planes);

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Arguments of the growth of damage: one particle at the end of a step.
+/// Arguments for the growth of damage: one particle at the end of a step.
 struct DamageConditions {
   const Matrix3& deformation;  ///< F, 1
   double volume;               ///< m^3
@@ -35,7 +35,7 @@ struct NoDamage {
   void grow(const MaterialConstants&, const DamageConditions&, Matrix3&, DamageState&) const {}
 };
 
-/// D = sum de_p / e_f, e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*), s* = mean stress over equivalent stress:
+/// D = sum de_p / e_f, e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*), s* = mean stress / equivalent stress:
 /// Johnson & Cook, Eng. Fract. Mech. 21 (1985) 31. A particle fails at D = 1. As in Uintah |s*| <= 1.5, and the factor
 /// of the rate is (1 + e*)^D4 below 1/s.
 struct JohnsonCookDamage {
@@ -56,8 +56,8 @@ struct JohnsonCookDamage {
             DamageState& state) const;
 };
 
-/// D = sum de_p / e_f, e_f = 1.65 exp(-3/2 mean stress over equivalent stress): Hancock & Mackenzie, J. Mech. Phys.
-/// Solids 24 (1976) 147. As in Uintah it grows in tension only, and no particle fails by it.
+/// D = sum de_p / e_f, e_f = 1.65 exp(-3/2 mean stress / equivalent stress): Hancock & Mackenzie, J. Mech. Phys. Solids
+/// 24 (1976) 147. As in Uintah it grows in tension only, and no particle fails by it.
 struct HancockMackenzieDamage {
   static constexpr std::string_view name = "hancock_mackenzie";
   double initialDamage = 0, initialDeviation = 0;

@@ -23,7 +23,7 @@ void declareStart(Schema<Self>& tags) {
       .value("initial_std_scalar_damage", &Self::initialDeviation, 0, "1", "for gauss: standard deviation",
              input::nonNegative())
       .choice("initial_scalar_damage_distrib", &Self::startsSpread, {{"constant", false}, {"gauss", true}}, false,
-              "distribution of the damage at the start over the particles; the random numbers differ from Uintah's");
+              "distribution of the initial damage among the particles; the random numbers differ from Uintah's");
 }
 
 const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
@@ -36,8 +36,10 @@ const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
         .required("D3", &Self::d3, "1", "factor of the triaxiality")
         .required("D4", &Self::d4, "1", "factor of the logarithm of the rate")
         .required("D5", &Self::d5, "1", "factor of the temperature")
-        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller damage counts as 0",
-               input::nonNegative());
+        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller values of damage are treated as 0",
+               input::nonNegative())
+        .ignored("D0", "Uintah does not read it either")
+        .ignored("Dc", "Uintah does not read it either");
     declareStart(tags);
     return tags;
   }();
@@ -47,8 +49,9 @@ const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
 const Schema<HancockMackenzieDamage>& HancockMackenzieDamage::schema() {
   using Self = HancockMackenzieDamage;
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("damage_model", "Hancock-Mackenzie damage, p.damage; as in Uintah, no particle fails by it.");
-    tags.ignored("critical_scalar_damage", "as in Uintah, no particle fails by this damage");
+    Schema<Self> tags("damage_model",
+                      "Hancock-Mackenzie damage, p.damage; as in Uintah, it does not make particles fail.");
+    tags.ignored("critical_scalar_damage", "as in Uintah, this damage does not make particles fail");
     declareStart(tags);
     return tags;
   }();
@@ -78,7 +81,7 @@ T Self::*of(T ThresholdDamage::*member) {
   return member;
 }
 
-/// The tags of the criterion, and of how the threshold differs from particle to particle.
+/// The tags of the criterion, and of the distribution of the threshold among particles.
 template <class Self>
 void declareThreshold(Schema<Self>& tags) {
   using Base = ThresholdDamage;
@@ -89,13 +92,13 @@ void declareThreshold(Schema<Self>& tags) {
                        {"MaximumPrincipalStrain", Criterion::principalStrain},
                        {"MohrCoulomb", Criterion::mohrCoulomb},
                        {"MohrColoumb", Criterion::mohrCoulomb}},
-                      "what is compared with the threshold")
+                      "quantity that is compared with the threshold")
       .choice("failure_distrib", of<Self>(&Base::distribution),
               {{"constant", Distribution::constant},
                {"gauss", Distribution::gauss},
                {"weibull", Distribution::weibull},
                {"uniform", Distribution::uniform}},
-              Distribution::constant, "distribution of the threshold over the particles")
+              Distribution::constant, "distribution of the threshold among the particles")
       .value("failure_seed", of<Self>(&Base::seed), 0, "1", "seed of the random thresholds, which differ from Uintah's")
       .choice("scaling", of<Self>(&Base::scalesWithVolume), {{"none", false}, {"kayenta", true}}, false,
               "small particles are stronger: (reference_volume / volume)^(1/exponent)")
@@ -106,7 +109,7 @@ void declareThreshold(Schema<Self>& tags) {
       .value("friction_angle", of<Self>(&Base::frictionAngle), 0, "degrees", "for MohrCoulomb", input::between(0, 89))
       .value("tensile_cutoff_fraction_of_cohesion", of<Self>(&Base::tensileCutoff), 0, "1", "for MohrCoulomb",
              input::nonNegative())
-      .value("LocalizeParticles", of<Self>(&Base::localizes), true, "1", "whether particles fail at all");
+      .value("LocalizeParticles", of<Self>(&Base::localizes), true, "1", "whether particles can fail");
 }
 
 /// Checks the scaling of a threshold.
@@ -180,7 +183,7 @@ const Schema<Erosion>& erosionSchema() {
                {"ZeroStress", Algorithm::zeroStress},
                {"AllowNoShear", Algorithm::allowNoShear},
                {"PreserveStress", Algorithm::preserveStress}},
-              "a failed particle bears pressure only, nothing, mean stress only, or is only marked")
+              "a failed particle bears only pressure, no stress, or only mean stress, or is merely marked")
           .value("char_time", &Erosion::relaxationTime, 1e-99, "s", "time in which the lost stress decays to 1/e",
                  input::positive());
   return schema;
@@ -209,18 +212,20 @@ void connect(Material& material, const Element& parent, const Element& tag, Diag
   brittle->young = 9 * *bulk * *shear / (3 * *bulk + *shear);
 }
 
-/// Refuses stability checks with erosion, by which particles fail in Uintah.
+/// Refuses stability checks of porous metals with erosion, by which particles fail in Uintah.
 void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");
   const auto check = model ? model->child("stability_check") : std::nullopt;
-  if (check && check->attribute("type") != "none")
+  const auto yield = model ? model->child("yield_condition") : std::nullopt;
+  if (check && check->attribute("type") != "none" && yield && yield->attribute("type") == "gurson")
     diagnostics.error(*check,
-                      fmt::format("<erosion> on line {} acts after a loss of stability, which is not detected here; "
-                                  "give the stability_check type none, and the particles a <damage_model>",
+                      fmt::format("<erosion> on line {} acts after a loss of stability, which is not detected with "
+                                  "yield_condition gurson; give the stability_check type none, and the particles a "
+                                  "<damage_model>",
                                   erosion.where().line));
 }
 
-/// Notes that particles do not fail by porosity, as metals do in Uintah by default.
+/// Notes that particles do not fail because of porosity, as metals do in Uintah by default.
 void noteWhatDoesNotFail(const Material& material, const Element& parent, const Element& erosion,
                          Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");
@@ -229,7 +234,8 @@ void noteWhatDoesNotFail(const Material& material, const Element& parent, const 
   };
   if (material.model && offsetOf(*material.model, "p.plasticStrainRate") >= 0 && !isOff("evolve_porosity") &&
       !isOff("check_TEPLA_failure_criterion"))
-    diagnostics.note(erosion, "particles fail by the <damage_model> and by melting, not by porosity as in Uintah");
+    diagnostics.note(erosion,
+                     "particles fail because of the <damage_model> or melting, not because of porosity as in Uintah");
 }
 
 }  // namespace

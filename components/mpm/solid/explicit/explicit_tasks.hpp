@@ -31,8 +31,10 @@ struct ExplicitTasks {
   decltype(&solid::computeSSPlusVp<LinearShape<D>>) computeSSPlusVp;
   decltype(&solid::applyXpic<LinearShape<D>>) applyXpic;
   decltype(&solid::computeInternalHeatRate<LinearShape<D>>) computeInternalHeatRate;
-  decltype(&solid::addAffineVelocity<LinearShape<D>>) addAffineVelocity = nullptr;    ///< null: not with these shapes
-  decltype(&solid::updateAffineMoment<LinearShape<D>>) updateAffineMoment = nullptr;  ///< null: not with these shapes
+  decltype(&solid::addAffineVelocity<LinearShape<D>>) addAffineVelocity =
+      nullptr;  ///< null if not available with these shapes
+  decltype(&solid::updateAffineMoment<LinearShape<D>>) updateAffineMoment =
+      nullptr;  ///< null if not available with these shapes
 };
 
 template <class Shape, int D = Shape::dimension>

@@ -6,6 +6,7 @@
 #include <array>
 #include <numbers>
 
+#include "components/mpm/solid/explicit/check_problem.hpp"
 #include "components/mpm/solid/explicit/interpolators.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
@@ -41,9 +42,10 @@ struct MpmSection {
   double linearViscosity = 0, quadraticViscosity = 0, damping = 0;
   double minimumParticleMass = 0, minimumMassForAcceleration = 0;
   std::optional<double> maximumParticleVelocity;
+  bool removesLost = true;
   int minimumSubcycles = 1;
-  bool momentumForm = false, prescribesDeformation = false;
-  std::string deformationFile;
+  bool momentumForm = false, prescribesDeformation = false, insertsParticles = false;
+  std::string deformationFile, insertionFile;
 };
 
 /// Declares artificial viscosity and damping.
@@ -63,11 +65,16 @@ void addDissipation(Schema<MpmSection>& mpm) {
 /// Declares limits for single particles and nodes.
 void addLimits(Schema<MpmSection>& mpm) {
   mpm.value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
-            "every particle must be heavier (Uintah removes lighter ones)", input::nonNegative())
+            "smallest allowed mass of a particle (Uintah removes lighter ones)", input::nonNegative())
       .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
              "lighter nodes are accelerated only by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
-                "faster particles are slowed down to 9/10 of it", input::positive())
+                "faster particles are slowed down to 9/10 of this speed", input::positive())
+      .choice(
+          "lost_particles", &MpmSection::removesLost, {{"remove", true}, {"stop", false}}, true,
+          "what happens when a step turns a particle inside out (det F <= 0) or throws it through a symmetry plane: it "
+          "is removed and counted, or the run stops")
+      .ours()
       .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
              "smallest number of substeps in which a step updates the deformation gradient; -n: uses the exponential "
              "series of L dt up to power n instead");
@@ -78,31 +85,37 @@ void addUpdates(Schema<MpmSection>& mpm) {
   mpm.choice("stress_update", &MpmSection::stressUpdate,
              {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
              StressUpdate::last,
-             "the velocity from which stresses are computed: the grid's at the end of the step (usl), the particles' "
-             "new one, interpolated to the grid (musl), or the grid's at the start (usf)")
+             "the velocity from which stresses are computed: that of the grid at the end of the step (usl), the new "
+             "velocity of the particles, interpolated to the grid (musl), or that of the grid at the start (usf)")
       .ours()
       .value("XPIC2", &MpmSection::xpic, false, "1", "particles are updated by extended PIC of order 2")
       .value(
           "UseGradientEnhancedVelocityProjection", &MpmSection::projectsGradient, false, "1",
-          "particles include their velocity gradient in the velocity that they give to nodes; not with heat conduction")
+          "the velocity that particles contribute to nodes includes their velocity gradient; not with heat conduction")
       .value("pic_fraction", &MpmSection::picFraction, 0, "1",
              "fraction of PIC in the velocity update of particles; the rest is FLIP", input::between(0, 1))
       .ours()
-      .value(
-          "apic", &MpmSection::affine, false, "1",
-          "affine particle-in-cell: particles take the grid's velocity and its first moment, which preserves rotation")
+      .value("apic", &MpmSection::affine, false, "1",
+             "affine particle-in-cell: particles take the velocity of the grid and its first moment, which preserves "
+             "rotation")
       .ours()
       .value("UseMomentumForm", &MpmSection::momentumForm, false, "1",
              "from older versions of Uintah: true means <stress_update> musl");
 }
 
-/// Declares the prescribed deformation of bodies.
-void addPrescribedDeformation(Schema<MpmSection>& mpm) {
+/// Declares the prescribed deformation of bodies, and particles that enter later.
+void addPrescribedMotion(Schema<MpmSection>& mpm) {
   mpm.value("UsePrescribedDeformation", &MpmSection::prescribesDeformation, false, "1",
-            "all bodies move as <PrescribedDeformationFile> prescribes, whatever their stress")
+            "all bodies move as prescribed in <PrescribedDeformationFile>, independently of their stress")
       .value("PrescribedDeformationFile", &MpmSection::deformationFile, "time_defgrad_rotation", "1",
              "a file with 14 numbers per point in time: time (s), the components of the deformation gradient row by "
-             "row, and the angle (degrees) and axis of a rotation since the previous point");
+             "row, and the angle (degrees) and axis of a rotation since the previous point")
+      .value("InsertParticles", &MpmSection::insertsParticles, false, "1",
+             "particles move to their place at the times of <InsertParticlesFile>; until then they wait elsewhere "
+             "on the grid, as ordinary bodies")
+      .value("InsertParticlesFile", &MpmSection::insertionFile, "", "1",
+             "a file with 8 numbers per line, t color x y z u v w: at the time t (s), all particles of this color move "
+             "by (x, y, z) m and get the velocity (u, v, w) m/s");
   refuseSwitch(mpm, "exactDeformation", "give <Time> a delt_max that does not exceed the time between points");
 }
 
@@ -113,19 +126,19 @@ void addSurroundings(Schema<MpmSection>& mpm) {
       .value("DoPressureStabilization", &MpmSection::sharesVolume, false, "1",
              "F-bar: the particles of a cell share one change of volume, so that a nearly incompressible body can bend "
              "and shear")
-      .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
+      .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "whether the loads of <PhysicalBC> act")
       .value("computeColinearNormals", &MpmSection::oneNormal, true, "1",
              "for contacts of type friction, friction_bard and approach: true: bodies that meet at a node share one "
              "normal; false: each slides along its own surface")
       .value("use_CBDI_boundary_condition", &MpmSection::loadsAtCorners, false, "1",
              "pressures act at the corners of the faces of particles, whose area changes with F (Sadeghirad, Brannon & "
-             "Guilkey 2013). As in Uintah, a particle without a face within 26 degrees of the surface bears no "
-             "pressure, and a <torque> acts only where a pressure acts, and counts four times")
+             "Guilkey 2013). As in Uintah, no pressure acts on particles without a face within 26 degrees of the "
+             "surface, and a <torque> acts only where a pressure acts, with four times its value")
       .value("keepPressBCNormalToSurface", &MpmSection::turnsPressures, false, "1",
-             "pressures turn with the particles they act on; otherwise they keep their initial direction")
+             "pressures rotate with the particles that they act on; otherwise they keep their initial direction")
       .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
       .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
-             "friction between materials heats them, if heat is conducted")
+             "if heat is conducted, friction heats the materials")
       .choice("RunMMSProblem", &MpmSection::manufactured,
               {{"none", ""},
                {"AxisAligned", "AxisAligned"},
@@ -162,7 +175,7 @@ void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& d
     diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to update the velocity: choose one");
 }
 
-/// Tags of Uintah's that only implicit steps read.
+/// Tags of Uintah that only implicit steps read.
 constexpr std::array implicitOnly{"with_gauss_solver",
                                   "dynamic",
                                   "solver",
@@ -216,7 +229,7 @@ const Schema<MpmSection>& mpmSchema() {
     addDissipation(mpm);
     addLimits(mpm);
     addUpdates(mpm);
-    addPrescribedDeformation(mpm);
+    addPrescribedMotion(mpm);
     addSurroundings(mpm);
     mpm.check(checkDissipation).check(checkUpdates);
     addForeign(mpm);
@@ -238,6 +251,7 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   if (read.artificialViscosity) method.viscosity = {read.linearViscosity, read.quadraticViscosity};
   method.minimumMassForAcceleration = read.minimumMassForAcceleration;
   method.maximumParticleVelocity = read.maximumParticleVelocity;
+  method.removesLost = read.removesLost;
   method.minimumSubcyclesForF = read.minimumSubcycles;
   method.conductsHeat = read.conductsHeat;
   method.stressUpdate = read.momentumForm ? StressUpdate::modifiedLast : read.stressUpdate;
@@ -253,6 +267,13 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   return method;
 }
 
+/// Whether a step that fails is repeated with half of its length.
+bool repeatsSteps(const Element& root) {
+  const auto time = root.child("Time");
+  const auto tag = time ? time->child("recompute_timestep") : std::nullopt;
+  return tag && input::parse<bool>(tag->text()).value.value_or(false);
+}
+
 /// The motion of all bodies, if the scene prescribes one.
 std::shared_ptr<const PrescribedDeformation> readMotion(const MpmSection& read, const Element& root,
                                                         Diagnostics& diagnostics) {
@@ -266,53 +287,29 @@ std::shared_ptr<const PrescribedDeformation> readMotion(const MpmSection& read, 
   return motion ? std::make_shared<PrescribedDeformation>(*motion) : nullptr;
 }
 
-/// Throws InputError, at the place of <MPM>, if the grid leaves out an axis along which bodies are deformed.
+/// The particles that enter later, if the scene has any.
+std::vector<Insertion> readEntering(const MpmSection& read, const Element& root, Diagnostics& diagnostics) {
+  if (!read.insertsParticles) return {};
+  const Element mpm = root.child("MPM").value();
+  return readInsertions(read.insertionFile, mpm.child("InsertParticlesFile").value_or(mpm).where(), diagnostics);
+}
+
+/// Throws InputError, at the place of <MPM>, if bodies are deformed along an axis that the grid does not use.
 void refuseFlat(const Level& level, const Location& where) {
   if (level.dimension() < 3)
     throw InputError({{where, "MPM/UsePrescribedDeformation",
                        "needs a grid in three dimensions: more than one cell along x, y and z"}});
 }
 
-/// Checks that, with use_CBDI_boundary_condition, pressures specify the faces of particles on which they act.
-void checkCorners(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
-  const auto loads = root.child("PhysicalBC");
-  if (!problem.method.loadsAtCorners || !loads) return;
-  if (problem.method.turnsPressures)
-    diagnostics.error(root.child("MPM")->child("keepPressBCNormalToSurface").value(),
-                      "is not available with <use_CBDI_boundary_condition>");
-  if (!problem.start.loads.bodies.empty())
-    diagnostics.error(
-        *loads, "force: is not available with <use_CBDI_boundary_condition>, which takes only pressures and torques");
-  for (const Element& pressure : loads->child("MPM").value().children("pressure"))
-    if (!pressure.child("outward_normal"))
-      diagnostics.error(pressure, "missing tag <outward_normal>: needed with <use_CBDI_boundary_condition>");
-}
-
-/// Refuses settings of contacts that conflict with other parts of the method.
-void checkContactsOfMethod(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
-  for (const Contact& contact : problem.contacts) {
-    if (problem.start.axisymmetric && contact.volumeConstraint > 0 && !contact.usesPlanes())
-      diagnostics.error(root.child("MPM")->child("axisymmetric").value(),
-                        "volume_constraint of <contact> compares volumes, which are per radian here: remove it");
-    if (problem.method.stressUpdate == StressUpdate::first && contact.usesPlanes())
-      diagnostics.error(
-          root.child("MPM")->child("stress_update").value(),
-          "contacts of type friction_LR, friction_LRVar and specified_friction are available only with usl and musl");
-  }
-}
-
-/// Refuses loads that would have no effect because of another setting.
-void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
-  const Loads& loads = problem.start.loads;
-  if (problem.start.solution && (loads.hasForces() || loads.hasHeat()))
-    diagnostics.error(root.child("PhysicalBC").value(), "<RunMMSProblem> applies loads of its own: remove these");
-  for (const SurfaceLoad& load : loads.surfaces)
-    if (load.material >= static_cast<int>(problem.materials.size()))
-      diagnostics.error(root.child("PhysicalBC").value(),
-                        fmt::format("load_curve/material: there is no material {}; materials are numbered from 0 to {}",
-                                    load.material, problem.materials.size() - 1));
-  if (loads.hasHeat() && !problem.method.conductsHeat)
-    diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <DoExplicitHeatConduction> true");
+/// Throws InputError, at the place of <MPM>, if particles would enter from beyond an axis that the grid leaves out.
+void refuseShifts(const Level& level, const std::vector<Insertion>& insertions, const Location& where) {
+  std::array<bool, 3> isThin{true, true, true};
+  for (int d = 0; d < level.dimension(); ++d) isThin[level.axis(d)] = false;
+  for (const Insertion& insertion : insertions)
+    for (int axis = 0; axis < 3; ++axis)
+      if (isThin[axis] && insertion.shift[axis] != 0)
+        throw InputError({{where, "MPM/InsertParticlesFile",
+                           fmt::format("particles move along {}, along which the grid has one cell", "xyz"[axis])}});
 }
 
 /// The settings of the solids of a scene.
@@ -341,12 +338,12 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
   problem.start = {read.axisymmetric, readLoads(root, read.useLoadCurves, diagnostics),
                    makeManufactured(read.manufactured)};
   problem.start.leastMass = read.minimumParticleMass;
+  problem.method.removesLost = problem.method.removesLost && !repeatsSteps(root);
   problem.motion = readMotion(read, root, diagnostics);
+  problem.insertions = readEntering(read, root, diagnostics);
   nameMaterials(problem.materials);
   checkHeat(problem, root, diagnostics);
-  checkLoads(problem, root, diagnostics);
-  checkCorners(problem, root, diagnostics);
-  checkContactsOfMethod(problem, root, diagnostics);
+  checkProblem(problem, root, diagnostics);
   for (const Material& material : problem.materials) {
     if (problem.start.solution && material.model->name() != "cnh_mms")
       diagnostics.error(root.child("MPM")->child("RunMMSProblem").value(),
@@ -360,6 +357,7 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
 std::unique_ptr<Solids> makeComponent(const Level& level, const ReadSolids& read) {
   if (read.problem.start.axisymmetric) refuseCellsAround(level, read.where);
   if (read.problem.motion) refuseFlat(level, read.where);
+  refuseShifts(level, read.problem.insertions, read.where);
   return makeComponent(level, read.interpolator, read.problem);
 }
 

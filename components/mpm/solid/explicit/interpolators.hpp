@@ -21,7 +21,7 @@ struct TasksOfShapes {
 /// The method with these shape functions on a grid of a dimension; loads their module.
 std::unique_ptr<Solids> makeSolids(Interpolator interpolator, int dimension, const Problem& problem);
 
-/// To be called by the module of an interpolator when it is loaded.
+/// Must be called by the module of an interpolator when it is loaded.
 void defineShapes(Interpolator interpolator, const TasksOfShapes& shapes, const TasksOfShapes& axisymmetric = {});
 
 }  // namespace tushar::mpm::solid

@@ -13,8 +13,8 @@ struct Keeps {
   bool failure = false;            ///< p.localizedMPM: particles may fail
   bool viscosity = false;          ///< p.q: artificial viscosity
   bool externalForce = false;      ///< p.externalforce: loads act
-  int stateSize = 0;               ///< number of values per particle in `state`; 0: there is no such variable
-  const ParticleLabel<double>* state = nullptr;  ///< p.modelState; outlives the tasks
+  int stateSize = 0;               ///< number of values per particle in `state`; 0 if there is no such variable
+  const ParticleLabel<double>* state = nullptr;  ///< p.modelState; must outlive the tasks
 
   bool hasState() const { return stateSize > 0; }
 };

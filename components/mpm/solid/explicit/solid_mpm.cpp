@@ -99,7 +99,7 @@ void SolidMpm<D>::schedulePrescribedMotion(TaskList& tasks, const NodeLabel<Node
                       with(shapes_.ghostNodes), startTime(), requiresOld(p::x<D>, shapes_.reach), modifies(record));
 }
 
-/// Runs only if work is saved or reported, as scheduleStrainWork; `shaped` reads the F that shape functions follow.
+/// Like scheduleStrainWork, runs only if work is saved or reported; `shaped` reads the F that shape functions follow.
 template <int D>
 void SolidMpm<D>::scheduleMeasureWork(TaskList& tasks, Reads shaped) const {
   scheduleNodalWork(tasks);
@@ -122,7 +122,7 @@ void SolidMpm<D>::scheduleUpdateInCells(TaskList& tasks) const {
   scheduleComputeStressTensor(tasks, g::record);
 }
 
-/// Only x and v; `shaped` reads the F that shape functions follow.
+/// Updates only x and v; `shaped` reads the F that shape functions follow.
 template <int D>
 void SolidMpm<D>::scheduleMoveParticles(TaskList& tasks, Reads shaped) const {
   tasks.perMaterial("mpm::interpolateToParticlesAndUpdate", bodies_->moveParticles, problem_.materials,
@@ -155,7 +155,8 @@ void SolidMpm<D>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const {
                       record, particles, computes(p::affineMoment));
 }
 
-/// The velocity that stresses follow, if it is not that of the motion; `moving` reads that of the particles.
+/// The velocity from which stresses follow, if it differs from that of the motion; `moving` reads that of the
+/// particles.
 template <int D>
 void SolidMpm<D>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) const {
   const int reach = shapes_.reach;
@@ -173,9 +174,11 @@ void SolidMpm<D>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) con
 /// F and the stress, separately from the motion, with the velocity in `record`.
 template <int D>
 void SolidMpm<D>::scheduleComputeStressTensor(TaskList& tasks, const NodeLabel<NodeRecord>& record) const {
-  const auto body = problem_.method.sharesVolume ? bodies_->computeSharedStressTensor : bodies_->computeStressTensor;
-  tasks.perMaterial("mpm::computeStressTensor", body, problem_.materials, with(problem_.method), startTime(),
-                    requiresOld(delT), all<StateUpdate<D>>(shapes_.ghostNodes, keeps(), &record));
+  const Method& method = problem_.method;
+  const bool removes = method.removesLost && method.stressUpdate != StressUpdate::first;
+  const auto body = method.sharesVolume ? bodies_->computeSharedStressTensor : bodies_->computeStressTensor;
+  tasks.perMaterial("mpm::computeStressTensor", body, problem_.materials, with(method), startTime(), requiresOld(delT),
+                    all<StateUpdate<D>>(shapes_.ghostNodes, keeps(), &record, removes));
   scheduleDamage(tasks);
 }
 

@@ -13,7 +13,7 @@ namespace tushar::mpm::solid {
 template <int D>
 class SolidMpm : public SolidsOf<D> {
  public:
-  /// `bodies` outlives it.
+  /// `bodies` must outlive it.
   SolidMpm(Problem problem, const ExplicitTasks<D>& bodies)
       : Base(std::move(problem), bodies.shaped.shape), bodies_(&bodies) {}
 

@@ -14,6 +14,7 @@
 #include "components/mpm/solid/tasks/diagnose.hpp"
 #include "components/mpm/solid/tasks/displacement.hpp"
 #include "components/mpm/solid/tasks/heat.hpp"
+#include "components/mpm/solid/tasks/insert_particles.hpp"
 #include "components/mpm/solid/tasks/nonlocal.hpp"
 #include "components/mpm/solid/tasks/show_grid.hpp"
 #include "components/mpm/solid/tasks/surrounding_force.hpp"
@@ -150,6 +151,10 @@ void SolidsOf<D>::scheduleEndOfStep(TaskList& tasks) const {
     tasks.perMaterial("mpm::keepTemperature", keepTemperature, problem_.materials, requiresOld(p::temperature),
                       computes(p::temperature));
   if (problem_.surroundings) problem_.surroundings->scheduleMotion(tasks, problem_.materials);
+  if (!problem_.insertions.empty())
+    tasks.perMaterial("mpm::insertParticles", insertParticles<D>, problem_.materials, with(problem_.insertions),
+                      startTime(), requiresOld(delT), requiresOld(p::color), modifies(p::x<D>),
+                      modifies(p::velocity<D>));
   tasks.relocate(p::x<D>, problem_.materials);
 }
 
@@ -165,7 +170,7 @@ void SolidsOf<D>::scheduleCornerLoads(TaskList& tasks) const {
 template <int D>
 void SolidsOf<D>::scheduleSurroundingForce(TaskList& tasks) const {
   if (!problem_.surroundings) return;
-  problem_.surroundings->scheduleForces(tasks, problem_.materials);
+  problem_.surroundings->scheduleForces(tasks, problem_.materials, state_);
   tasks.perMaterial("mpm::addSurroundingForce", addSurroundingForce<D>, problem_.materials,
                     requiresNew(g::surroundingForce<D>), modifies(g::record));
 }

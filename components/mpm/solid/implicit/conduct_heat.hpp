@@ -132,8 +132,8 @@ class NodalHeat {
     }
     solvers::addUp(nodes_.unknowns(1), right);
   }
-  /// Leaves out the rows and columns of nodes with a given temperature; the right-hand side takes their effect on
-  /// other nodes.
+  /// Removes the rows and columns of nodes with a given temperature; the right-hand side includes their effect on other
+  /// nodes.
   void addPoint(double factor, std::span<const int> numbers, std::span<const Vec<D>> slopes, solvers::Matrix& matrix,
                 std::vector<double>& right) const {
     const std::size_t count = numbers.size();
@@ -158,7 +158,7 @@ class NodalHeat {
   bool resets_grid_;
   NodeMap<D> nodes_;
   std::vector<double> capacity_, before_, after_;  ///< J/K, K, K
-  double least_ = 0;                               ///< J/K, for nodes that particles touch by gradients alone
+  double least_ = 0;                               ///< J/K, for nodes that particles touch only with gradients
   std::vector<std::optional<double>> given_;       ///< K
 };
 

@@ -10,7 +10,7 @@ namespace tushar::mpm::solid::implicit {
 template <int D>
 class ImplicitMpm : public Solids {
  public:
-  /// `shapes` outlives it.
+  /// `shapes` must outlive it.
   ImplicitMpm(Problem problem, const ImplicitShapes<D>& shapes, ImplicitMethod how);
 
   std::string whyOneLevel() const override { return "implicit steps solve one system over the whole grid"; }
@@ -31,7 +31,7 @@ class ImplicitMpm : public Solids {
   const ImplicitShapes<D>* shapes_;
   ImplicitMethod how_;
   bool heats_;          ///< the work of a step changes the temperature of some material
-  bool is_damageable_;  ///< some material counts damage
+  bool is_damageable_;  ///< some material accumulates damage
 };
 
 }  // namespace tushar::mpm::solid::implicit

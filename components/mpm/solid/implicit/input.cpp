@@ -51,8 +51,8 @@ void declareSteps(Schema<Section>& schema) {
              "largest change, is below this",
              input::positive())
       .value("convergence_criteria_energy", &Section::energy, 4e-10, "1",
-             "and when the product of the last change and the residual before it, relative to the first such product, "
-             "is below this",
+             "Newton's iteration ends only when the product of the last change and the residual before it, relative to "
+             "the first such product, is also below this",
              input::positive())
       .value("iters_before_timestep_restart", &Section::maxIterations, 25, "1",
              "largest number of Newton iterations; if more are needed, the step is repeated with half the time step",
@@ -67,7 +67,7 @@ void declareSteps(Schema<Section>& schema) {
              input::atLeast(1));
 }
 
-/// Notes that nodes do not keep the temperatures of the first step, from which every step conducts heat anew in Uintah.
+/// Notes that nodes do not keep the temperatures of the first step; in Uintah, every step conducts heat from those.
 void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("interpolateParticleTempToGridEveryStep");
   const auto conducts = element.child("DoImplicitHeatConduction");
@@ -77,7 +77,7 @@ void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagno
                      "first step, as in Uintah");
 }
 
-/// Tags for behaviour that is always on here.
+/// Tags for behaviour that is always enabled in Tushar.
 void addFixedHeat(Schema<Section>& mpm) {
   mpm.custom("interpolateParticleTempToGridEveryStep", noteFrozenTemperature,
              {"interpolateParticleTempToGridEveryStep"},
@@ -97,36 +97,37 @@ const Schema<Section>& sectionSchema() {
         .value("dynamic", &Section::dynamic, true, "1",
                "true: Newmark's method; false: no inertia, each step ends in equilibrium");
     mpm.value("do_grid_reset", &Section::resetsGrid, true, "1",
-              "false: the grid moves with the solid, particles keep their positions relative to it, and p.displacement "
-              "gives their true ones")
+              "false: the grid moves with the solid, particles keep their positions relative to the grid, and their "
+              "true positions follow from p.displacement")
         .value("DoPressureStabilization", &Section::sharesVolume, false, "1",
                "F-bar: the particles of a cell share one change of volume, so that nearly incompressible materials do "
                "not lock; for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic");
     declareSteps(mpm);
     mpm.choice("solver", &Section::solver, {{"petsc", 0}, {"simple", 0}, {"amgx", 0}}, 0,
-               "the linear solver: PETSc, under any of three names")
+               "the linear solver, which is PETSc for each of the three names")
         .section(
             "Solver", &Section::linear, solvers::tangentSchema(),
             "settings of the linear solver, also for heat conduction, for which the default is conjugate gradients")
         .ours()
-        .value("use_load_curves", &Section::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
+        .value("use_load_curves", &Section::useLoadCurves, false, "1", "whether the loads of <PhysicalBC> act")
         .value("withColor", &Section::withColor, false, "1",
                "accepted for compatibility with Uintah: p.color exists if it is saved")
         .value("DoImplicitHeatConduction", &Section::heat, false, "1", "heat is conducted, by backward Euler")
-        .ignored("DoExplicitHeatConduction", "heat is conducted implicitly, if DoImplicitHeatConduction is true")
+        .ignored("DoExplicitHeatConduction", "heat is conducted implicitly if DoImplicitHeatConduction is true")
         .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0, "conduction is transient")
         .ignored("artificial_damping_coeff", "as in Uintah, only explicit steps are damped")
         .ignored("minimum_particle_mass", "no particle is removed")
         .ignored("maximum_particle_velocity", "no particle is slowed down");
     refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have artificial viscosity");
     refuseSwitch(mpm, "UsePrescribedDeformation", "only explicit steps can follow a prescribed deformation");
-    refuseSwitch(mpm, "keepPressBCNormalToSurface", "a pressure keeps the direction of its surface at the start");
+    refuseSwitch(mpm, "InsertParticles", "give every body its position at the start");
+    refuseSwitch(mpm, "keepPressBCNormalToSurface", "a pressure keeps the initial direction of its surface");
     refuseSwitch(mpm, "temperature_solve", "nodes take the mean temperature of their particles");
     for (const char* tag :
          {"artificial_viscosity_coeff1", "artificial_viscosity_coeff2", "artificial_viscosity_heating",
           "minimum_mass_for_acc", "minimum_subcycles_for_F", "XPIC2", "do_contact_friction_heating", "cpdi_lcrit",
-          "computeColinearNormals", "PrescribedDeformationFile", "exactDeformation", "UseMomentumForm",
-          "UseGradientEnhancedVelocityProjection"})
+          "computeColinearNormals", "PrescribedDeformationFile", "InsertParticlesFile", "exactDeformation",
+          "UseMomentumForm", "UseGradientEnhancedVelocityProjection"})
       mpm.ignored(tag, "as in Uintah, only explicit steps use it");
     addForeignTags(mpm);
     addFixedHeat(mpm);
@@ -177,7 +178,7 @@ void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnosti
               "master of a <contact> of type rigid or specified");
 }
 
-/// Whether a damage model counts damage without weakening the material.
+/// Whether a damage model accumulates damage without weakening the material.
 bool onlyCounts(const Damage& damage) {
   return std::holds_alternative<NoDamage>(damage) || std::holds_alternative<HancockMackenzieDamage>(damage) ||
          std::holds_alternative<JohnsonCookDamage>(damage);
@@ -198,10 +199,10 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
   const Element where = root.child("MaterialProperties").value();
   for (const Material& material : problem.materials)
     if (material.erosion.acts() || !onlyCounts(material.damage))
-      diagnostics.error(where,
-                        "'" + material.name +
-                            "' may lose strength, which needs <time_integrator> explicit; implicit steps take only "
-                            "<damage_model> hancock_mackenzie or johnson_cook without <erosion>, to accumulate damage");
+      diagnostics.error(
+          where, "'" + material.name +
+                     "' may lose strength, which needs <time_integrator> explicit; implicit steps support only the "
+                     "<damage_model> hancock_mackenzie or johnson_cook without <erosion>, which accumulate damage");
   for (const Contact& contact : problem.contacts) {
     if (contact.type == Contact::Type::friction || contact.usesPlanes())
       diagnostics.error(
@@ -211,23 +212,24 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
     if (contact.excluded >= 0) diagnostics.error(where, "contact: ExcludeMaterial needs <time_integrator> explicit");
     for (const Material& material : problem.materials)
       if (contact.type == Contact::Type::specified && !contact.concerns(material.index))
-        diagnostics.error(where, "contact: '" + material.name +
-                                     "' is not among its <materials>; with <time_integrator> "
-                                     "implicit all materials move as one");
+        diagnostics.error(
+            where, "contact: '" + material.name +
+                       "' is not among its <materials>; with <time_integrator> implicit, all materials move as one");
   }
   if (problem.start.loads.hasHeat())
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <time_integrator> explicit");
 }
 
-/// Notes that heat does not strain metals, as it does in Uintah's implicit steps in addition to the equation of state.
+/// Notes that metals do not expand thermally, as they do in Uintah's implicit steps in addition to the equation of
+/// state.
 void noteThermalStrain(const Element& root, Diagnostics& diagnostics) {
   for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material")) {
     const auto model = material.child("constitutive_model");
     const auto given = model ? model->child("coeff_thermal_expansion") : std::nullopt;
     if (given && input::parse<double>(given->text()).value != 0.0)
       diagnostics.note(*given,
-                       "heat acts on the stress through the equation of state alone; in Uintah's implicit steps it "
-                       "also strains the metal");
+                       "temperature affects the stress only through the equation of state; in Uintah's implicit steps "
+                       "it also strains the metal");
   }
 }
 
@@ -236,10 +238,9 @@ void refuseConditions(const Problem& problem, const Element& root, Diagnostics& 
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const std::string id = condition.attribute("id").value_or("all");
     if (id != "all" && problem.materials.size() > 1)
-      diagnostics.error(
-          condition,
-          "id: found '" + id +
-              "'; with <time_integrator> implicit, materials share their nodes, and a condition holds for all of them");
+      diagnostics.error(condition, "id: found '" + id +
+                                       "'; with <time_integrator> implicit, materials share their nodes, and a "
+                                       "condition applies to all of them");
     const auto value = condition.child("value");
     const bool flows = value && input::parse<double>(value->text()).value != 0.0;
     if (condition.attribute("label") == boundary::temperature.name &&

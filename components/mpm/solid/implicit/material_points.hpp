@@ -13,7 +13,7 @@ namespace tushar::mpm::solid::implicit {
 /// A node that a particle touches: S_i, its gradient (1/m) and, if axisymmetric, S_i / r (1/m).
 template <int D>
 struct NodeTouch {
-  int node = -1;  ///< number in the system; -1: none
+  int node = -1;  ///< index in the system; -1: none
   double s = 0, hoop = 0;
   Vec<D> gradient, sign;  ///< the sign with which the node moves the particle along each axis
 };
@@ -22,7 +22,7 @@ struct NodeTouch {
 struct PointGroup {
   const Material* material = nullptr;
   int count = 0;
-  std::size_t first = 0;  ///< place of the first among all points of the system
+  std::size_t first = 0;  ///< index of the first among all points of the system
   const double *mass = nullptr, *temperature = nullptr;
   const Matrix3 *oldDeformation = nullptr, *oldStress = nullptr;
   const double* oldState = nullptr;     ///< stateSize numbers each
@@ -52,7 +52,7 @@ class PointStates {
 
   std::vector<Matrix3> deformation, stress;  ///< F, 1; Cauchy stress, Pa
   std::vector<Matrix3> gradient;  ///< of the displacement, with respect to the position at the start of the step, 1
-  std::vector<double> stretch;    ///< factor of F in F-bar, which the model gets, 1
+  std::vector<double> stretch;    ///< factor of F in F-bar, which is passed to the model, 1
 
   /// Whether F-bar applies to the points of a run: only for models that support it.
   bool sharesVolume(const PointRun& run) const { return shares_volume_ && run.group->material->model->supportsFBar(); }
@@ -91,7 +91,7 @@ class PointStates {
 
  private:
   /// F-bar: det(stretch F) is the volume of all points of the run over that at the start of the simulation, so that
-  /// each cell is compressed as one (de Souza Neto et al., Int. J. Solids Structures 33 (1996) 3277).
+  /// each cell is compressed as a whole (de Souza Neto et al., Int. J. Solids Structures 33 (1996) 3277).
   void shareVolume(const PointRun& run) {
     double start = 0, now = 0;
     const bool shares = sharesVolume(run);
@@ -107,7 +107,7 @@ class PointStates {
     }
   }
   /// Calls `work(k, points)` for up to stressGroup points at once, with their state at the start of the step; k is the
-  /// first.
+  /// index of the first.
   template <class Work>
   void forEachChunk(const PointRun& run, Work&& work) {
     const PointGroup& group = *run.group;

@@ -8,11 +8,11 @@ namespace tushar::mpm::solid::implicit {
 /// Settings of implicit steps; names and defaults are Uintah's.
 struct ImplicitMethod {
   bool dynamic = true;        ///< Newmark's method; otherwise no inertia, and each step ends in equilibrium
-  bool resetsGrid = true;     ///< otherwise the grid moves with the solid, and shape functions stay
+  bool resetsGrid = true;     ///< otherwise the grid moves with the solid, and shape functions do not change
   bool sharesVolume = false;  ///< F-bar: the particles of a cell share one change of volume, so that they do not lock
   solvers::NewtonSettings newton;
   bool conductsHeat = false;
-  solvers::LinearSettings heat;   ///< where heat is conducted
+  solvers::LinearSettings heat;   ///< if heat is conducted
   int iterationsToDecrease = 12;  ///< after a step with at least this many iterations, the next one is shorter
   int iterationsToIncrease = 4;   ///< after a step with at most this many iterations, the next one is longer
   double decreaseFactor = 0.6;

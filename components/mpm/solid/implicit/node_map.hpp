@@ -9,7 +9,7 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// Numbers of grid nodes in a system of equations, which contains only the nodes that particles touch. A node beyond a
+/// Indices of grid nodes in a system of equations, which contains only the nodes that particles touch. A node beyond a
 /// symmetry plane moves as the mirror image of the one inside; a node on a periodic face is the one on the other side.
 ///
 /// The rank that owns the cell above a node owns the node. A rank numbers its own nodes first, then those of other
@@ -43,7 +43,7 @@ class NodeMap {
     return image;
   }
   void touch(const Index<D>& node) { known_[place(node)] = isTouched | isNear; }
-  /// Numbers all nodes that any rank has touched; this rank keeps those within `reach` of its patches.
+  /// Numbers all nodes that any rank has touched; this rank stores those within `reach` of its patches.
   void number(const RankPatches& patches, int reach) {
     for (const Patch* patch : patches)
       forEach<D>(patch->nodesWithin(reach), [&](const Index<D>& node) {
@@ -54,10 +54,10 @@ class NodeMap {
     numberOwners();
   }
 
-  /// Number of nodes that this rank keeps.
+  /// Number of nodes that this rank stores.
   int size() const { return static_cast<int>(nodes_.size()); }
   int owned() const { return owned_; }
-  /// The number of a node; -1 if this rank does not keep it.
+  /// The index of a node; -1 if this rank does not store it.
   int operator()(const Index<D>& node) const { return box_.contains(node) ? numbers_[place(node)] : -1; }
   const Index<D>& node(int number) const { return nodes_[number]; }
   /// Unknowns of `block` numbers for each node.
@@ -106,7 +106,7 @@ class NodeMap {
     for (int d = 0; d < D; ++d) wide[d] = node[d];
     return box_.offset(wide);
   }
-  /// Gives every rank the nodes that any rank has touched.
+  /// Sends the nodes that any rank has touched to all ranks.
   void shareTouched() {
     std::vector<unsigned char> touched(known_);
     ranks_->merge(std::as_writable_bytes(std::span(touched)), [&](const std::byte* from, std::byte* into) {

@@ -18,7 +18,7 @@ struct InStep {
   static constexpr bool hasAcceleration = true;
   static auto read(const auto& label) { return requiresOld(label); }
 };
-/// The solve that starts a run reads the state that earlier tasks of the same phase made, without accelerations.
+/// The solve that starts a run reads the state computed by earlier tasks of the same phase, without accelerations.
 struct AtStart {
   static constexpr bool hasAcceleration = false;
   static auto read(const auto& label) { return requiresNew(label); }

@@ -18,7 +18,7 @@ struct Touch {
   double s, hoop;   ///< S_i and, if axisymmetric, S_i / r (1/m)
   Vec<D> gradient;  ///< of S_i, 1/m
 };
-/// The function that is called with each particle and the nodes that it touches, always equally many.
+/// The function that is called with each particle and the nodes that it touches, whose number is always the same.
 template <int D>
 using VisitTouches = std::function<void(int p, std::span<const Touch<D>> touched)>;
 
@@ -31,7 +31,7 @@ inline constexpr std::size_t mostTouches = D == 1   ? 3
 /// Calls `visit` for each particle of a patch, cell by cell and by id.
 template <class Shape, int D = Shape::dimension>
 void forEachTouched(const Patch& patch, const Placed<D>& placed, const Vec3& commonSize, const VisitTouches<D>& visit) {
-  static_assert(!Shape::deforms, "implicit steps have no shape functions that follow F");
+  static_assert(!Shape::deforms, "implicit steps support no shape functions that depend on F");
   std::array<Touch<D>, mostTouches<D>> touched;
   forEachStencil<Shape>(patch, patch.cells(), placed, commonSize, [&](int p, const auto& stencil) {
     std::size_t count = 0;

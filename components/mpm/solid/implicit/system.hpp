@@ -38,13 +38,13 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   solvers::Unknowns unknowns() const;
   /// Sets the displacement of a node along an axis to `value`, m.
   void prescribe(int node, int d, double value);
-  /// The displacement of each node by its velocity, m, or the prescribed one.
+  /// The displacement of each node due to its velocity, m, or the prescribed one.
   std::vector<double> guess() const;
 
   bool residual(std::span<const double> u, std::span<double> r) override;
   void tangent(solvers::Matrix& matrix) override;
-  /// Whether the residual of every node is at most 1e-14 of the forces that it sums, where the stress of each particle
-  /// counts as that of a strain of 1.
+  /// Whether the residual of every node is at most 1e-14 of the forces that it sums, where each particle contributes
+  /// its stress at a strain of 1.
   bool isNegligible(std::span<const double> u, std::span<const double> r) const override;
 
   /// The acceleration of each node when a run starts: (f + m g - sum_p V_p sigma_p grad S) / m, 0 if prescribed,
@@ -54,7 +54,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   /// The forces at the nodes of this rank that keep their prescribed displacements, N; 0 along free axes.
   std::vector<double> reactions() const;
 
-  /// Acceleration of a node by its displacement in the step, m/s^2; 0 without inertia.
+  /// Acceleration of a node that follows from its displacement in the step, m/s^2; 0 without inertia.
   Vec<D> acceleration(int node, std::span<const double> u) const;
   Vec<D> displacement(int node, std::span<const double> u) const {
     return Eigen::Map<const Vec<D>>(u.data() + D * node);
@@ -93,10 +93,11 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   bool addInternalForces(std::span<const double> u, std::span<double> r);
   void addInternalForce(const PointRun& run, std::span<double> r) const;
   Strain strainOf(std::size_t point) const;
-  Local stiffnessOf(const PointGroup& group, int k, const Matrix9& tangent) const;
-  void addStiffness(const PointGroup& group, int k, Local stiffness, solvers::Matrix& matrix) const;
+  void addStiffnessOf(const PointGroup& group, int k, const Matrix9& tangent, Local& stiffness) const;
+  /// Adds the stiffness between nodes to the matrix, without the rows and columns of prescribed displacements.
+  void addStiffness(std::span<const int> numbers, Local& stiffness, solvers::Matrix& matrix) const;
   void addRunStiffness(const PointRun& run, solvers::Matrix& matrix);
-  /// The numbers of the touches_ nodes of a point.
+  /// The indices of the touches_ nodes of a point.
   std::array<int, mostTouches<D>> numbersOf(std::size_t point) const;
   Rows volumeRow(std::size_t point) const;
   Rows volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const;
@@ -116,7 +117,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
     std::size_t source;
     int from, count;
   };
-  std::vector<Run> runs_;  ///< cell by cell: the order of every sum, whatever the patches
+  std::vector<Run> runs_;  ///< cell by cell: the order of every sum, for any patches
   std::vector<NodeTouch<D>> touch_;
   PointStates states_;
   std::vector<Node> node_;

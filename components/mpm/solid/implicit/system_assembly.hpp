@@ -155,8 +155,8 @@ void ImplicitSystem<D>::measureStiffness() {
   stiffest_ = map_.ranks().max(stiffest_) / (h * h);
 }
 
-/// Supports nodes with less than a millionth of a cell's volume of material, as they may have almost no stiffness along
-/// some axis.
+/// Supports nodes with less than a millionth of a cell's volume of material, since they may have almost no stiffness
+/// along some axis.
 template <int D>
 void ImplicitSystem<D>::supportNodes() {
   for (Node& node : node_)

@@ -27,15 +27,39 @@ auto ImplicitSystem<D>::strainOf(std::size_t point) const -> Strain {
   return strain;
 }
 
-/// V0 Bᵀ a B, where B is strainOf and a_ijkl = sum_JL dP_iJ/dF_kL F_old_jJ F_old_lL.
+/// Adds V0 Bᵀ a B / stretch, where B is strainOf and a_ijkl = sum_JL dP_iJ/dF_kL F_old_jJ F_old_lL. A column of B has
+/// at most D numbers, and one more of the hoop: only these are multiplied.
 template <int D>
-auto ImplicitSystem<D>::stiffnessOf(const PointGroup& group, int k, const Matrix9& tangent) const -> Local {
+void ImplicitSystem<D>::addStiffnessOf(const PointGroup& group, int k, const Matrix9& tangent, Local& stiffness) const {
+  const std::size_t at = group.first + k;
   const Matrix3& f = group.oldDeformation[k];
-  Matrix9 half, whole;
+  Matrix9 half;
+  Eigen::Matrix<double, 9, 9, Eigen::RowMajor> whole;
   for (int c = 0; c < 3; ++c) half.middleCols<3>(3 * c) = tangent.middleCols<3>(3 * c) * f.transpose();
   for (int c = 0; c < 3; ++c) whole.middleRows<3>(3 * c) = f * half.middleRows<3>(3 * c);
-  const Strain strain = strainOf(group.first + k);
-  return group.mass[k] / group.material->density * (strain.transpose() * (whole * strain));
+  whole *= group.mass[k] / group.material->density / states_.stretch[at];
+  std::array<int, D> axis;
+  for (int d = 0; d < D; ++d) axis[d] = sceneAxis<D>(map_.level(), d);
+  const NodeTouch<D>* touch = touchesOf(at);
+  /// The sum over B's column of component i of a node, from `sum` on, times what belongs to its rows.
+  const auto times = [&](const NodeTouch<D>& node, int i, const auto& rows, auto sum) {
+    for (int j = 0; j < D; ++j) sum += rows(3 * axis[i] + axis[j]) * node.gradient[j];
+    if (i == 0 && node.hoop != 0) sum += rows(8) * node.hoop;
+    sum *= node.sign[i];
+    return sum;
+  };
+  for (int n = 0; n < touches_; ++n)
+    for (int i = 0; i < D; ++i) {
+      if (touch[n].node < 0) continue;
+      using Row = Eigen::Matrix<double, 1, 9>;
+      const Row force = times(
+          touch[n], i, [&](int row) { return whole.row(row); }, Row(Row::Zero()));
+      for (int m = 0; m < touches_; ++m)
+        for (int j = 0; j < D; ++j)
+          if (touch[m].node >= 0)
+            stiffness(D * n + i, D * m + j) += times(
+                touch[m], j, [&](int row) { return force[row]; }, 0.0);
+    }
 }
 
 /// The row of ln det F: its change for a unit displacement of each node that a point touches, 1/m.
@@ -67,9 +91,7 @@ auto ImplicitSystem<D>::numbersOf(std::size_t point) const -> std::array<int, mo
 }
 
 template <int D>
-void ImplicitSystem<D>::addStiffness(const PointGroup& group, int k, Local stiffness, solvers::Matrix& matrix) const {
-  const auto all = numbersOf(group.first + k);
-  const std::span numbers = std::span(all).first(touches_);
+void ImplicitSystem<D>::addStiffness(std::span<const int> numbers, Local& stiffness, solvers::Matrix& matrix) const {
   for (int n = 0; n < touches_; ++n)
     for (int d = 0; d < D; ++d) {
       const int node = numbers[n];
@@ -80,20 +102,30 @@ void ImplicitSystem<D>::addStiffness(const PointGroup& group, int k, Local stiff
   matrix.add(numbers, numbers, {stiffness.data(), static_cast<std::size_t>(stiffness.size())});
 }
 
+/// Points that follow each other and touch the same nodes, as those of a cell do with linear functions, are added
+/// together.
 template <int D>
 void ImplicitSystem<D>::addRunStiffness(const PointRun& run, solvers::Matrix& matrix) {
   const PointGroup& group = *run.group;
   const bool shares = states_.sharesVolume(run);
   std::vector<Rows> forces;
+  Local stiffness(0, 0);
+  std::array<int, mostTouches<D>> numbers;
+  const std::span touched = std::span(numbers).first(touches_);
   states_.forEachTangent(run, [&](int k, const Matrix9& tangent) {
     const std::size_t at = group.first + k;
-    Local stiffness = stiffnessOf(group, k, tangent) / states_.stretch[at];
-    if (shares) {
-      forces.push_back(volumeForce(group, k, tangent));
-      stiffness -= forces.back() * volumeRow(at).transpose();
+    const auto here = numbersOf(at);
+    if (stiffness.size() == 0 || !std::equal(touched.begin(), touched.end(), here.begin())) {
+      if (stiffness.size() > 0) addStiffness(touched, stiffness, matrix);
+      numbers = here;
+      stiffness.setZero(touches_ * D, touches_ * D);
     }
-    addStiffness(group, k, stiffness, matrix);
+    addStiffnessOf(group, k, tangent, stiffness);
+    if (!shares) return;
+    forces.push_back(volumeForce(group, k, tangent));
+    stiffness -= forces.back() * volumeRow(at).transpose();
   });
+  if (stiffness.size() > 0) addStiffness(touched, stiffness, matrix);
   if (shares) addSharedStiffness(run, forces, matrix);
 }
 
@@ -134,7 +166,7 @@ void ImplicitSystem<D>::addSharedStiffness(const PointRun& run, const std::vecto
   }
 }
 
-/// Inertia, weak springs, and a diagonal as stiff as the rest for prescribed displacements.
+/// Inertia, weak springs, and diagonal entries for prescribed displacements that are as stiff as the others.
 template <int D>
 void ImplicitSystem<D>::addDiagonals(solvers::Matrix& matrix) const {
   for (int k = 0; k < map_.owned(); ++k) {

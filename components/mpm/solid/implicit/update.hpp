@@ -30,12 +30,12 @@ struct Movement {
   ParticleView<const double> mass, temperature;
   ParticleView<const Matrix3> oldDeformation, oldStress;
   ParticleView<const double> oldState;
-  OptionalView<const Vec<D>> oldDisplacement;  ///< where the grid moves with the solid
+  OptionalView<const Vec<D>> oldDisplacement;  ///< if the grid moves with the solid
   ParticleView<Vec<D>> newX;
-  OptionalView<Vec<D>> displacement;  ///< where the grid moves with the solid
+  OptionalView<Vec<D>> displacement;  ///< if the grid moves with the solid
   ParticleView<Matrix3> deformation, stress;
   ParticleView<double> state, volume, strainEnergy;
-  OptionalView<double> temperatureChange;  ///< where the work of the step heats
+  OptionalView<double> temperatureChange;  ///< if the work of the step causes heating
 
   static Movement from(auto& take, int ghostNodes, bool resetsGrid, bool heats, const ParticleLabel<double>* state) {
     return {.increment = take(requiresNew(g::increment<D>, ghostNodes)),
@@ -106,7 +106,7 @@ void moveAndStress(const Patch& patch, const Material& material, const ImplicitS
   stressOfStep(patch, material, states, m);
 }
 
-/// Particles whose velocity follows Newmark's rule.
+/// Particles whose velocity follows Newmark's method.
 template <int D>
 struct NewmarkUpdate {
   NodeView<const Vec<D>> nodalAcceleration;
@@ -150,7 +150,7 @@ void startAtRest(const Patch&, const Material&, ParticleView<const double> mass,
   for (int p = 0; p < mass.owned(); ++p) acceleration[p] = Vec<D>::Zero();
 }
 
-/// Newmark: a_p = sum_i S_i a_i when a run starts.
+/// For Newmark's method: a_p = sum_i S_i a_i when a run starts.
 template <int D>
 void startInMotion(const Patch& patch, const Material&, const ImplicitSetup<D>& setup, NodeView<const Vec<D>> nodal,
                    ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> size, ParticleView<Vec<D>> acceleration) {
@@ -160,7 +160,8 @@ void startInMotion(const Patch& patch, const Material&, const ImplicitSetup<D>& 
   });
 }
 
-/// With inertia: at its present velocity no particle moves more than .8 of a cell along any axis in the next step.
+/// With inertia: limits the next step so that no particle moves by more than .8 of a cell along any axis at its present
+/// velocity.
 template <int D>
 void limitBySpeed(const Patch& patch, const Material&, ParticleView<const Vec<D>> velocity, Minimum& dt) {
   for (int p = 0; p < velocity.owned(); ++p)

@@ -27,9 +27,9 @@ enum class LoadKind { pressure, torque, heatFlux };
 /// Area of a surface, m^2; per radian for the side or end of an axisymmetric cylinder.
 double areaOf(const Surface& surface);
 /// Whether a particle at `point`, whose neighbours are `spacing` away, lies along a surface, by Uintah's distances:
-/// from a box one spacing, along its thin axis or for heat along all axes; from a cylinder 1.2 of the least spacing,
-/// for a torque 0.9 of it, or for heat from its side half the length of the spacing vector; from a sphere that whole
-/// length.
+/// from a box, one spacing along its thin axis or, for heat, along all axes; from a cylinder, 1.2 of the least spacing,
+/// for a torque 0.9 of it, or for heat from its side half the length of the spacing vector; from a sphere, the whole
+/// length of that vector.
 bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, LoadKind kind);
 /// The direction in which a positive load pushes: the thin axis of a box, outwards, or along a cylinder to its top.
 Vec3 normalAt(const Surface& surface, const Vec3& point);
@@ -41,13 +41,14 @@ struct SurfaceLoad {
 
   Kind kind = Kind::pressure;
   Surface surface;
-  LoadCurve curve;            ///< Pa, N m, or W/m^2
-  int material = -1;          ///< -1: all
-  Location where;             ///< in the scene
-  double particles = 0;       ///< sum of the weights of the particles at the surface, set by countParticles
-  bool outwardNormal = true;  ///< pressure on faces of particles: on the one towards normalAt; false: the opposite one
+  LoadCurve curve;       ///< Pa, N m, or W/m^2
+  int material = -1;     ///< -1: all
+  Location where;        ///< in the scene
+  double particles = 0;  ///< sum of the weights of the particles at the surface, set by countParticles
+  bool outwardNormal =
+      true;  ///< pressure on faces of particles: true: on the face towards normalAt; false: on the opposite one
 
-  /// Whether a particle of a body is loaded: it lies along the surface of the load and at that of the body.
+  /// Whether a particle of a body is loaded: it must be along the surface of the load and at that of the body.
   bool acts(const grid::Level& level, const Body& body, const Vec3& point) const;
   /// Force of a pressure on a particle, N; of a torque T its share T / (n r) along r x axis, as in Uintah: a positive
   /// one turns a right-handed screw from the top of the cylinder to its bottom.
@@ -58,7 +59,7 @@ struct SurfaceLoad {
   double weight(const Vec3& point) const;
 };
 
-/// A `PhysicalBC/MPM/force`: a force per mass on the particles that start in a box or at most their spacing beyond it.
+/// A `PhysicalBC/MPM/force`: a force per mass on the particles that start in a box or within one spacing of it.
 struct BodyLoad {
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< m
   Vec3 forceDensity = Vec3::Zero();                 ///< N/kg
@@ -77,8 +78,8 @@ struct Loads {
   bool hasHeat() const;
 };
 
-/// Calls `onSurface(load)` or `onBody(load)` for each load of a particle; `packed` holds their numbers as p.loadCurveID
-/// does.
+/// Calls `onSurface(load)` or `onBody(load)` for each load of a particle; `packed` contains their numbers in the form
+/// of p.loadCurveID.
 template <class OnSurface, class OnBody>
 void forEachLoad(const Loads& loads, int packed, OnSurface&& onSurface, OnBody&& onBody) {
   for (int ids = packed; ids > 0; ids /= 256) {

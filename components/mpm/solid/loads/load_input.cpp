@@ -51,7 +51,7 @@ void readSurface(SurfaceSection& load, const Element& parent, Diagnostics& diagn
   const auto shapes = object ? object->children() : std::vector<Element>{};
   if (object) input::refuseAttributes(*object, {}, diagnostics);
   if (shapes.size() != 1)
-    return diagnostics.error(parent, "needs one <geom_object> with one shape, where the load acts");
+    return diagnostics.error(parent, "needs one <geom_object> with one shape, which says where the load acts");
   if (shapes[0].name() == "box" && shapes[0].child("min")) {
     load.surface = boxSchema().read(shapes[0], diagnostics);
     return;
@@ -82,7 +82,7 @@ std::vector<input::Alternative> placeAlternatives() {
         };
       if (shape == "box" || shape == "cylinder" || shape == "sphere") forms.push_back(std::move(form));
     }
-    return Schema<Place>("geom_object", "Where a load acts.")
+    return Schema<Place>("geom_object", "The surface or region on which a load acts.")
         .custom(
             "shape", [](Place&, const Element&, Diagnostics&) {}, {"box", "cylinder", "sphere"}, "one shape")
         .forms(std::move(forms), 1);
@@ -97,14 +97,14 @@ const Schema<CurveSection>& curveSchema() {
           .required("load", &TimePoint::load, "SI unit of the load", "load at this time");
   static const Schema<CurveSection> schema =
       Schema<CurveSection>("load_curve", "A load over time, linear between its points.")
-          .value("id", &CurveSection::id, 1, "1",
-                 "number of the load; loads are numbered from 1 in the order of the scene", input::positive())
+          .value("id", &CurveSection::id, 1, "1", "number of the load, counted from 1 in the order of the scene",
+                 input::positive())
           .optional("material", &CurveSection::material, "1",
-                    "number of the material on which the load acts; all by default", input::nonNegative())
+                    "index of the material on which the load acts; all by default", input::nonNegative())
           .list("time_point", &CurveSection::points, point, "the load at one time", 1)
           .check([](const CurveSection& curve, const Element& element, Diagnostics& diagnostics) {
             input::refuseDescent(curve.points, &TimePoint::time, element.children("time_point"),
-                                 "its time is not after that of the previous one", diagnostics);
+                                 "its time is not after that of the previous point", diagnostics);
           });
   return schema;
 }
@@ -117,12 +117,13 @@ Schema<SurfaceSection> surfaceSchema(const std::string& name, const std::string&
       .forms({input::onceForm("geom_object", placeAlternatives, 1)})
       .requiredSection("load_curve", &SurfaceSection::curve, curveSchema())
       .optional("outward_normal", &SurfaceSection::outwardNormal, "1",
-                "needed for a pressure with <use_CBDI_boundary_condition>: true: it acts on the faces of particles "
-                "towards the normal of the shape; false: on the opposite ones. Otherwise the sign of the load decides")
-      .ignored("res", "the number of loaded particles is counted");
+                "needed for a pressure with <use_CBDI_boundary_condition>. true: it acts on the faces of particles on "
+                "the side of the outward normal of the shape; false: on the opposite faces. Without "
+                "<use_CBDI_boundary_condition>, the sign of the load determines its direction")
+      .ignored("res", "the number of loaded particles is determined automatically");
 }
 
-/// The number of a load curve must be the position of its load in the scene, because Uintah uses one for the other.
+/// The number of a load curve must be the position of its load in the scene, because Uintah uses them interchangeably.
 void checkNumbers(const Element& loads, Diagnostics& diagnostics) {
   int place = 0;
   for (const Element& load : loads.children()) {
@@ -136,15 +137,16 @@ void checkNumbers(const Element& loads, Diagnostics& diagnostics) {
 
 const Schema<PhysicalBC>& loadsSchema() {
   static const Schema<SurfaceSection> pressure =
-      surfaceSchema("pressure", "Force per area, shared evenly among the particles at a surface of a body.");
+      surfaceSchema("pressure", "Force per area, distributed evenly over the particles at a surface of a body.");
   static const Schema<SurfaceSection> torque =
-      surfaceSchema("torque", "A torque about the axis of a cylinder, shared evenly among the particles at its side.")
+      surfaceSchema("torque",
+                    "A torque about the axis of a cylinder, distributed evenly over the particles at its side.")
           .check([](const SurfaceSection& read, const Element& element, Diagnostics& diagnostics) {
             if (read.surface && !std::holds_alternative<input::Cylinder>(*read.surface))
               diagnostics.error(element, "a torque acts only on the side of a <cylinder>");
           });
-  static const Schema<SurfaceSection> heatFlux =
-      surfaceSchema("heat_flux", "Heat per area and time, shared evenly among the particles at a surface of a body.");
+  static const Schema<SurfaceSection> heatFlux = surfaceSchema(
+      "heat_flux", "Heat per area and time, distributed evenly over the particles at a surface of a body.");
   static const Schema<BodyLoad> force =
       Schema<BodyLoad>("force", "A force on the particles that start in a box, or within one particle spacing of it.")
           .required("lower", &BodyLoad::lower, "m", "lower corner of the box")

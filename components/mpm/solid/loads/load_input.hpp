@@ -9,7 +9,7 @@ Loads readLoads(const input::Element& root, bool usesCurves, input::Diagnostics&
 
 /// Prints the manual of the `PhysicalBC` section.
 void describeLoads(std::ostream& out);
-/// How the section is read.
+/// The schema of the section.
 const input::SchemaBase& loadsForm();
 
 }  // namespace tushar::mpm::solid

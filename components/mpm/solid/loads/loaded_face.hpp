@@ -31,8 +31,8 @@ struct CornerLoad {
   std::array<Vec3, 4> corners;  ///< m
 };
 
-/// The pressures and torques on a particle; `packed` holds their numbers, as p.loadCurveID does. Without a face towards
-/// the normal of a pressure there is no load, and a torque counts four times, as in Uintah.
+/// The pressures and torques on a particle; `packed` contains their numbers in the form of p.loadCurveID. Without a
+/// face towards the normal of a pressure there is no load, and a torque counts four times, as in Uintah.
 std::optional<CornerLoad> cornerLoad(const Loads& loads, int packed, const ParticleBox& particle, double time);
 
 }  // namespace tushar::mpm::solid

@@ -13,7 +13,7 @@ constexpr double pi = std::numbers::pi;
 
 double barSpeed(const Elastic& e) { return std::sqrt(e.young / e.density); }
 
-/// u_i = A sin(pi X_i) sin(pi (phi_i + c t)): each axis independently; the sides of the unit cube stay in place.
+/// u_i = A sin(pi X_i) sin(pi (phi_i + c t)): each axis independently; the sides of the unit cube do not move.
 class AxisAligned : public Manufactured {
  public:
   double farthestAtStart() const override { return amplitude; }
@@ -91,7 +91,7 @@ class ExpandingRing : public Manufactured {
   static double swing(const Elastic& e, double time) { return std::sin(rate(e) * time); }
 };
 
-/// A ring from R = .75 to 1.25 whose circles turn by alpha = sin(pi c t) h(R), at rest on both sides: large shear
+/// A ring from R = .75 to 1.25 whose circles rotate by alpha = sin(pi c t) h(R), at rest on both sides: large shear
 /// without change of volume. The body force follows from P = G gamma (e_r E_theta + e_theta E_r), gamma = R dalpha/dR.
 class GeneralizedVortex : public Manufactured {
  public:

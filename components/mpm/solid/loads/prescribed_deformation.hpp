@@ -9,18 +9,19 @@
 
 namespace tushar::mpm::solid {
 
-/// A prescribed deformation, homogeneous in space: F(t) runs straight between points in time, and the body turns by an
-/// angle about an axis on the way to each point. It goes on straight beyond the first and the last point.
+/// A prescribed deformation, homogeneous in space: F(t) is linear between points in time, and the body rotates by an
+/// angle about an axis between each point and the previous one. It goes on straight beyond the first and the last
+/// point.
 class PrescribedDeformation {
  public:
   struct Point {
     double time = 0;                            ///< s
     Matrix3 deformation = Matrix3::Identity();  ///< F without the rotation, 1
-    double angle = 0;                           ///< of the rotation since the point before, degrees
+    double angle = 0;                           ///< of the rotation since the previous point, degrees
     Vec3 axis = Vec3::UnitX();                  ///< of that rotation, of length 1
   };
 
-  /// At least two points, in the order of time.
+  /// At least two points, in order of time.
   explicit PrescribedDeformation(std::vector<Point> points);
 
   /// F = Q Q_0 F_s at a time: F_s from the points, Q the rotation since the previous point, Q_0 all earlier ones.

@@ -7,7 +7,7 @@
 namespace tushar::mpm::solid {
 
 /// The force of a body on a side of the grid, - sum_i f_i over its nodes, and the area that the body covers there,
-/// 2 sum_i V_i / h, with the f_i and V_i of showForce; an axis that the grid leaves out has no such nodes.
+/// 2 sum_i V_i / h, with the f_i and V_i of showForce; an axis that the grid does not use has no such nodes.
 template <int D>
 void measureBoundary(const Patch& patch, const Material&, int face, NodeView<const Vec<D>> force,
                      NodeView<const double> volume, VectorSum& total, Sum& area) {
@@ -22,7 +22,7 @@ void measureBoundary(const Patch& patch, const Material&, int face, NodeView<con
   }
 }
 
-/// Force and area on a side of an axis that the grid leaves out: the stress of every particle acts across.
+/// Force and area on a side of an axis that the grid does not use, across which the stress of every particle acts.
 inline void measureThinBoundary(const Patch& patch, const Material&, int face, ParticleView<const double> volume,
                                 ParticleView<const Matrix3> stress, VectorSum& total, Sum& area) {
   const double width = patch.level().cellWidth(face / 2), sign = face % 2 == 0 ? -1.0 : 1.0;

@@ -16,17 +16,17 @@
 
 namespace tushar::mpm::solid {
 
-/// Settings for the start of particles, apart from their bodies.
+/// Settings for the creation of particles, apart from their bodies.
 struct Start {
   bool axisymmetric = false;
   Loads loads;
   std::shared_ptr<const Manufactured> solution;  ///< null: none
-  bool domainsDeform = false;  ///< whether domains deform with F, so that p.size stays the undeformed one
-  double leastMass = 0;        ///< every particle must have more, kg
+  bool domainsDeform = false;  ///< whether domains deform with F, so that p.size remains the undeformed size
+  double leastMass = 0;        ///< smallest allowed mass of a particle, kg
 };
 
-/// The numbers of the loads on a particle, 1 for the first, packed as p.loadCurveID says. Throws InputError where there
-/// are more than three.
+/// The numbers of the loads on a particle, 1 for the first, packed in the form of p.loadCurveID. Throws InputError
+/// where there are more than three.
 inline int loadsOn(const Level& level, const Start& start, const Material& material, const Body& body,
                    const Vec3& point) {
   int ids = 0, factor = 1, number = 0;
@@ -34,10 +34,10 @@ inline int loadsOn(const Level& level, const Start& start, const Material& mater
     ++number;
     if (!acts) return;
     if (factor > 65536)
-      throw InputError({{body.where, "geom_object",
-                         fmt::format("more than three loads act on the particle at ({:g}, {:g}, {:g}) m; the most is "
-                                     "three",
-                                     point[0], point[1], point[2])}});
+      throw InputError(
+          {{body.where, "geom_object",
+            fmt::format("more than three loads act on the particle at ({:g}, {:g}, {:g}) m; at most three are possible",
+                        point[0], point[1], point[2])}});
     ids += factor * number;
     factor *= 256;
   };
@@ -84,7 +84,7 @@ struct NewParticles {
     if (mass.back() <= start.leastMass)
       throw InputError(
           {{body.where, "geom_object",
-            fmt::format("the particle at ({:g}, {:g}, {:g}) m has {:g} kg; <minimum_particle_mass> is {:g} kg",
+            fmt::format("the particle at ({:g}, {:g}, {:g}) m has {:g} kg, but <minimum_particle_mass> is {:g} kg",
                         point[0], point[1], point[2], mass.back(), start.leastMass)}});
     temperature.push_back(body.temperature(point));
     color.push_back(body.color);
@@ -125,8 +125,8 @@ inline int cellsMovedAtStart(const Level& level, const Start& start) {
   return static_cast<int>(std::ceil(farthest / level.minSpacing()));
 }
 
-/// The initial position of some particle of a body in these cells of the finest level, and its part of a cell; none if
-/// there is no such particle.
+/// The initial position of any one particle of a body in these cells of the finest level, and the part of a cell that
+/// it fills; none if there is no such particle.
 template <int D>
 std::optional<std::pair<Vec<D>, Seed>> particleIn(const Level& finest, const Body& body, const Box& cells) {
   std::optional<std::pair<Vec<D>, Seed>> found;
@@ -151,8 +151,8 @@ std::optional<std::pair<Vec<D>, Seed>> particleIn(const Level& finest, const Bod
   return found;
 }
 
-/// Puts one particle of each body into a cell of a coarser level whose finest cells would have some, so that these
-/// cells get refined, or the scene is refused. Points of the coarser cell itself would miss a thin body.
+/// Puts one particle of each body into a cell of a coarser level whose finest descendants would contain any, so that
+/// such cells are refined, or the scene is refused. Points of the coarser cell itself would miss a thin body.
 template <int D>
 void standIn(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
              const NewParticles<D>& particles) {
@@ -215,7 +215,7 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
   });
 }
 
-/// A variable is zero on every particle at the start.
+/// Sets a variable to zero on every particle at the start.
 template <class T>
 void startAtZero(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<T> values) {
   for (int p = 0; p < mass.owned(); ++p)
@@ -225,7 +225,8 @@ void startAtZero(const Patch&, const Material&, ParticleView<const double> mass,
       values[p].setZero();
 }
 
-/// F = J^(1/3) I of the model, J = 1 unless it starts under pressure, or F of the manufactured solution at time 0.
+/// F = J^(1/3) I with J of the model, which is 1 unless it starts under pressure, or F of the manufactured solution at
+/// time 0.
 template <int D>
 void startDeformation(const Patch& patch, const Material& material, const Start& start, ParticleView<const Vec<D>> x,
                       std::optional<ParticleView<const Vec<D>>> displacement, ParticleView<Matrix3> deformation) {
@@ -237,8 +238,8 @@ void startDeformation(const Patch& patch, const Material& material, const Start&
       deformation[p] = Matrix3::Identity() * std::cbrt(material.model->initialVolumeRatio());
 }
 
-/// The stress of a particle at the start, Pa: that of its F and temperature (K) where it starts under pressure, else
-/// the model's.
+/// The initial stress of a particle, Pa: if it starts under pressure, the stress that follows from its F and
+/// temperature (K), otherwise that of the model.
 inline Matrix3 startStress(const Material& material, const Matrix3& f, double temperature, double* state) {
   if (material.model->initialVolumeRatio() == 1) return material.model->initialStress();
   const Matrix3 zero = Matrix3::Zero();
@@ -254,8 +255,8 @@ inline Matrix3 startStress(const Material& material, const Matrix3& f, double te
   return stress;
 }
 
-/// Initial values of particles besides their position and mass; `state` holds the internal variables of the
-/// constitutive models, which may differ by id and color.
+/// Initial values of particles besides their position and mass; `state` contains the internal variables of the
+/// constitutive models, which may depend on id and color.
 struct StartOfPoints {
   ParticleView<const double> mass, temperature;
   ParticleView<const Matrix3> deformation;

@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The damage at the start of a particle with that volume, m^3, and p.color.
+/// The initial damage of a particle with this volume, m^3, and p.color.
 inline DamageState initialDamage(const Damage& damage, double volume, ParticleId id, double color) {
   return std::visit(
       [&](const auto& model) {
@@ -18,7 +18,7 @@ inline DamageState initialDamage(const Damage& damage, double volume, ParticleId
       damage);
 }
 
-/// Particles start with the damage of the scene, each with its own threshold; none has failed.
+/// Initialises the damage of particles from the scene, each with its own threshold; none has failed.
 inline void initializeDamage(const Patch&, const Material& material, ParticleView<const ParticleId> id,
                              ParticleView<const double> volume, OptionalView<const double> color,
                              ParticleView<double> damage, ParticleView<double> threshold, ParticleView<int> localized,
@@ -41,26 +41,28 @@ inline void scheduleInitialDamage(TaskList& tasks, const std::vector<Material>& 
                     computes(p::failureThreshold), computes(p::localized), computes(p::failureTime));
 }
 
-/// Without a damage model no particle is localized.
+/// Without a damage model, no particle fails.
 inline void showSound(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<int> localized) {
   for (int p = 0; p < mass.owned(); ++p) localized[p] = 0;
 }
 
 /// The particles whose damage grows in a step.
 struct DamageGrowth {
+  ParticleView<const Matrix3> oldDeformation;
   ParticleView<const double> temperature, oldDamage, oldThreshold;
   ParticleView<const int> oldLocalized;
   ParticleView<const double> oldFailureTime;
   ParticleView<const Matrix3> deformation;  ///< at the end of the step, like all below
   ParticleView<const double> volume;
-  OptionalView<const double> state;  ///< internal variables, if any model keeps some
+  OptionalView<const double> state;  ///< internal variables, if any model has some
   ParticleView<Matrix3> stress;
   ParticleView<double> damage, threshold;
   ParticleView<int> localized;
   ParticleView<double> failureTime;
 
   static DamageGrowth from(auto& take, const ParticleLabel<double>* state) {
-    return {.temperature = take(requiresOld(p::temperature)),
+    return {.oldDeformation = take(requiresOld(p::deformationMeasure)),
+            .temperature = take(requiresOld(p::temperature)),
             .oldDamage = take(requiresOld(p::damage)),
             .oldThreshold = take(requiresOld(p::failureThreshold)),
             .oldLocalized = take(requiresOld(p::localized)),
@@ -76,6 +78,15 @@ struct DamageGrowth {
   }
 };
 
+/// Whether the plastic flow of a particle has lost its stability in the step; its stress is that before damage.
+inline bool isUnstable(const Material& material, int p, int stateSize, double dt, const DamageGrowth& d) {
+  if (!material.erosion.acts() || !d.state) return false;
+  const Matrix3& f = d.deformation[p];
+  const Matrix3 velocityGradient = (f * d.oldDeformation[p].inverse() - Matrix3::Identity()) / dt;
+  return material.model->isUnstable({f, d.oldDeformation[p], velocityGradient, dt, d.temperature[p]}, d.stress[p],
+                                    &(*d.state)[0] + p * stateSize);
+}
+
 /// Damage at the end of the step, and the stress that damaged and failed particles still bear. Uintah's
 /// computeBasicDamage and updateErosionParameter.
 inline void computeDamage(const Patch&, const Material& material, int stateSize, double time, double dt,
@@ -86,8 +97,10 @@ inline void computeDamage(const Patch&, const Material& material, int stateSize,
     const double plasticStrainRate = rate < 0 ? 0.0 : (&(*d.state)[0])[p * stateSize + rate];
     const DamageConditions conditions{d.deformation[p], d.volume[p], plasticStrainRate, d.temperature[p], dt};
     DamageState now{d.oldDamage[p], d.oldThreshold[p], d.oldLocalized[p] != 0};
+    const bool losesStability = !now.hasFailed && isUnstable(material, p, stateSize, dt, d);
     std::visit([&](const auto& model) { model.grow(constants, conditions, d.stress[p], now); }, material.damage);
-    if (material.erosion.acts() && material.model->isMolten(d.deformation[p], d.stress[p], d.temperature[p]))
+    if (losesStability ||
+        (material.erosion.acts() && material.model->isMolten(d.deformation[p], d.stress[p], d.temperature[p])))
       now.hasFailed = true;
     d.damage[p] = now.damage;
     d.threshold[p] = now.threshold;
@@ -97,7 +110,7 @@ inline void computeDamage(const Patch&, const Material& material, int stateSize,
   }
 }
 
-/// `state` holds the internal variables of the constitutive models.
+/// `state` contains the internal variables of the constitutive models.
 inline void scheduleDamage(TaskList& tasks, const std::vector<Material>& materials,
                            const ParticleLabel<double>& state) {
   tasks.perMaterial("mpm::computeDamage", computeDamage, materials, with(state.components), startTime(),

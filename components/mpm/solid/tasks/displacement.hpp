@@ -13,7 +13,7 @@ void addDisplacement(const Patch&, const Material&, ParticleView<const Vec<D>> x
   for (int p = 0; p < x.owned(); ++p) newDisplacement[p] = displacement[p] + (newX[p] - x[p]);
 }
 
-/// Positions of particles, also in a grid that moves with them, in which their x stay: x_p + u_p there.
+/// Positions of particles, also in a grid that moves with them, where p.x does not change: x_p + u_p.
 template <int D>
 void findDeformedPosition(const Patch&, const Material&, ParticleView<const Vec<D>> x,
                           const std::optional<ParticleView<const Vec<D>>>& displacement, ParticleView<Vec<D>> where) {

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Applies the conditions of a side: a given temperature (Dirichlet), or its given fall per metre outwards (Neumann).
+/// Applies the conditions of a side: a given temperature (Dirichlet), or a given decrease per metre outwards (Neumann).
 template <int D>
 void setTemperature(const Patch& patch, int material, NodeView<double> field) {
   for (int d = 0; d < D; ++d)
@@ -24,7 +24,7 @@ void setTemperature(const Patch& patch, int material, NodeView<double> field) {
     }
 }
 
-/// Particles that give their heat to the nodes.
+/// Particles whose heat is transferred to the nodes.
 template <int D>
 struct HeatToNodes {
   Placed<D> particles;
@@ -62,12 +62,12 @@ void interpolateTemperatureToGrid(const Patch& patch, const Material& material, 
   setTemperature<D>(patch, material.index, h.temperature);
 }
 
-/// Particles that conduct heat to the nodes, and take up that of loads.
+/// Particles that conduct heat to the nodes, and receive the heat of loads.
 template <int D>
 struct HeatFlow {
   Placed<D> particles;
   ParticleView<const double> mass;
-  OptionalView<const double> heatFlux;  ///< W, where loads bring heat
+  OptionalView<const double> heatFlux;  ///< W, if loads supply heat
   NodeView<const double> temperature;
   NodeView<double> heatRate;
 
@@ -122,8 +122,8 @@ void computeHeatExchange(const Patch&, const std::vector<Material>&,
 /// The heat of a step at the nodes.
 struct NodalHeating {
   NodeView<const double> capacity, temperatureNoBC, temperature, heatRate;
-  std::optional<NodeView<const double>> contactRate;   ///< K/s, where materials in contact exchange heat
-  std::optional<NodeView<const double>> frictionHeat;  ///< J, where friction heats
+  std::optional<NodeView<const double>> contactRate;   ///< K/s, if materials in contact exchange heat
+  std::optional<NodeView<const double>> frictionHeat;  ///< J, if friction produces heat
   NodeView<double> rate;
 
   static NodalHeating from(auto& take, bool hasContact, bool hasFriction) {
@@ -138,7 +138,7 @@ struct NodalHeating {
 };
 
 /// T*_i = T_i + (Q_i / C_i + contact) dt + H_i / C_i with the heat H_i of friction, or the given temperature on sides
-/// of the grid that have one; and dT_i/dt, K/s, by which T*_i differs from T_i before boundary conditions.
+/// of the grid that have one; and dT_i/dt, K/s, the rate of change from T_i to T*_i before boundary conditions.
 template <int D>
 void integrateTemperatureRate(const Patch& patch, const Material& material, const NodalHeating& h, double dt) {
   forEach<D>(h.capacity.box(), [&](const Index<D>& node) {
@@ -152,7 +152,7 @@ void integrateTemperatureRate(const Patch& patch, const Material& material, cons
              [&](const Index<D>& node) { h.rate[node] = (h.rate[node] - h.temperatureNoBC[node]) / dt; });
 }
 
-/// Particles that take their temperature from the nodes.
+/// Particles whose temperature is updated from the nodes.
 template <int D>
 struct HeatToParticles {
   Placed<D> particles;
@@ -179,18 +179,18 @@ void updateTemperature(const Patch& patch, const Material&, const Vec3& commonSi
   });
 }
 
-/// Changes T_p by the work of the step, after conduction.
+/// Changes T_p due to the work of the step, after conduction.
 inline void addWorkOfStep(const Patch&, const Material&, ParticleView<const double> change,
                           ParticleView<double> temperature) {
   for (int p = 0; p < change.owned(); ++p) temperature[p] += change[p];
 }
-/// Changes T_p by the work of the step, without conduction.
+/// Changes T_p due to the work of the step, without conduction.
 inline void heatByWorkOfStep(const Patch&, const Material&, ParticleView<const double> change,
                              ParticleView<const double> oldTemperature, ParticleView<double> temperature) {
   for (int p = 0; p < change.owned(); ++p) temperature[p] = oldTemperature[p] + change[p];
 }
 
-/// The work of the step heats the particles; where heat is conducted, that has been done before.
+/// Heats the particles by the work of the step, unless this has been done together with conduction.
 inline void scheduleHeatOfWork(TaskList& tasks, const std::vector<Material>& materials, bool conductsHeat) {
   if (conductsHeat)
     tasks.perMaterial("mpm::finalParticleUpdate", addWorkOfStep, materials, requiresNew(p::temperatureChange),

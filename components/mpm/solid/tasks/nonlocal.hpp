@@ -10,7 +10,7 @@ namespace tushar::mpm::solid {
 
 namespace p {
 inline constexpr ParticleLabel<double> plasticIncrement{"p.nonlocalSource", "1",
-                                                        "plastic strain that acts on other particles"};
+                                                        "plastic strain that affects other particles"};
 }  // namespace p
 
 /// The index of a variable among the numbers of the State, for a nonlocal model; -1 for other models.
@@ -18,7 +18,7 @@ inline int nonlocalOffset(const Material& material, std::string_view label) {
   return material.model->nonlocalLength() > 0 ? offsetOf(*material.model, label) : -1;
 }
 
-/// The plastic strain of the step, one number for each particle, which others read across patches.
+/// The plastic strain of the step, one number for each particle, which particles of other patches read.
 inline void findPlasticIncrement(const Patch&, const Material& material, int stateSize,
                                  ParticleView<const double> state, ParticleView<double> increment) {
   const int offset = nonlocalOffset(material, "p.plasticIncrement");

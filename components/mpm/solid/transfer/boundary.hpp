@@ -6,7 +6,7 @@
 namespace tushar::mpm::solid {
 
 /// Nothing moves through a symmetry plane, and no force acts across: both vectors of a record have no normal component
-/// there, and the nodes beyond it mirror those inside. On the nodes of the view's box.
+/// there, and the nodes outside mirror those inside. On the nodes of the view's box.
 template <int D>
 void setSymmetry(const Patch& patch, int material, const data::TouchedRows& rows, NodeView<NodeRecord> record) {
   for (int d = 0; d < D; ++d)

@@ -8,14 +8,14 @@
 
 namespace tushar::mpm::solid {
 
-/// Cells whose particles follow each other in memory: constitutive models work on the particles of several cells
-/// together, as many as stressGroup, or on those of one cell, however many it has.
+/// Cells whose particles are contiguous in memory: constitutive models process the particles of several cells together,
+/// up to stressGroup, or all those of one cell.
 template <int D>
 class CellRun {
  public:
   int first() const { return cells_.front().second.first; }
   int count() const { return cells_.empty() ? 0 : cells_.back().second.last - first(); }
-  /// Whether the particles of one more cell may join.
+  /// Whether the particles of another cell can be added.
   bool takes(const data::ParticleRange& range) const {
     return cells_.empty() || (range.first == cells_.back().second.last && count() + range.size() <= stressGroup);
   }

@@ -25,7 +25,7 @@ template <int D, class Visit>
   }
 }
 
-/// The contribution of each corner to the high half of a record, apart from its slopes.
+/// The contribution of each corner to the high half of a record, without the slopes.
 template <class Stencil>
 [[gnu::always_inline]] inline Quad meanShare(const Stencil& stencil, const Quad& high, const Quad& hoop) {
   if constexpr (Stencil::axisymmetric) return Stencil::share * multiplyAdd(stencil.inverseRadius, hoop, high);
@@ -40,7 +40,7 @@ template <class Stencil, std::size_t D>
   return high;
 }
 
-/// As for other shapes (see transfer.hpp): each corner adds its share to the nodes of its cell.
+/// As for other shapes (see transfer.hpp): each corner adds its contribution to the nodes of its cell.
 template <class Stencil, int D = Stencil::dimension>
 requires(Stencil::corners > 0)
     [[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<NodeRecord, D>& nodes,

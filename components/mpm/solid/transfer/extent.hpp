@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The axis of the scene behind a kernel axis; in three dimensions the same.
+/// The axis of the scene that corresponds to a kernel axis; in three dimensions, they are the same.
 template <int D>
 int sceneAxis(const Level& level, int kernelAxis) {
   if constexpr (D == 3)
@@ -30,7 +30,7 @@ T* valuesOf(const OptionalView<T>& view) {
   return view ? valuesOf(*view) : nullptr;
 }
 
-/// Whether the particles of a scene keep their own size, and whether as a parallelepiped.
+/// Whether the particles of a scene have individual sizes, and whether these are parallelepipeds.
 struct KeptSizes {
   bool each = false, domains = false;
 
@@ -57,7 +57,8 @@ struct Sizes {
 template <class Shape>
 inline constexpr bool sharesNodes = Shape::ghostNodes == 0;
 
-/// Prefetches the values of `count` particles from `first` on, for reading or, if they are not const, for writing.
+/// Prefetches the values of `count` particles starting with `first`, for reading or, if they are not const, for
+/// writing.
 template <class T>
 [[gnu::always_inline]] inline void prefetch(T* values, int first, int count) {
   constexpr std::size_t line = 64;
@@ -66,13 +67,13 @@ template <class T>
     __builtin_prefetch(from + at, std::is_const_v<T> ? 0 : 1);
 }
 
-/// The components of up to Lanes::count vectors in a row, one vector in each lane; missing ones repeat the last.
+/// The components of up to Lanes::count consecutive vectors, one vector in each lane; missing ones repeat the last.
 template <int D>
 [[gnu::always_inline]] inline std::array<Lanes, D> vectorsOf(const Vec<D>* vectors, int count) {
   if (count >= Lanes::count) return unpack<D>(vectors->data());
   return columnsOf<D>([&](int lane) { return vectors[std::min(lane, count - 1)].data(); });
 }
-/// Stores the first `count` vectors of the lanes, at most Lanes::count, in a row.
+/// Stores the first `count` vectors of the lanes, at most Lanes::count, consecutively.
 template <int D>
 [[gnu::always_inline]] inline void storeVectors(const std::array<Lanes, D>& lanes, int count, Vec<D>* vectors) {
   if (count >= Lanes::count)
@@ -81,7 +82,7 @@ template <int D>
     storeColumns(lanes, count, [&](int lane) { return vectors[lane].data(); });
 }
 
-/// Extents of the particles of a material for shape functions: one size for all or each its own, deformed by F.
+/// Extents of the particles of a material for shape functions: a common size or individual ones, deformed by F.
 template <class Shape>
 class Extents {
  public:
@@ -106,7 +107,7 @@ class Extents {
                                    extent.size[j] * level_.spacing(j) * level_.inverseSpacing(i);
     return extent;
   }
-  /// The sizes at the start of up to Lanes::count particles from `first` on, in cells, one in each lane.
+  /// The sizes at the start of up to Lanes::count particles starting with `first`, in cells, one in each lane.
   std::array<Lanes, D> sizes(int first, int count) const {
     if (Shape::hasSize && each_) return vectorsOf<D>(each_ + first, count);
     std::array<Lanes, D> same;
@@ -137,8 +138,8 @@ class Extents {
   const Matrix3* deformation_;
 };
 
-/// Calls `visit(k, stencil)` for each of `count` particles of a cell from `first` on, with the k-th stencil for loops
-/// over rows of nodes. Those of tensor products are computed for several particles at once.
+/// Calls `visit(k, stencil)` for each of `count` particles of a cell starting with `first`, with the k-th stencil for
+/// loops over rows of nodes. Those of tensor products are computed for several particles at once.
 template <class Shape, class Visit, int D = Shape::dimension>
 [[gnu::always_inline]] inline void forEachStencilOf(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>* x,
                                                     const Extents<Shape>& extents, int first, int count,
@@ -164,7 +165,8 @@ void forEachStencil(const Patch& patch, const Box& cells, ParticleView<const Vec
   });
 }
 
-/// Calls `visit(node, S, gradient)` for the nodes of a stencil that lie within a box, in the order of all.
+/// Calls `visit(node, S, gradient)` for the nodes of a stencil that lie within a box, in the same order as for all
+/// nodes.
 template <class Stencil, class Visit, int D = Stencil::dimension>
 [[gnu::always_inline]] inline void forEachNodeWithin(const Stencil& stencil, const Box& box, Visit&& visit) {
   bool areAll = true;

@@ -6,15 +6,15 @@
 
 namespace tushar::mpm::solid {
 
-/// The velocities that several particles of a cell interpolate from the nodes, one particle in each lane, bit for bit
-/// as Gathered does.
+/// The velocities that several particles of a cell interpolate from the nodes, one particle in each lane, bitwise the
+/// same as with Gathered.
 template <int D>
 struct GatheredLanes {
   std::array<Lanes, D> after, before;            ///< sum_i S_i v*_i and sum_i S_i v_i, m/s
   std::array<std::array<Lanes, D>, D> gradient;  ///< of v*, by axis and component, 1/s
 };
 
-/// For particles that all touch just the nodes of their cell: each number of a node is loaded once for all of them.
+/// For particles that touch only the nodes of their cell: each number of a node is loaded once for all of them.
 template <class Stencils, int D = Stencils::dimension>
 [[gnu::always_inline]] inline GatheredLanes<D> gatherOfCell(const Stencils& stencils,
                                                             const NodeWindow<const NodeRecord, D>& nodes) {
@@ -36,7 +36,7 @@ template <class Stencils, int D = Stencils::dimension>
   return sums;
 }
 
-/// What one particle gathers on its own.
+/// The values that a single particle gathers.
 template <int D>
 struct GatheredAlone {
   NodeRecord value;
@@ -61,7 +61,8 @@ template <int D>
   return sums;
 }
 
-/// What up to Lanes::count particles of a cell, from `first` on, interpolate from the nodes; missing lanes repeat one.
+/// The values that up to Lanes::count particles of a cell, starting with `first`, interpolate from the nodes; missing
+/// lanes repeat one.
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline GatheredLanes<D> gatherLanes(const CellFrame<D>& frame, const Index<D>& cell,
                                                            const Vec<D>* x, const Extents<Shape>& extents, int first,

@@ -59,11 +59,11 @@ class Octet {
   [[gnu::always_inline]] friend Octet operator*(double factor, const Octet& a) {
     return {factor * a.low_, factor * a.high_};
   }
-  /// factor * a + b, rounded once where the processor can.
+  /// factor * a + b, rounded once if the processor supports it.
   [[gnu::always_inline]] friend Octet multiplyAdd(double factor, const Octet& a, const Octet& b) {
     return {multiplyAdd(factor, a.low_, b.low_), multiplyAdd(factor, a.high_, b.high_)};
   }
-  /// b, with factor * a added to its high half, rounded once where the processor can.
+  /// b, with factor * a added to its high half, rounded once if the processor supports it.
   [[gnu::always_inline]] friend Octet multiplyAddHigh(double factor, const Octet& a, const Octet& b) {
     return {b.low_, multiplyAdd(factor, a.high_, b.high_)};
   }

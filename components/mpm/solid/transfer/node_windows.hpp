@@ -5,13 +5,13 @@
 
 namespace tushar::mpm::solid {
 
-/// The rows of nodes that particles of a set touch, ghosts included: on nodes of the patch and around it.
+/// The rows of nodes that particles of a set, including ghosts, touch: on nodes of the patch and around it.
 template <int D>
 const data::TouchedRows& touchedRows(const ParticleView<const Vec<D>>& particles, int ghostNodes) {
   return particles.set().touched(ghostNodes, D);
 }
 
-/// The records relative to a node, which may lie outside of those that are stored.
+/// The records relative to a node, which may be outside the stored ones.
 template <class Record, int D>
 NodeWindow<Record, D> windowFrom(const NodeView<Record>& records, const Index<D>& first) {
   const Box& stored = records.stored();
@@ -34,7 +34,7 @@ NodeWindow<Record, D> windowOf(const NodeView<Record>& records, const Stencil& s
     Index<D> last = stencil.first;
     for (int d = 0; d < D; ++d) last[d] += Stencil::nodes - 1;
     if (!stored.contains(stencil.first) || !stored.contains(last))
-      throw data::AccessError("a particle touches nodes beyond those that are stored");
+      throw data::AccessError("a particle touches nodes outside those that are stored");
   }
   return windowFrom(records, stencil.first);
 }

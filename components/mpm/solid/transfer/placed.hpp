@@ -4,12 +4,12 @@
 
 namespace tushar::mpm::solid {
 
-/// The properties of shape functions on which the schedule depends; nothing else about them changes it.
+/// The only properties of shape functions on which the schedule depends.
 struct ShapeTraits {
   bool haveSizes = false;  ///< they depend on the sizes of particles
   bool deform = false;     ///< they follow F
-  int reach = 1;           ///< cells beyond a patch from which particles reach its nodes
-  int ghostNodes = 0;      ///< nodes beyond those of a patch that its particles touch
+  int reach = 1;           ///< layers of cells around a patch whose particles touch its nodes
+  int ghostNodes = 0;      ///< layers of nodes beyond those of a patch that its particles touch
 };
 template <class Shape>
 inline constexpr ShapeTraits traitsOf{Shape::hasSize, Shape::deforms, Shape::reach, Shape::ghostNodes};
@@ -21,7 +21,7 @@ struct Placed {
   Sizes<D> size;                            ///< at the start
   OptionalView<const Matrix3> deformation;  ///< F, 1; where shape functions follow it
 
-  /// At the start of the step, with `ghost` cells beyond the patch. F only where shape functions follow it.
+  /// At the start of the step, with `ghost` layers of cells around the patch. F only where shape functions follow it.
   static Placed from(auto& take, const ShapeTraits& shape, KeptSizes keepsSizes, int ghost = 0) {
     return from(take, keepsSizes, ghost, when(shape.deform, requiresOld(p::deformationMeasure, ghost)));
   }

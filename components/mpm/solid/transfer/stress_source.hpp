@@ -6,14 +6,14 @@
 
 namespace tushar::mpm::solid {
 
-/// Stresses of particles that follow each other in memory: those that they keep, else those of F.
+/// Stresses of particles that are contiguous in memory: stored ones, or those that follow from F.
 struct StressSource {
   const Matrix3* stress = nullptr;       ///< Pa; null if it is a function of F alone
   const double* volume = nullptr;        ///< m^3; not null if `stress` is not
   const Matrix3* deformation = nullptr;  ///< F, 1; not null if `stress` is
 };
 
-/// V sigma (N m) of `count` particles from `first` on; `startVolume(p)` is V0, m^3, for stresses of F.
+/// V sigma (N m) of `count` particles starting with `first`; `startVolume(p)` is V0, m^3, for stresses of F.
 template <class StartVolume>
 void stressMoments(const Material& material, const StressSource& from, int first, int count, StartVolume&& startVolume,
                    Matrix3* moments) {

@@ -9,7 +9,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Records of nodes relative to one of them: those along x are next to each other.
+/// Records of nodes relative to one of them; those along x are adjacent.
 template <class Record, int D>
 struct NodeWindow {
   Record* origin;                          ///< of the first node that a particle touches
@@ -56,7 +56,7 @@ struct RowShare {
   }
 };
 
-/// A particle's share of the high halves of records for each axis.
+/// The contribution of a particle to the high halves of records for each axis.
 template <std::size_t D>
 [[gnu::always_inline]] inline std::array<Octet, D> highOctets(const std::array<Quad, D>& of) {
   std::array<Octet, D> high;
@@ -79,7 +79,7 @@ template <class Stencil, int D = Stencil::dimension>
   });
 }
 
-/// The records of the nodes of a cell in registers, while particles that touch no others are added.
+/// The records of the nodes of a cell, kept in registers while particles that touch no other nodes are added.
 template <int D>
 class CellRecords {
  public:

@@ -10,13 +10,19 @@
 
 namespace tushar::mpm::gas::conserving {
 
+/// A batch of one particle, in the first lane.
+template <int D>
+Batch<D> batchOfOne(const Index<D>& cell) {
+  LaneIntegers takes{};
+  takes[0] = -1;
+  return Batch<D>(cell, LaneIntegers{}, takes);
+}
+
 /// The footprint of one box, in every lane.
 template <int D>
 Footprint<D> footprintOf(const Level& level, const Vec<D>& centre, const Vec<D>& edges) {
-  Batch<D> batch;
-  batch.add(0, level.cellOf<D>(centre));
-  batch.fillUp();
-  return Footprint<D>(level, batch, centre.template cast<Lanes>(), edges.template cast<Lanes>());
+  return Footprint<D>(level, batchOfOne(level.cellOf<D>(centre)), centre.template cast<Lanes>(),
+                      edges.template cast<Lanes>());
 }
 
 /// A grid with free sides.

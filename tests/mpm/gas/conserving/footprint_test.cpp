@@ -32,7 +32,7 @@ void addParts(const Level& level, const Batch<2>& batch, const LanesVec<2>& cent
   GridSums<2, 1, 0>::Brought brought;
   footprint.forEachPart(
       [&](const Index<2>& k, const Lanes& part) { brought[0][Footprint<2>::number(k)] = batch.only(part); });
-  sums.add(footprint, batch.count, brought);
+  sums.add(footprint, brought);
 }
 
 /// Sum of the first `count` values.
@@ -183,11 +183,10 @@ TEST(GridSums, AreTheSameFromParticlesSideBySideAsFromOneAfterTheOther) {
   std::uniform_real_distribution<double> uniform(0, 1);
   GridSums<2, 1, 0> together(level.cells()), apart(level.cells());
   for (int row = 1; row < 5; ++row) {
-    Batch<2> all;
+    const Batch<2> all({{0, row}}, LaneIntegers{}, LaneIntegers{} - 1);
     LanesVec<2> centre, edges;
     for (int lane = 0; lane < Lanes::count; ++lane) {
       const Index<2> cell{{lane, row}};
-      all.add(lane, cell);
       for (int d = 0; d < 2; ++d) {
         centre[d] =
             at(centre[d], lane, level.nodePosition(d, cell[d]) + (0.6 + 0.1 * uniform(generator)) * level.spacing(d));
@@ -196,15 +195,12 @@ TEST(GridSums, AreTheSameFromParticlesSideBySideAsFromOneAfterTheOther) {
     }
     addParts(level, all, centre, edges, together);
     for (int lane = 0; lane < Lanes::count; ++lane) {
-      Batch<2> one;
-      one.add(lane, {{lane, row}});
-      one.fillUp();
       LanesVec<2> x, size;
       for (int d = 0; d < 2; ++d) {
         x[d] = centre[d][lane];
         size[d] = edges[d][lane];
       }
-      addParts(level, one, x, size, apart);
+      addParts(level, batchOfOne<2>({{lane, row}}), x, size, apart);
     }
   }
   together.finish();
@@ -224,10 +220,7 @@ TEST(GridSums, DoNotDependOnTheOrderOfTheParticles) {
   const auto sumsOf = [&] {
     GridSums<2, 1, 0> sums(level.cells());
     for (const auto& [x, edges] : boxes) {
-      Batch<2> one;
-      one.add(0, level.cellOf<2>(x));
-      one.fillUp();
-      addParts(level, one, x.cast<Lanes>(), edges.cast<Lanes>(), sums);
+      addParts(level, batchOfOne(level.cellOf<2>(x)), x.cast<Lanes>(), edges.cast<Lanes>(), sums);
     }
     sums.finish();
     std::vector<double> all;

@@ -27,12 +27,12 @@ SLIPS = {
                 "  double strainEnergyDensity(": " public:\n  double strainEnergyDensity("},
                "capability::BulkSpeed needs the public member `double bulkSpeed("),
     "Unnamed": ({", capability::BulkSpeed>": ">"},
-                "a member bulkSpeed is used only if the model names capability::BulkSpeed"),
+                "the member `bulkSpeed` is used only if the model lists capability::BulkSpeed"),
     "UnnamedTemplate": ({"State initialState": "template <class Real> TensorOf<Real> kirchhoffStress(const "
                          "TensorOf<Real>& f) const { return f; }\n  State initialState"},
-                        "a member kirchhoffStress is used only if the model names capability::Vectorized"),
+                        "the member `kirchhoffStress` is used only if the model lists capability::Vectorized"),
     "UnnamedPrivateData": ({" private:\n": " private:\n  MaterialConstants material;\n"},
-                           "a member material is filled only if the model names capability::ConstantsOfMaterial"),
+                           "the member `material` is filled only if the model lists capability::ConstantsOfMaterial"),
     "HalfVectorized": ({"capability::BulkSpeed>": "capability::BulkSpeed, capability::Vectorized>",
                         "State initialState": "template <class Real> TensorOf<Real> kirchhoffStress(const "
                         "TensorOf<Real>& f) const { return f; }\n  State initialState"},

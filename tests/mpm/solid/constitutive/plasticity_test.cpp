@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "tests/mpm/solid/constitutive/example_models.hpp"
+#include "tests/mpm/solid/constitutive/material_point.hpp"
 
 // What metals of elastic_plastic are made of: yield stresses and shear moduli.
 
@@ -174,6 +175,49 @@ TEST(ZerilliArmstrong, GivesTheYieldStressOfCopper) {
   EXPECT_NEAR(yieldStress(1), 275.45e6, 1e4);
   EXPECT_NEAR(std::log((yieldStress(1e3) - 65e6) / (yieldStress(1) - 65e6)), 0.000115 * std::log(1e3) * 300, roundOff)
       << "by the rate of the plastic strain, not of the whole";
+}
+
+/// Rudnicki & Rice, J. Mech. Phys. Solids 23 (1975) 371: bands form at h = -(1 + nu)/2 N^2 G, N the middle principal
+/// stress over the shear stress, here 0 and 3^(-1/2); H = 3 h.
+TEST(StabilityCheck, ShearBandsFormAtTheHardeningOfRudnickiAndRice) {
+  const double bulk = 2, shear = 1, nu = (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear));
+  const double small = 1e-8;  // of stresses: their effect on the threshold is of its size or less
+  const auto fails = [&](const Vec3& stress, double hardening) {
+    return BeckerCheck().fails({bulk, shear, hardening}, small * stress.asDiagonal(), Matrix3::Zero());
+  };
+  const Vec3 shearing(1, 0, -1), tension(1, 0, 0);
+  EXPECT_TRUE(fails(shearing, -1e-6));
+  EXPECT_FALSE(fails(shearing, 1e-6));
+  const double least = -(1 + nu) / 2 * shear;
+  EXPECT_TRUE(fails(tension, least - 1e-6));
+  EXPECT_FALSE(fails(tension, least + 1e-6));
+}
+
+TEST(StabilityCheck, DruckersNeedsWorkOfTheStressRate) {
+  const Matrix3 stress = Vec3(1, 0, -1).asDiagonal(), along = 7 * stress, across = Vec3(1, -2, 1).asDiagonal();
+  const auto fails = [&](double hardening, const Matrix3& rate) {
+    return DruckerCheck().fails({2, 1, hardening}, stress, rate);
+  };
+  EXPECT_TRUE(fails(-1e-6, along));
+  EXPECT_FALSE(fails(1e-6, along));
+  EXPECT_FALSE(fails(-1e-6, across)) << "which is elastic";
+  EXPECT_FALSE(fails(-1e-6, along + Matrix3::Identity()));
+}
+
+TEST(StabilityCheck, ActsWhereAMetalFlows) {
+  Matrix3 sheared = Matrix3::Identity();
+  sheared(0, 1) = 0.2;
+  const auto isUnstable = [](const ElasticPlasticHp& metal, const Matrix3& f) {
+    const MaterialPoint<ElasticPlasticHp> point{metal};
+    const auto state = point.state(f);
+    return ModelOf<ElasticPlasticHp>(metal).isUnstable(point.step(f), point.stress(f), &state.plasticStrain);
+  };
+  auto soft = elasticPlastic(IsotropicHardening{0.02, 0}), hard = elasticPlastic(IsotropicHardening{0.02, 0.5});
+  EXPECT_FALSE(isUnstable(soft, sheared)) << "without a check";
+  soft.stability = hard.stability = DruckerBeckerCheck();
+  EXPECT_TRUE(isUnstable(soft, sheared));
+  EXPECT_FALSE(isUnstable(hard, sheared));
+  EXPECT_FALSE(isUnstable(soft, Matrix3::Identity() + 1e-3 * (sheared - Matrix3::Identity()))) << "still elastic";
 }
 
 /// Momentum, mass and energy across a shock: p = rho_0 U u, eta = u/U, e = u²/2 with U = C_0 + S u.

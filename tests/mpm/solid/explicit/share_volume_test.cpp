@@ -51,7 +51,8 @@ struct Cell {
                                 .strainEnergy = {},
                                 .temperatureChange = {},
                                 .velocityGradient = {},
-                                .stableTimeStep = {nullptr, level.cells()}};
+                                .stableTimeStep = {nullptr, level.cells()},
+                                .newX = {}};
     shareVolume<2>(dt, {0, 4}, update, gradient.data());
   }
 };

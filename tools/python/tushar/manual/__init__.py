@@ -1,1 +1,1 @@
-"""The manual: a static site made of schemas, heads of scenes, pages, messages and C++ headers."""
+"""The manual: a static site made from schemas, head comments of scenes, pages, messages and C++ headers."""

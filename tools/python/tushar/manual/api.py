@@ -25,7 +25,7 @@ class Symbol:
 
 
 def folders():
-    """{folder of core: what is in it}, by the table of core/README.md."""
+    """{folder of core: contents}, from the table of core/README.md."""
     text = (ROOT / "core/README.md").read_text().partition("## Folders")[2].partition("\n## ")[0]
     meanings = dict(FOLDER_ROW.findall(text))
     meanings.pop("folder", None)
@@ -46,7 +46,7 @@ def headers():
 
 
 def symbols_of(text):
-    """The symbols of a header, without what is private. The indentation shows what is in what."""
+    """The symbols of a header, without private ones. The indentation shows what is in what."""
     symbols, classes, comment, private = [], [], [], []
     lines = text.splitlines()
     for number, line in enumerate(lines):

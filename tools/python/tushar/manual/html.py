@@ -28,7 +28,7 @@ def relative(url, here):
 
 
 def prose(text):
-    """A sentence of a schema or a comment: `code` and <tags> in it are set as such."""
+    """A sentence of a schema or a comment, in which `code` and <tags> are marked up."""
     parts = re.split(r"(`[^`]+`|</?[A-Za-z][\w.]*>)", text)
     return "".join(code(part.strip("`")) if k % 2 else escape(part) for k, part in enumerate(parts))
 

@@ -22,7 +22,7 @@ class _Page(html.parser.HTMLParser):
 
 
 def dead_links(folder):
-    """[(page, target)] of all links within the site that lead nowhere, and of ids that a page has twice."""
+    """[(page, target)] of all dead links within the site, and of duplicate ids."""
     folder = pathlib.Path(folder)
     pages = {file.relative_to(folder).as_posix(): _Page(file.read_text()) for file in folder.rglob("*.html")}
     dead = []

@@ -18,7 +18,7 @@ def title_of(text):
 
 
 def anchor_of(heading):
-    """As GitHub makes them: `Two commands` -> two-commands."""
+    """An anchor as on GitHub: `Two commands` -> two-commands."""
     return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
 
 
@@ -77,7 +77,7 @@ class Renderer:
                 token.meta["linked"] = linked
 
     def target(self, href, path, url):
-        """Where a link leads on the site; None for a file that is not part of the manual."""
+        """The target of a link on the site; None for a file that is not part of the manual."""
         if href.startswith(OWN_LINK):
             return relative(href.removeprefix(OWN_LINK), url)
         if re.match(r"[a-z]+:", href) or href.startswith("#"):

@@ -4,7 +4,7 @@ import re
 from tushar.manual.html import code, escape, link, page, prose, relative
 from tushar.manual.pictures import bound_of, value_at
 
-FOLDERS = {"mpm": "Gas by particles", "euler": "Gas by finite volumes", "ice": "Gas in the words of ICE",
+FOLDERS = {"mpm": "Gas by particles", "euler": "Gas by finite volumes", "ice": "Gas with the tags of ICE",
            "fsi": "Gas and bodies",
            "solid": "Solids", "stability": "Hard cases", "heat": "Heat", "burgers": "Burgers’ equation",
            "poisson": "Poisson’s equation"}
@@ -72,7 +72,7 @@ def measured(scene, report):
     if report.get("fingerprint"):
         rows.append(("fingerprint", str(report["fingerprint"])))
     table = "".join(f"<tr><th>{escape(name)}</th><td>{escape(value)}</td></tr>" for name, value in rows)
-    return f'<h2>Measured when this page was made</h2><div class="wide"><table>{table}</table></div>'
+    return f'<h2>Measured when this page was generated</h2><div class="wide"><table>{table}</table></div>'
 
 
 class Linker:
@@ -103,7 +103,7 @@ class Linker:
         return "".join(shown) + escape(scene.text[end:])
 
     def _meaning(self, match, stack, sections):
-        """(item or None, pages of what stands in the tag)."""
+        """(item or None, pages of the contents of the tag)."""
         name = match[2]
         depth = len(stack)
         if depth == 0 or (depth == 1 and name == "DataAnalysis"):

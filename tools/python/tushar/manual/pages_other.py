@@ -12,8 +12,9 @@ RANGES = (("T1", "The text of a scene"), ("T2", "A scene that can be read but no
 def message_page(families, found, version):
     """`found` has the templates of each family, {id: templates}."""
     here = "messages.html"
-    body = ["<p>Every message of <code>sus</code> ends with a number that stays, as <code>[T101]</code>. Look for it "
-            "here, or put the message into the field below or the search field.</p>",
+    body = ["<p>Every message of <code>sus</code> ends with a code that never changes, such as <code>[T101]</code>. "
+            "Find "
+            "it below, or paste the message into the field below or the search field.</p>",
             '<p><textarea id="message" rows="3" aria-label="A message of sus" '
             'placeholder="Paste a message of sus here"></textarea></p><p id="family" class="note" hidden></p>']
     for prefix, heading in RANGES:
@@ -44,9 +45,9 @@ def api_pages(headers, version):
                    f"<td>{escape(meanings[folder])}</td><td>{len(files)} headers</td></tr>"
                    for folder, files in headers.items())
     table = link("methods/core.html#the-task-api", "one table", here)
-    body = (f'<p>The kinds of task and all accesses are in {table}; '
-            f'{link("tutorials/component.html", "Write a component", here)} shows them at work. These pages have the '
-            'comments of the headers, each with its declaration.</p><div class="wide"><table>'
+    body = (f'<p>{table} lists the kinds of task and all accesses; '
+            f'{link("tutorials/component.html", "Write a component", here)} shows how to use them. These pages show '
+            f'the comments of the headers, each with its declaration.</p><div class="wide"><table>'
             f"<tr><th>folder</th><th>what</th><th></th></tr>{rows}</table></div>")
     yield here, page(here, "C++ interface", body, version)
     for folder, files in headers.items():
@@ -98,19 +99,21 @@ def _contents(entries, here):
 
 def home_page(tutorials, counts, picture, version):
     here = "index.html"
-    families = f"what a message means and what to do: {counts['families']} families, {counts['messages']} messages"
+    families = f"what each message means and what to do: {counts['families']} families, {counts['messages']} messages"
     entries = (("reference/index.html", "Tags of a scene",
                 f"{counts['tags']} tags: type, unit, limits, default, the scenes that use them"),
-               ("gallery/index.html", "Gallery", f"{counts['scenes']} scenes: what, how, what to expect"),
+               ("gallery/index.html", "Gallery", f"{counts['scenes']} scenes, with commands and expected results"),
                ("messages.html", "Messages", families),
-               ("reference/uintah.html", "Uintah’s tags and ours", "what is limited, refused, without effect, or new"),
-               ("methods/index.html", "Methods and measurements", "what the components do, and how well"),
+               ("reference/uintah.html", "Uintah’s tags and Tushar’s", 
+                "which tags are limited, refused, without effect, or new"),
+               ("methods/index.html", "Methods and measurements", "what the components do, and how accurate they are"),
                ("api/index.html", "C++ interface", f"{counts['symbols']} declarations of core"))
-    body = f"""<p class="sentence">Tushar is a C++20 framework for parallel particle and grid simulation, in the manner
-of Uintah. At its heart is the Material Point Method: solids by Uintah’s algorithm, and two methods for gases.</p>
+    body = f"""<p class="sentence">Tushar is a C++20 framework for parallel particle and grid simulation, in
+the style of Uintah. At its heart is the Material Point Method, with Uintah’s algorithm for solids and two methods for
+gases.</p>
 <pre class="sh"><code>tools/run ups/mpm/sod.ups     # installs what is missing, builds, runs
-tools/plot sod.uda            # draws what came out</code></pre>
+tools/plot sod.uda            # draws the result</code></pre>
 <p><img class="figure" src="{picture}" alt="Sod’s shock tube: particles against the exact solution"></p>
 <h2>Learn</h2>{_contents(tutorials, here)}
-<h2>Look up</h2>{_contents(entries, here)}"""
+<h2>Reference</h2>{_contents(entries, here)}"""
     return page(here, "Manual", body, version)

@@ -2,11 +2,11 @@
 from tushar.manual.html import code, escape, link, page, prose
 from tushar.manual.reference import is_own
 
-BADGES = {"ignored": ("nothing", "of Uintah, does nothing here"), "limited": ("limited", "of Uintah, limited here"),
-          "absent": ("absent", "of Uintah, not available here")}
+BADGES = {"ignored": ("nothing", "Uintah’s, without effect here"), "limited": ("limited", "Uintah’s, limited here"),
+          "absent": ("absent", "Uintah’s, not available here")}
 ORDER = ("used", "limited", "absent", "ignored")
-HEADINGS = {"limited": "Of Uintah, limited here", "absent": "Of Uintah, not available here",
-            "ignored": "Of Uintah, accepted and without effect"}
+HEADINGS = {"limited": "Limited in Tushar", "absent": "Not available in Tushar",
+            "ignored": "Accepted without effect"}
 UNLIMITED = ("1.7976931348623157e+308", "2147483647")
 
 
@@ -28,7 +28,7 @@ def facts(tag):
 
 
 def breakable(path):
-    """A path that may go on in another line after a slash."""
+    """A path that may be broken after a slash."""
     return escape(path).replace("/", "/<wbr>")
 
 
@@ -76,7 +76,7 @@ def item_html(item, here, known):
 
 
 def places(subject, here, reference):
-    """The places of the tag of a page: each path with the component that reads it."""
+    """The positions of the tag of a page: each path with the component that reads it."""
     seen = {}
     for section, path in subject.paths:
         label = section.name + (" (gases)" if section.variant else "")
@@ -107,13 +107,15 @@ def tag_page(subject, reference, known, version):
 
 
 def index_page(reference, version):
-    """All pages as a tree, by component; what stands in several places is opened once."""
+    """All pages as a tree, by component; a page at several positions is expanded once."""
     here = "reference/index.html"
-    body = ["<p>A scene is an XML file in Uintah's dialect. Each page below lists what stands in one tag: its type, "
-            "unit, limits, default and meaning, all from the schemas that read it. The path under a tag is the one "
-            "that <code>sus --set PATH=VALUE</code> takes. A tag without a mark is Uintah’s, with its meaning.</p>",
+    body = ["<p>A scene is an XML file in Uintah's dialect. Each page below lists the contents of "
+            "one tag, with type, unit, limits, default and meaning, all taken from the schemas that read it. The "
+            "path under "
+            "a tag is the one for <code>sus --set PATH=VALUE</code>. A tag without a mark is Uintah’s, with the same "
+            "meaning.</p>",
             f'<p>{link("reference/a-z.html", "All tags from A to Z", here)} · '
-            f'{link("reference/uintah.html", "Uintah’s tags that differ here, and those of our own", here)}</p>']
+            f'{link("reference/uintah.html", "Uintah’s tags that differ, and Tushar’s own", here)}</p>']
     opened = set()
     kinds = (("scene", "In every scene"), ("component", "Components"), ("module", "Analysis modules"))
     for kind, heading in kinds:
@@ -172,7 +174,7 @@ def uintah_page(reference, version):
             if items:
                 body.append(_listed(subject, items, here))
     lead = link("reference/index.html", "Tags", here)
-    return page(here, "Uintah’s tags and ours", "\n".join(body), version, lead)
+    return page(here, "Uintah’s tags and Tushar’s", "\n".join(body), version, lead)
 
 
 def _listed(subject, items, here):

@@ -29,7 +29,7 @@ class Album:
         return json.loads(file.read_text()) if file else None
 
     def picture(self, scene):
-        """A picture: of a run, or the one that lies beside the scene. None if there is none."""
+        """A picture: of a run, or the one next to the scene. None if there is none."""
         beside = ROOT / scene.path.replace(".ups", ".png")
         return self._made(scene, ".png") or (beside if beside.exists() else None)
 
@@ -57,7 +57,7 @@ class Album:
                 if done.returncode:
                     print(f"  no picture: {done.stderr.strip()}")
             except subprocess.TimeoutExpired:
-                print(f"  it takes more than {SECONDS} s: no picture")
+                print(f"  it takes more than {SECONDS} s, so there is no picture")
             for file in filter(os.path.exists, (report, picture)):
                 shutil.copyfile(file, stem.with_suffix(pathlib.Path(file).suffix))
         stem.with_suffix(".done").touch()
@@ -72,20 +72,20 @@ def _version(sus):
 
 
 def bound_of(scene):
-    """(path in the report, most) for a scene of the gallery of hard cases; None for the others."""
+    """(path in the report, upper bound) for a scene of the gallery of hard cases; None for others."""
     case = next((case for case in CASES if scene.path == f"ups/stability/{case.scene or case.name}.ups"), None)
     return (f"errors.{case.error}", case.most) if case and case.most is not None and not case.sets else None
 
 
 def value_at(report, path):
-    """The number at a path such as errors.density.cell.L1; None if it is not there."""
+    """The number at a path such as errors.density.cell.L1; None if it does not exist."""
     for key in path.split("."):
         report = report.get(key) if isinstance(report, dict) else None
     return report
 
 
 def broken_bounds(scenes, album):
-    """Sentences on scenes whose values are beyond their bounds."""
+    """Messages on scenes whose values exceed their bounds."""
     for scene in scenes:
         report, bound = album.report(scene), bound_of(scene)
         if report and report.get("failure") and not DIES.search(scene.head.get("Expect", "")):

@@ -1,4 +1,4 @@
-"""The pages of the reference: one for each tag that holds others; the same content is one page, wherever it is."""
+"""The pages of the reference: one for each tag that contains others; tags with the same content share a page."""
 import dataclasses
 import re
 
@@ -35,7 +35,7 @@ class Page:
 
     @property
     def title(self):
-        """`<flow_model type="johnson_cook">` for one of several types, else the tag."""
+        """`<flow_model type="johnson_cook">` for one of several types, otherwise the tag."""
         if self.tag.kind != "type":
             return self.tag.title()
         return f"<{_word(self).removesuffix('-' + self.tag.name)} {self.tag.title()}>"
@@ -55,7 +55,7 @@ class Reference:
 
 
 def is_own(section):
-    """Whether a whole section is one that Uintah lacks."""
+    """Whether a whole section does not exist in Uintah."""
     return section.kind == "component" and section.name in OWN_SECTIONS
 
 
@@ -72,7 +72,7 @@ def build(sections):
 
 
 def unfolded(tag, known=()):
-    """The tag with entries of several names taken apart: one tag for each name, with what stands in it."""
+    """Splits entries with several names: one tag for each name, with its contents."""
     children = []
     for child in tag.children:
         children += _parts(child, known) if len(child.names) > 1 else [unfolded(child, known)]
@@ -103,14 +103,14 @@ def _parts(entry, known):
 
 
 def _content(tag):
-    """Equal for tags that hold the same."""
+    """Equal for tags with the same contents."""
     nested = tag.children if not _is_link(tag) else ()
     return (tag.kind, tag.name, tag.sentence, tag.role, tag.type, tag.default, tag.presence, tag.limits, tag.ours,
             tuple(tag.choices), tuple(_content(child) for child in nested))
 
 
 def _is_link(tag):
-    """A part that stands for a tag which is described further up."""
+    """A part that refers to a tag that is described further up."""
     return len(tag.children) == 1 and tag.children[0].kind == tag.kind and tag.children[0].name == tag.name
 
 
@@ -141,7 +141,7 @@ def _step(path, tag):
 
 
 def _give_slugs(pages, roots):
-    """Names of the files: that of the tag; with the section, the parent or a number where that is not enough."""
+    """Names of the files: that of the tag, with the section, the parent or a number if it is not unique."""
     section_of = {}
     for section, page in roots:
         word = section.name + ("-gas" if section.variant else "")

@@ -41,7 +41,7 @@ class Scene:
 
     @property
     def shown(self):
-        """The variables of its picture; none where tools/plot picks well: gases, and fields of cells."""
+        """The variables of its picture; none if the default of tools/plot is suitable: gases, and cell fields."""
         saved = [(save.get("label") or "").strip() for save in self.root.iterfind("DataArchiver/save")]
         return [label for label in PICTURED if label in saved][:1] if self.folder == "solid" else []
 
@@ -61,7 +61,7 @@ def read(file):
 
 
 def note_uses(all_scenes, reference, sections):
-    """Notes at each page and item which scenes have it; returns the paths that no page describes."""
+    """Records, for each page and item, the scenes that have it; returns the paths that no page describes."""
     unknown = []
     for scene in all_scenes:
         for page, element in sections_of(scene, reference, sections):
@@ -89,7 +89,7 @@ def sections_of(scene, reference, sections):
 
 
 def _walk(scene, page, element, path):
-    """Notes the uses below an element; yields what no page describes."""
+    """Records the uses below an element; yields paths that no page describes."""
     if page is None:
         yield path
         return

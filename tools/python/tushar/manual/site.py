@@ -50,7 +50,7 @@ class Site:
         return urls
 
     def _terms(self):
-        """{text in `code`: page}: numbers of messages, and tags whose name stands in one place only."""
+        """{text in `code`: page}: codes of messages, and tags whose name is unique."""
         found = {}
         for page in self.reference.pages:
             for item in page.items:
@@ -75,7 +75,8 @@ class Site:
         self.files["reference/index.html"] = pages_reference.index_page(self.reference, self.version)
         self.files["reference/a-z.html"] = pages_reference.a_to_z_page(self.reference, self.version)
         self.files["reference/uintah.html"] = pages_reference.uintah_page(self.reference, self.version)
-        self._search("page", "Uintah's tags and ours", "reference/uintah.html", "limited, refused, without effect, new")
+        self._search("page", "Uintah's tags and Tushar's", "reference/uintah.html",
+                     "limited, refused, without effect, new")
         self._search("page", "All tags from A to Z", "reference/a-z.html")
 
     def _add_scenes(self):
@@ -140,11 +141,12 @@ class Site:
 
     def _add_indices(self, methods, tutorials):
         self.files["methods/index.html"] = pages_other.list_page(
-            "methods/index.html", "Methods and measurements", "The pages that lie beside the code and the scenes.",
+            "methods/index.html", "Methods and measurements", "The pages next to the code and the scenes.",
             methods, self.version)
         self.files["tutorials/index.html"] = pages_other.list_page(
             "tutorials/index.html", "Tutorials",
-            "Each takes minutes. A test runs their commands, except where a note says why.", tutorials, self.version)
+            "Each takes a few minutes. A test runs their commands, except where a note gives a reason.", tutorials,
+            self.version)
         self.assets[HOME_PICTURE] = "pictures/" + HOME_PICTURE.replace("/", "-")
         counts = {"tags": sum(len(page.items) for page in self.reference.pages), "scenes": len(self.scenes),
                   "families": len(messages.catalogue()[0]), "messages": self.messages,
@@ -155,7 +157,7 @@ class Site:
         """Writes the site into a folder, in place of an earlier one."""
         out = pathlib.Path(out)
         if out.exists() and any(out.iterdir()) and not (out / "search-index.js").exists():
-            raise FileExistsError(f"{out} holds something else than a manual; give another folder")
+            raise FileExistsError(f"{out} contains something other than a manual; choose another folder")
         shutil.rmtree(out, ignore_errors=True)
         for url, text in self.files.items():
             (out / url).parent.mkdir(parents=True, exist_ok=True)

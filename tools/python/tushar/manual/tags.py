@@ -20,7 +20,7 @@ TITLE = re.compile(r"(?:<[\w.-]+>(?:, )?)+|[\w.-]+=(?:\"[^\"]*\")?|\(text\)")
 
 @dataclasses.dataclass
 class Tag:
-    """A tag, an attribute (`name=`), the text of a tag, or one `type="..."` of a tag, with what stands in it."""
+    """A tag, an attribute (`name=`), the text of a tag, or one `type="..."` of a tag, with its contents."""
     names: list  # of the tags that the entry takes: mostly one
     kind: str  # tag, attribute, text or type
     sentence: str = ""
@@ -53,7 +53,7 @@ class Tag:
 
 @dataclasses.dataclass
 class Section:
-    """The manual that --describe prints for one name: a component, an analysis module or what all scenes share."""
+    """The manual that --describe prints for one name: a component, an analysis module or the shared sections."""
     name: str
     kind: str  # component, module or scene
     sentence: str
@@ -87,7 +87,8 @@ def _listed(text):
 
 
 def parse(text):
-    """[(condition, roots)] of the text that --describe prints; ValueError for a line that belongs to no schema."""
+    """[(condition, roots)] of the text that --describe prints; ValueError for a line that does not belong to any
+    schema."""
     parts, open_tags = [("", [])], []
     for line in text.splitlines():
         if re.match(r"(Where|For) .*, instead:$", line):

@@ -1,4 +1,4 @@
-"""Finds the messages of sus in the C++ sources: the fixed words of each, with {} for what a run fills in."""
+"""Finds the messages of sus in the C++ sources: the fixed words of each, with {} for inserted values."""
 import dataclasses
 import re
 
@@ -29,14 +29,14 @@ class Template:
 
 
 def templates():
-    """All messages of the sources: those with at least three words of their own."""
+    """All messages of the sources that have at least three fixed words."""
     files = [file for folder in ("core", "components", "tools") for file in sorted((ROOT / folder).rglob("*.?pp"))]
     texts = [(file.read_text(), file.relative_to(ROOT).as_posix()) for file in files]
     return [template for text, path in texts if not SKIPPED.fullmatch(path) for template in templates_in(text, path)]
 
 
 def templates_in(source, path):
-    """The messages of one source; each place in it counts once."""
+    """The messages of one source; each position is counted once."""
     source = COMMENT.sub(lambda comment: re.sub(r"[^\n]", " ", comment.group()), source)
     calls = [(match.start(), source.index("(", match.start())) for match in CALLS.finditer(source)]
     spans = [(start, _end_of_call(source, bracket)) for start, bracket in calls]
@@ -56,12 +56,12 @@ def templates_in(source, path):
 
 
 def _head_of(place, heads):
-    """The first line of the function that a place is in."""
+    """The first line of the function that contains a position."""
     return next((head for start, head in reversed(heads) if start < place), "")
 
 
 def _end_of_call(source, at):
-    """The place after the bracket that closes the one at `at`."""
+    """The position after the bracket that closes the one at `at`."""
     depth = 0
     for match in re.compile(r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)\'|[(){}]').finditer(source, at):
         if match.group() == "(":
@@ -79,7 +79,7 @@ def _end_of_statement(source, at):
 
 
 def _sentences(code):
-    """(place, text) of each literal of `code`; literals that stand beside each other, or are joined by +, are one."""
+    """(position, text) of each literal of `code`; adjacent literals, or literals joined by +, are one."""
     joined = []
     end = 0
     for match in LITERAL.finditer(code):

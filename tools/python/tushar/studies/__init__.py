@@ -1,3 +1,3 @@
-"""What tools/study and tools/stability run, measure and draw.
+"""The studies of tools/study and tools/stability: runs, measurements and figures.
 
 It needs the scenes of this repository, so it is not installed."""

@@ -1,4 +1,4 @@
-"""The error of a run by a global that it saves: how far its change is from that of another run, or from a number."""
+"""The error of a run from a saved global: the difference of its change from that of another run, or from a number."""
 import dataclasses
 import pathlib
 import re
@@ -8,8 +8,8 @@ from tushar.dat import rows_of
 
 @dataclasses.dataclass(frozen=True)
 class Change:
-    """`change.NAME[k]=VALUE`: the k-th number of a global, the first if left out, and what its change should be;
-    without a value as in the first run of the study."""
+    """`change.NAME[k]=VALUE`: the k-th component of a global (by default the first), and the expected change; without a
+    value, that of the first run of the study."""
     name: str
     component: int = 0
     value: float = None
@@ -24,7 +24,7 @@ class Change:
         return Change(name, int(component or 0), None if value is None else float(value))
 
     def measured(self, folder):
-        """Mean over the last quarter of the simulated time less the first value. This is the final value whether the
+        """Mean over the last quarter of the simulated time minus the first value. This is the final value whether the
         run oscillates about it or has come to rest. None where the run has not saved the global."""
         files = sorted(pathlib.Path(folder).glob(f"*.uda.*/{self.name}.dat"))
         lines = rows_of(files[-1]) if files else []

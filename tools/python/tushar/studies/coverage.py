@@ -1,4 +1,4 @@
-"""Runs every scene of a folder: which run, which are refused and why, and what each takes."""
+"""Runs every scene of a folder, and reports which run, which are refused and why, and the time of each."""
 import concurrent.futures
 import dataclasses
 import json
@@ -70,7 +70,7 @@ def type_of(path):
 
 
 def scenes_of(folder, types=()):
-    """The scenes below a folder, of the types named or of all, and how many files of which kind were left out. Raises
+    """The scenes below a folder, of the given types or of all, and the numbers of skipped files by kind. Raises
     SceneError where none is left."""
     folder = pathlib.Path(folder).resolve()
     if not folder.is_dir():
@@ -89,7 +89,7 @@ def scenes_of(folder, types=()):
 
 
 def problems_of(said):
-    """The sentences that sus ended with, each kind once, without notes and advice. A value that a sentence repeats may
+    """The messages with which sus ended, each kind once, without notes and advice. A value that a sentence repeats may
     have several lines."""
     problems = []
     for line in said.splitlines():
@@ -201,14 +201,14 @@ def work_of(pid):
 
 
 def stopped_after(outcome, report):
-    """When a run was stopped and, if it wrote a report, how far it had come."""
+    """The time at which a run was stopped and, if it wrote a report, the simulated time reached."""
     far = f" at t = {report['time']:.4g} s" if report.get("steps") else ""
     return f"stopped after {outcome.wall:.0f} s, {outcome.processor:.0f} s of processor time,{far}".rstrip(",")
 
 
 def ended_by(code):
     """The reason why a program ended without a message."""
-    return f"ended by signal {-code}" if code < 0 else f"ended with exit code {code}, without a sentence"
+    return f"ended by signal {-code}" if code < 0 else f"ended with exit code {code}, without a message"
 
 
 def short(sentence):
@@ -218,7 +218,7 @@ def short(sentence):
 
 
 def reason_of(outcome):
-    """The first sentence, and its number; nothing for a scene that ran."""
+    """The first message, and its code; empty for a scene that ran."""
     if not outcome.problems:
         return ""
     first = outcome.problems[0]
@@ -226,9 +226,8 @@ def reason_of(outcome):
 
 
 def blockers(outcomes, result):
-    """The reasons why scenes do not run, by message: (sentence, number, names of scenes, how many of these have no
-    other
-    problem), those that block most first. Sentences that block the same scenes stand together."""
+    """The reasons why scenes do not run, by message: (message, code, names of scenes, number of these without another
+    problem), the most frequent first. Sentences that block the same scenes stand together."""
     scenes, numbers = {}, {}
     for outcome in outcomes:
         for problem in outcome.problems if outcome.result == result else []:
@@ -251,7 +250,7 @@ RESULTS = ("ran", "stopped", "refused", "failed")
 
 
 def counts(outcomes, among=()):
-    """type -> how many scenes there are of each result, and in all; also of those that are named in `among`."""
+    """type -> number of scenes with each result, and in total; also for the scenes named in `among`."""
     table = {}
     for outcome in outcomes:
         for name in (outcome.type, f"{outcome.type}, among those named")[:1 + (outcome.scene in among)]:
@@ -262,7 +261,7 @@ def counts(outcomes, among=()):
 
 
 def as_json(outcomes, about, among=()):
-    """All that is known, for programs."""
+    """All results, for programs."""
     return json.dumps({**about, "counts": counts(outcomes, among),
                        "blockers": [{"sentence": sentence, "number": number, "alone": alone, "scenes": names}
                                     for sentence, number, names, alone in blockers(outcomes, "refused")],
@@ -275,7 +274,7 @@ def escaped(text):
 
 
 def summary(outcomes, among=()):
-    """Tables of the counts and of what blocks scenes, as Markdown."""
+    """Tables of the counts and of the reasons for refusals, as Markdown."""
     lines = ["| type | scenes | ran to the end | stopped at the limit | refused | failed |", "|" + "---|" * 6]
     for name, row in counts(outcomes, among).items():
         lines.append(f"| {name} | {row['scenes']} | " + " | ".join(str(row[result]) for result in RESULTS) + " |")
@@ -289,7 +288,7 @@ def summary(outcomes, among=()):
 
 
 def table(outcomes, among=()):
-    """A row for each scene, as Markdown; with those named in `among` marked, if there are any."""
+    """A row for each scene, as Markdown; scenes named in `among` are marked."""
     heads = ["scene", "type", *(["named"] if among else []), "result", "particles or cells", "steps", "wall s",
              "processor s", "notes", "reason"]
     lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]

@@ -1,4 +1,4 @@
-"""The gallery of hard cases: the cases, their methods, and the errors that the default method must keep."""
+"""The gallery of hard cases: the cases, their methods, and the error bounds of the default method."""
 import dataclasses
 
 from tushar.studies import scene_variants

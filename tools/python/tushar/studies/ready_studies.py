@@ -1,4 +1,4 @@
-"""The studies that need no more than their name."""
+"""The predefined studies, selected by name."""
 from tushar.studies.study import Method
 
 CONSERVING = "MPM/conserving_gas_dynamics"
@@ -34,7 +34,7 @@ SMOOTH = [*(Method(f"paper, {n} particles per cell", "ups/mpm/smooth_wave.ups",
 
 
 def both(name):
-    """The conserving method and the finite volumes on a scene that both have."""
+    """The conserving method and finite volumes on a scene that both support."""
     return [Method("conserving apic, remapped every 5", f"ups/mpm/{name}.ups",
                    (f"{CONSERVING}/transfer=apic", *remapped(5))),
             *(Method(f"conserving affine_flip, remapped every {'step' if n == 1 else n}", f"ups/mpm/{name}.ups",
@@ -58,14 +58,14 @@ SPARSE = ("MPM/Solver/solver=direct", "MPM/Solver/preconditioner=lu")
 
 
 def at_rest(scene, *sets):
-    """Explicit steps, which the others are compared with, and implicit ones without inertia."""
+    """Explicit steps, which are the reference, and implicit ones without inertia."""
     return [Method("explicit", scene, sets, is_varied=False),
             Method("implicit, LU", scene, (*sets, *STATIC, *SPARSE)),
             Method("implicit, GMRES with GAMG", scene, (*sets, *STATIC))]
 
 
 def refined(name, *blocks):
-    """A uniform grid, and levels in blocks of so many cells."""
+    """A uniform grid, and several levels with blocks of a given size."""
     return [Method("uniform", f"ups/euler/{name}.ups"),
             *(Method(f"levels, blocks of {n} x {n}", f"ups/euler/{name}_levels.ups",
                      (f"AMR/Regridder/min_patch_size=[[{n},{n},1]]",)) for n in blocks)]

@@ -1,4 +1,4 @@
-"""Scenes of the gallery for other methods: the same grid, gas and bodies, by the paper's method or finite volumes."""
+"""Scenes of the gallery for other methods: the same grid, gas and bodies, with the paper's method or finite volumes."""
 import copy
 import xml.etree.ElementTree as xml
 
@@ -19,7 +19,7 @@ def cells_of(root):
 
 
 def override(root, text):
-    """Sets what sus sets by --set PATH=VALUE, where each tag of the path is there once or not at all."""
+    """Applies an override like --set PATH=VALUE of sus, if each tag of the path occurs at most once."""
     path, value = text.split("=", 1)
     element = root
     for tag in path.split("/"):
@@ -29,7 +29,7 @@ def override(root, text):
 
 
 def save(root, *labels):
-    """Makes the scene keep no fields, and these totals of every step."""
+    """Makes the scene save no fields, but these totals in every step."""
     archiver = root.find("DataArchiver")
     for tag in ("outputInterval", "outputTimestepInterval", "outputInitTimestep", "outputLastTimestep", "checkpoint",
                 "save"):
@@ -40,8 +40,8 @@ def save(root, *labels):
 
 
 def paper(root, particles=4):
-    """The paper's method, with C = 2, 1 and so many particles per cell along each axis; a scene that has it already
-    stays as it is."""
+    """Selects the paper's method with C = 2, 1 and a number of particles per cell along each axis, unless the scene
+    already uses it."""
     section = root.find("MPM")
     if section.find("gas_dynamics") is not None:
         return

@@ -1,4 +1,4 @@
-"""Short names for what studies vary, whatever the scene's component: resolution, finest, particles, cfl, dt."""
+"""Short names for the parameters that studies vary, for any component: resolution, finest, particles, cfl, dt."""
 import math
 import xml.etree.ElementTree as xml
 
@@ -16,7 +16,7 @@ def cells_of(scene):
 
 
 def resolution(scene, value):
-    """`N` cells along x, and along the other axes in the scene's proportion; `[nx,ny,nz]` as it stands."""
+    """`N` cells along x, and along the other axes in the proportion of the scene; `[nx,ny,nz]` is used unchanged."""
     if not value.startswith("["):
         cells = cells_of(scene)
         value = "[" + ",".join(str(max(1, round(count * int(value) / cells[0]))) if count > 1 else "1"
@@ -25,12 +25,14 @@ def resolution(scene, value):
 
 
 def finest(scene, value):
-    """Cells of which `N` would fill the grid along x: of a scene with <AMR> the finest level's, of others all."""
+    """Cells of which `N` would fill the grid along x: those of the finest level for a scene with <AMR>, otherwise
+    all."""
     if root_of(scene).find("AMR/Regridder") is None:
         return resolution(scene, value)
     levels = math.log2(int(value) / cells_of(scene)[0])
     if levels < 0 or not levels.is_integer():
-        raise ValueError(f"{scene} has {cells_of(scene)[0]} cells along x, and each further level is twice as fine")
+        raise ValueError(f"{scene} has {cells_of(scene)[0]} cells along x, and the cells of each further level are "
+                         "half as wide")
     return [f"AMR/Regridder/max_levels={int(levels) + 1}", f"AMR/Regridder/adaptive={'true' if levels else 'false'}"]
 
 
@@ -42,13 +44,13 @@ def particles(scene, value):
 
 
 def cfl(scene, value):
-    """In the section of the scene's method."""
+    """Sets a value in the section of the scene's method."""
     sections = [path for path in CFL if root_of(scene).find(path) is not None]
     return [f"{path}/cfl={value}" for path in sections or CFL[:1]]
 
 
 def dt(scene, value):
-    """Steps of so many seconds, of a method that takes any."""
+    """Steps of this length in seconds, for a method that supports any."""
     return [f"Time/delt_init={value}", f"Time/delt_max={value}"]
 
 

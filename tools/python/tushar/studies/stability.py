@@ -71,7 +71,7 @@ class Gallery:
         return path
 
     def run(self, case, method, factor=1.0):
-        """The result of a case by a method with a multiple of the time step that the method itself would take."""
+        """The result of a case with a method, with a multiple of the method's own time step."""
         scene = self.scene(case, method)
         sets = [*sets_of(case, method), f"Time/timestep_multiplier={factor!r}", f"Time/max_wall_time={WALL}"]
         key = hashlib.sha1(json.dumps([scene.read_text(), sets]).encode()).hexdigest()[:12]
@@ -93,8 +93,8 @@ class Gallery:
         path.replace(self.file)
 
     def largest_factor(self, case, method, say):
-        """The largest factor on the time step, to 5 %, with which the run lives and its error stays below twice that at
-        factor 1; at most 16. None if there is none."""
+        """The largest factor of the time step, at most 16 and to 5 %, with which the run ends and its error is less
+        than twice that with factor 1. None if there is none."""
         first = self.run(case, method)
         if first.get("failure"):
             return None
@@ -112,15 +112,14 @@ class Gallery:
 
 
 def error_of(case, errors):
-    """Where a case's error stands in a report: that of particles is, where a method has none, the norm L2 over
-    cells."""
+    """The path of a case's error in a report; if a method has no particle error, the L2 norm over cells."""
     variable, where, norm = case.error.split(".")
     has_it = where != "particle" or where in errors.get(variable, {})
     return case.error if has_it else f"{variable}.cell.L2"
 
 
 def measured(report, totals, case):
-    """The part of a report that counts."""
+    """The relevant part of a report."""
     if "steps" not in report:
         return {"failure": report["failure"], "steps": 0}
     result = {"failure": report.get("failure", ""), "steps": report["steps"], "retries": report["retries"],
@@ -140,16 +139,16 @@ def measured(report, totals, case):
 
 
 def is_stable(run, first):
-    """Whether a run lives with no more than twice the error of another."""
+    """Whether a run survives with at most twice the error of another."""
     if run["failure"] or run["ended"] != "maxTime":
         return False
     return "error" not in first or run["error"] <= 2 * max(first["error"], 1e-12)
 
 
 def judge(run, case, isOurs):
-    """`pass`, or the bound that a run breaks. The error counts for the default method alone: others have no bound."""
+    """`pass`, or the bound that a run violates. The error counts for the default method alone: others have no bound."""
     if case.fails:
-        return ["pass"] if case.fails in run["failure"] else ["did not fail as it must"]
+        return ["pass"] if case.fails in run["failure"] else ["did not fail as it should"]
     if run["failure"]:
         return ["died"]
     broken = [] if run["ended"] == "maxTime" else [run["ended"]]
@@ -194,7 +193,7 @@ def write_markdown(rows, command, path):
 
 
 def first_sentence(failure):
-    """Why a run failed, without the neighbours and the advice."""
+    """Why a run failed, without the values around and the advice."""
     text = failure.removeprefix("sus: ")
     place = text[text.rfind("(task"):].split(")")[0] + ")" if "(task" in text else ""
     return f"{text.split('; around it')[0].split(' (task')[0]} {place}".strip()

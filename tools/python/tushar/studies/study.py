@@ -1,4 +1,5 @@
-"""Runs scenes over methods and resolutions, again and again in turn, and gathers error and run time of each."""
+"""Runs scenes with several methods and resolutions, in interleaved repetitions, and collects the error and run time of
+each."""
 import csv
 import dataclasses
 import hashlib
@@ -31,7 +32,7 @@ class Method:
 
 @dataclasses.dataclass(frozen=True)
 class Case:
-    """A method with one value for each thing that is varied."""
+    """A method with one value for each varied parameter."""
     method: Method
     varied: tuple  # of (name, value)
 
@@ -45,7 +46,7 @@ class Case:
         return sets
 
     def key(self):
-        """The same only for the same scene, letter by letter, with the same overrides."""
+        """Equal only for exactly the same scene with the same overrides."""
         text = json.dumps([self.method.name, self.method.scene, scene_text(self.method.scene), self.overrides()])
         return hashlib.sha1(text.encode()).hexdigest()[:12]
 
@@ -120,7 +121,7 @@ class Study:
     def _change(self, case, folder):
         measured = self.change.measured(folder)
         if measured is None:
-            raise StudyError(f"{case.method.scene} does not save {self.change.name}, or it has no number "
+            raise StudyError(f"{case.method.scene} does not save {self.change.name}, or has no component "
                              f"{self.change.component}")
         return measured
 
@@ -136,7 +137,7 @@ class Study:
         return self.change.error(report["change"], self.runs[self.cases[0].key()][0].get("change"))
 
     def rows(self):
-        """One row a case that has run: error, cell width, median run time, orders against the case before."""
+        """One row for each case that has run: error, cell width, median run time, orders against the case before."""
         rows = []
         for case in self.cases:
             reports = self.runs.get(case.key())
@@ -162,14 +163,14 @@ class Study:
 
 
 def time_by_task(reports):
-    """Task -> median of its time over the runs [s], and that of what the time loop spent outside of tasks."""
+    """Task -> median of its time over the runs [s], and of the time that the time loop spent outside tasks."""
     walls = [report["wall"] for report in reports]
     tasks = {name: statistics.median(wall["tasks"][name] for wall in walls) for name in walls[0]["tasks"]}
     return tasks | {"between tasks": statistics.median(wall["loop"] - sum(wall["tasks"].values()) for wall in walls)}
 
 
 def order(before, row):
-    """Observed order of the error in h between two rows; None where there is none."""
+    """Observed order of the error in h between two rows; None if there is none."""
     if before is None or before["h"] == row["h"] or not before["error"] > 0 or not row["error"] > 0:
         return None
     return math.log(before["error"] / row["error"]) / math.log(before["h"] / row["h"])
@@ -179,13 +180,13 @@ def value_at(tree, path):
     """errors, `density.cell.L1` -> number; StudyError with the available names."""
     for word in path.split("."):
         if word not in tree:
-            raise StudyError(f"there is no error '{path}': at '{word}' there is only {', '.join(tree) or 'nothing'}")
+            raise StudyError(f"there is no error '{path}': at '{word}', available: {', '.join(tree) or 'nothing'}")
         tree = tree[word]
     return tree
 
 
 def write_csv(rows, path):
-    """A line a row; after all else a column a task, `tasks.NAME` [s], empty where a method has no such task."""
+    """A line for each row; the last columns are tasks, `tasks.NAME` [s], empty if a method has no such task."""
     flat = [{name: value for name, value in row.items() if name not in ("tasks", "varied")} for row in rows]
     times = [{f"tasks.{name}": seconds for name, seconds in row.get("tasks", {}).items()} for row in rows]
     columns = list(dict.fromkeys(name for part in (flat, times) for row in part for name in row))

@@ -1,4 +1,5 @@
-"""The figures of a study: error against cell width, run time and, on levels, cell updates; where the time went."""
+"""The figures of a study: error against cell width, run time and, on several levels, cell updates; and the time of each
+task."""
 import matplotlib
 
 matplotlib.use("Agg")
@@ -10,7 +11,7 @@ MARKERS = "osD^vP"
 
 
 def lines_of(rows):
-    """Method -> its rows that lived, widest cells first."""
+    """Method -> its rows of successful runs, largest cells first."""
     lines = {}
     for row in rows:
         if "died" not in row:
@@ -79,7 +80,7 @@ def _draw_key(key, axes, columns=2):
 
 
 def _order_triangle(axes, lines, order):
-    """A triangle of that slope below the finest two points of the best line."""
+    """A triangle with this slope below the finest two points of the best line."""
     best = min((line for line in lines.values() if len(line) > 1), key=lambda line: line[-1]["error"], default=None)
     if best is None:
         return
@@ -92,7 +93,8 @@ def _order_triangle(axes, lines, order):
 
 
 def _time_by_task(lines):
-    """A stacked bar a method and resolution: what each task takes of a step, per cell; the time loop at its end."""
+    """A stacked bar for each method and resolution: the time of each task per step and cell, labelled with the time of
+    the time loop."""
     bars = [(method, row) for method, line in lines.items() for row in line]
     colours = _colours_of_tasks(bars)
     tall = 0.8 + 0.24 * len(bars) + 0.17 * len(lines), 0.3 + 0.16 * (len(colours) // 3 + 1)
@@ -112,7 +114,7 @@ def _time_by_task(lines):
     axes.set_yticks(heights, [_name_of_bar(method, row) for method, row in bars], fontsize=8)
     axes.invert_yaxis()
     axes.margins(x=0.1)
-    axes.set_xlabel("time per step and cell [ns]; at the end of each bar the whole time loop")
+    axes.set_xlabel("time per step and cell [ns]; the label of each bar is the time of the whole time loop")
     axes.grid(False, axis="y")
     key.axis("off")
     key.legend([plt.Rectangle((0, 0), 1, 1, color=colour) for colour in colours.values()], colours, loc="center",
@@ -122,7 +124,7 @@ def _time_by_task(lines):
 
 
 def _colours_of_tasks(bars):
-    """Task -> colour, the same in all bars; grey for what is no task."""
+    """Task -> colour, the same in all bars; grey for the rest."""
     names = [task for task in dict.fromkeys(task for _, row in bars for task in row["tasks"])
              if task != "between tasks"]
     palette = plt.get_cmap("tab20").colors + plt.get_cmap("tab20b").colors

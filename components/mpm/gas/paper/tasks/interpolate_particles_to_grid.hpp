@@ -58,7 +58,7 @@ void interpolateParticlesToGrid(const Patch& patch, const Gas&, ParticleView<con
   });
 }
 
-/// m_i = sum_p S_ip m_p alone: the projection of the mass of a state, as diagnostics compare it with exact densities.
+/// Only m_i = sum_p S_ip m_p: the projected mass of a state, which diagnostics compare with exact densities.
 template <int D>
 void interpolateMassToGrid(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
                            ParticleView<const double> particleMass, NodeView<double> mass) {

@@ -11,14 +11,14 @@ namespace tushar::mpm::gas::paper {
 /// The redistribution of particles in cells with too few or too many.
 struct Redistribution {
   enum class Mode {
-    splitMerge,  ///< halve large ones, join close ones
+    splitMerge,  ///< halve large ones, merge close ones
     reseed,      ///< put new ones at the centres of equal parts of the cell
   };
   Location where;  ///< in the scene
   Mode mode = Mode::splitMerge;
   int minParticles = 2;     ///< per cell
   int maxParticles = 16;    ///< per cell
-  int targetParticles = 4;  ///< number per cell for `reseed`; its D-th root, rounded up, along each axis
+  int targetParticles = 4;  ///< number per cell for `reseed`; along each axis, its D-th root, rounded up
 
   /// Particles along each axis of a reseeded cell.
   int seededAlongAxis(int dimension) const {
@@ -63,14 +63,14 @@ struct CellShape {
 template <int D>
 void split(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, int minParticles);
 
-/// Joins the two nearest pieces until there are N_max: positions and velocities are averaged with their masses, volumes
-/// added; the kinetic energy m1 m2 |v1 - v2|² / (2 (m1 + m2)) that this loses becomes heat.
+/// Merges the two closest pieces until there are N_max: positions and velocities are averaged with their masses as
+/// weights, volumes are added; the kinetic energy m1 m2 |v1 - v2|² / (2 (m1 + m2)) that this loses becomes heat.
 template <int D>
 void merge(std::vector<Piece<D>>& pieces, int maxParticles);
 
-/// Puts n^D pieces of equal volume at the midpoints of the cell with the cell's slopes of density, velocity (about
-/// the centre of mass, scaled so that kinetic energy does not grow) and pressure. Lost kinetic energy becomes heat.
-/// Mass, momentum and total energy are conserved.
+/// Puts n^D pieces of equal volume at the midpoints of the cell. Density, velocity and pressure have the slopes of the
+/// cell; those of the velocity are about the centre of mass, and scaled so that the kinetic energy does not grow. Lost
+/// kinetic energy becomes heat. Mass, momentum and total energy are conserved.
 template <int D>
 void reseed(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& gas, int alongAxis);
 
@@ -116,7 +116,7 @@ struct OldParticles {
   }
 };
 
-/// The values of the particles that redistribution makes.
+/// The values of the new particles made by redistribution.
 template <int D>
 struct NewParticles {
   std::vector<Vec<D>>&x, &velocity;
@@ -142,7 +142,7 @@ struct NewParticles {
   }
 };
 
-/// Redistributes the cells of a patch that hold too few or too many particles.
+/// Redistributes the cells of a patch that contain too few or too many particles.
 template <int D>
 void redistribute(const Patch& patch, const Gas& gas, ParticleMaker& maker, const Redistribution& how,
                   const OldParticles<D>& old, const NewParticles<D>& fresh) {

@@ -98,7 +98,7 @@ class ClosestPoint {
     if (!isOutside || root3 * z < surface_.branch()) return onEllipse(at, radius, theta);
     return {root3 * z + surface_.zeta(), steepness * ahead / stretch_, theta};
   }
-  /// On the cap (-a cos phi, b sin phi) about its centre, the point at which the distance stops falling with phi.
+  /// On the cap (-a cos phi, b sin phi) about its centre, the point at which the distance stops decreasing with phi.
   Invariants onEllipse(double at, double radius, LodeAngle theta) const {
     const double a = surface_.capLength() / root3, b = surface_.capHeight() * stretch_;
     const double middle = surface_.end() / root3 + a, away = at - middle;
@@ -111,7 +111,7 @@ class ClosestPoint {
     if (radius > 0) phi = slope(touch) <= 0 ? touch : rootBetween(slope, 0, touch);
     return {root3 * (middle - a * std::cos(phi)) + surface_.zeta(), b * std::sin(phi) / stretch_, theta};
   }
-  /// The distance of the trial outside the section at z, times d(r)/d(radius) of the nearest point there.
+  /// The distance of the trial from the section at z, outside it, times d(r)/d(radius) of the nearest point there.
   double gapOf(double z, double trialRadius, LodeAngle trialTheta) const {
     const double radius = stretch_ * surface_.radius(root3 * z);
     if (trialRadius <= radius * surface_.lodeFactor(trialTheta)) return 0;

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid::arenisca {
 
-/// The constants of Arenisca in a scene, by the symbols of its publications. Stresses are positive in tension; I1 is
+/// The constants of Arenisca in a scene, with the symbols of its publications. Stresses are positive in tension; I1 is
 /// the trace of the stress, J2 the second invariant of its deviator.
 struct Constants {
   double peakI1 = 0;         ///< I1 at the vertex of the yield surface, Pa
@@ -36,7 +36,7 @@ struct Constants {
 
   /// Whether Poisson's ratio is given; otherwise G = g0.
   bool hasPoissonRatio() const { return g1 != 0 && g2 != 0; }
-  /// Whether the cap is an ellipse that touches the cone, and the moduli are constant: Arenisca without a number.
+  /// Whether the cap is an ellipse tangent to the cone, and the moduli are constant: the model type `Arenisca`.
   bool hasTangentCap() const { return capShape > 0; }
   /// K_m: bulk modulus of the grains, Pa.
   double matrixBulk() const { return b0 + b1; }
@@ -44,7 +44,7 @@ struct Constants {
   double porosity() const { return 1 - std::exp(-p3); }
   /// C_1 = K_f (1 - phi_0) + K_m phi_0, Pa
   double mixedBulk() const { return fluidBulk * (1 - porosity()) + matrixBulk() * porosity(); }
-  /// Whether a fluid fills the pores at a volumetric strain; at larger strains it is under tension and tears.
+  /// Whether a fluid fills the pores at a volumetric strain; at larger strains it is under tension and ruptures.
   bool isSaturated(double strain) const {
     return fluidBulk != 0 && strain <= mixedBulk() * fluidPressure / (fluidBulk * matrixBulk());
   }
@@ -68,18 +68,17 @@ void check(const M& c, const input::Element& element, input::Diagnostics& diagno
                       "0 (a cone); STREN > 0 alone (a cylinder); FSLOPE and STREN > 0, the other two 0; FSLOPE > "
                       "YSLOPE > 0 and STREN > YSLOPE PEAKI1");
   if (c.p0 >= 0) diagnostics.error(element, "p0_crush_curve: must be below 0, as pores collapse under compression");
-  if (c.p1 == 0) diagnostics.error(element, "p1_crush_curve: is 0, so no pressure would collapse the pores");
+  if (c.p1 == 0) diagnostics.error(element, "p1_crush_curve: is 0, so pores would not collapse at any pressure");
   if (c.hasPoissonRatio())
     for (const double ratio : {c.g1, c.g1 + c.g2})
       if (ratio <= -1 || ratio >= 0.5)
-        diagnostics.error(element,
-                          fmt::format("G1 and G1 + G2: Poisson's ratio is {:g}, which leaves no positive shear "
-                                      "modulus; keep it between -1 and 0.5",
-                                      ratio));
+        diagnostics.error(element, fmt::format("G1 and G1 + G2: Poisson's ratio is {:g}, so the shear modulus would "
+                                               "not be positive; keep it between -1 and 0.5",
+                                               ratio));
   if ((c.t1 > 0) != (c.t2 > 0))
     diagnostics.error(element, "T1_rate_dependence and T2_rate_dependence: must both be 0 or both be positive");
   if (c.lodeType != 0 && c.lodeType != 1 && c.lodeType != 3)
-    diagnostics.error(element, "J3_type: allowed are 0, 1 (Gudehus) and 3 (Mohr-Coulomb)");
+    diagnostics.error(element, "J3_type: must be 0, 1 (Gudehus) or 3 (Mohr-Coulomb)");
 }
 
 /// Declares tags of a model for members of its Constants.
@@ -108,23 +107,24 @@ void addConeTags(input::Schema<M>& schema) {
   tags.require("B0", &Constants::b0, "Pa", "bulk modulus at low pressure", input::positive());
   tags.require("G0", &Constants::g0, "Pa", "shear modulus", input::positive());
   tags.require("p0_crush_curve", &Constants::p0, "Pa", "trace of the stress at which pores begin to collapse, below 0");
-  tags.require("p1_crush_curve", &Constants::p1, "1/Pa", "sets how fast the stress rises while pores collapse");
+  tags.require("p1_crush_curve", &Constants::p1, "1/Pa", "determines how fast the stress rises while pores collapse");
   tags.require("p3_crush_curve", &Constants::p3, "1", "volumetric strain at which all pores have collapsed",
                input::positive());
   tags.value("T1_rate_dependence", &Constants::t1, 0, "s", "relaxation time at a strain rate of 1/s",
              input::nonNegative());
   tags.value("T2_rate_dependence", &Constants::t2, 0, "1",
-             "exponent with which the relaxation time falls with the strain rate", input::nonNegative());
-  tags.require("fluid_B0", &Constants::fluidBulk, "Pa", "bulk modulus of the fluid in the pores; 0: they are empty",
+             "exponent with which the relaxation time decreases with the strain rate", input::nonNegative());
+  tags.require("fluid_B0", &Constants::fluidBulk, "Pa", "bulk modulus of the fluid in the pores; 0 means empty pores",
                input::nonNegative());
-  schema.ignored("gruneisen_parameter", "as in Uintah, nothing depends on it").check(check<M>);
+  schema.ignored("gruneisen_parameter", "as in Uintah, it has no effect").check(check<M>);
 }
 
 /// Tags of the curved limit surface, nonlinear elasticity and the fluid.
 template <class M>
 void addSoilTags(input::Schema<M>& schema) {
   const Tags<M> tags{schema};
-  tags.require("CR", &Constants::capRatio, "1", "where the cap begins, between the vertex (0) and its end (1)",
+  tags.require("CR", &Constants::capRatio, "1",
+               "where the cap begins: 0 is the vertex of the yield surface, 1 the end of the cap",
                input::between(0, 1));
   tags.value("subcycling_characteristic_number", &Constants::mostSubsteps, 256, "1", "largest number of substeps",
              input::positive());
@@ -134,39 +134,37 @@ void addSoilTags(input::Schema<M>& schema) {
   tags.require("BETA_nonassociativity", &Constants::flowFactor, "1", "1: plastic flow is normal to the yield surface",
                input::positive());
   tags.require("B1", &Constants::b1, "Pa", "increase of the bulk modulus at high pressure", input::nonNegative());
-  tags.require("B2", &Constants::b2, "Pa", "scale of the trace of the stress in the increase <B1>",
+  tags.require("B2", &Constants::b2, "Pa", "scale of the trace of the stress for the increase <B1>",
                input::nonNegative());
   tags.require("B3", &Constants::b3, "Pa", "reduction of the bulk modulus by plastic compaction", input::nonNegative());
-  tags.require("B4", &Constants::b4, "1", "scale of the volumetric plastic strain in the reduction <B3>",
+  tags.require("B4", &Constants::b4, "1", "scale of the volumetric plastic strain for the reduction <B3>",
                input::nonNegative());
   tags.require("G1", &Constants::g1, "1", "Poisson's ratio at low pressure, instead of <G0>");
   tags.require("G2", &Constants::g2, "1",
                "increase of Poisson's ratio at high pressure; if <G1> or <G2> is 0, <G0> is used");
-  for (const char* unused : {"G3", "G4", "p2_crush_curve"})
-    schema.ignored(unused, "as in Uintah, nothing depends on it");
+  for (const char* unused : {"G3", "G4", "p2_crush_curve"}) schema.ignored(unused, "as in Uintah, it has no effect");
   tags.require("fluid_pressure_initial", &Constants::fluidPressure, "Pa", "pressure of the fluid at the start",
                input::nonNegative());
 }
 
-/// Tags of the cap that touches the cone: Arenisca without a number alone has it.
+/// Tags of the cap that is tangent to the cone, which only the model type `Arenisca` has.
 template <class M>
 void addTangentCapTags(input::Schema<M>& schema) {
   const Tags<M> tags{schema};
-  tags.require("CR", &Constants::capShape, "1", "ratio of height (along r) to length (along z) of the elliptical cap",
+  tags.require("CR", &Constants::capShape, "1", "ratio of the semi-axes of the elliptical cap, along r and along z",
                input::positive());
-  tags.value("p4_fluid_effect", &Constants::b1, 0, "Pa", "bulk modulus of the grains less <B0>", input::nonNegative());
+  tags.value("p4_fluid_effect", &Constants::b1, 0, "Pa", "bulk modulus of the grains minus <B0>", input::nonNegative());
   tags.value("fluid_pressure_initial", &Constants::fluidPressure, 0, "Pa", "pressure of the fluid at the start",
              input::nonNegative());
   tags.value("subcycling_characteristic_number", &Constants::mostSubsteps, 1, "1",
              "number of substeps for every 0.1 % of strain", input::positive());
   for (const char* unused : {"FSLOPE_p", "hardening_modulus", "kinematic_hardening_constant"})
-    schema.ignored(unused,
-                   "as in Uintah, nothing depends on it: plastic flow is associated, and the cone does not harden");
+    schema.ignored(unused, "as in Uintah, it has no effect: plastic flow is associated, and the cone does not harden");
   for (const char* unused : {"internal_variable_model", "useTaylorSeriesForDefGrad", "num_taylor_terms"})
     schema.ignored(unused, "from an older Uintah, in which the other tags have the same meaning");
 }
 
-/// Lode's angle: Arenisca4 alone has it.
+/// Lode's angle, which only Arenisca4 has.
 template <class M>
 void addLodeTags(input::Schema<M>& schema) {
   schema
@@ -176,7 +174,7 @@ void addLodeTags(input::Schema<M>& schema) {
              "ratio of the strengths in triaxial compression and extension; the surface is convex from 7/9 to 9/7 for "
              "J3_type 1, from 1/2 to 2 for J3_type 3",
              input::between(0.5, 2))
-      .ignored("principal_stress_cutoff", "as in Uintah, nothing depends on it");
+      .ignored("principal_stress_cutoff", "as in Uintah, it has no effect");
 }
 
 }  // namespace tushar::mpm::solid::arenisca

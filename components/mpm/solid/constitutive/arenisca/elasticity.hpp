@@ -81,9 +81,9 @@ inline double greatestShear(const Constants& c) {
   return greatest;
 }
 
-/// I1 without the fluid's share, at the end of the cap, Pa: the crush curve
-/// X = p0 + ln(1 + e_p / p3) / p1 for -p3 < e_p <= 0 and X = p0 (1 + e_p)^(1 / (p0 p1 p3)) beyond, times K / K_dry
-/// where a fluid fills the pores. Once all have collapsed, there is no end.
+/// I1 without the contribution of the fluid, at the end of the cap, Pa: the crush curve X = p0 + ln(1 + e_p / p3) / p1
+/// for -p3 < e_p <= 0 and X = p0 (1 + e_p)^(1 / (p0 p1 p3)) beyond, times K / K_dry where a fluid fills the pores. Once
+/// all have collapsed, there is no end.
 inline double capEnd(const Constants& c, double plasticStrain) {
   if (plasticStrain <= -c.p3) return 1e12 * c.p0;
   const double dry = plasticStrain <= 0 ? c.p0 + std::log((plasticStrain + c.p3) / c.p3) / c.p1

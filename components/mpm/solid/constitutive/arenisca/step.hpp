@@ -85,8 +85,8 @@ class Substep {
     return best;
   }
 
-  /// The result of `consistent`, by the Illinois variant of false position where both ends are known, and
-  /// by bisection where the surface at the upper one lies beyond the return.
+  /// The result of `consistent`: by the Illinois variant of false position if both ends are known, and by bisection if
+  /// the surface at the upper end is beyond the return.
   Return falsePosition(const Return& atRest) const {
     const double whole = std::abs(atRest.plasticStrain.trace());
     Return best = atRest;
@@ -110,12 +110,12 @@ class Substep {
     }
     return best;
   }
-  /// A share of the plastic strain, and by how much it exceeds that of the return to the surface that it has moved.
+  /// A fraction of the plastic strain, and the amount by which it exceeds that of the return to the moved surface.
   struct Share {
     double at, excess;
     bool isKnown;
   };
-  /// The return to a moved surface; none where the trial lies within, or on the other side of it.
+  /// The return to a moved surface; none if the trial is inside, or on the other side of it.
   std::optional<Return> returnedAhead(const YieldSurface& surface, const Return& atRest) const {
     if (contains(surface)) return std::nullopt;
     const Return next = returned(surface);
@@ -134,8 +134,9 @@ class Substep {
   double stiffness_;     ///< stiffness of the fluid, Pa
 };
 
-/// Number of substeps of a step that leaves the yield surface with a tangent cap: `mostSubsteps` for every 0.1 % of
-/// strain, or for every length of the surface if that is less stress. A step that stays within needs no parts.
+/// Number of substeps of a step that leaves the yield surface with a tangent cap: `mostSubsteps` per 0.1 % of strain,
+/// or per stress increment of the length of the surface, whichever gives fewer. A step that stays within needs no
+/// parts.
 inline int substepsOfTangentCap(const Constants& c, const Point& start, const Matrix3& strain) {
   const Matrix3 change = Moduli{c.b0, c.g0}.stress(strain);
   const Invariants trial(start.stress + change);

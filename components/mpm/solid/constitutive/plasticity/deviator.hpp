@@ -42,7 +42,7 @@ struct MaxwellDeviator {
     return schema;
   }
   MaxwellStep step(int j, double timeStep) const { return MaxwellStep(timeStep / time[j]); }
-  /// Shear modulus for a step, Pa; for a fast wave if the step is 0.
+  /// Shear modulus for a step, Pa; if the step is 0, for a fast wave.
   double modulusIn(double timeStep) const {
     double sum = 0;
     for (int j = 0; j < count; ++j) sum += step(j, timeStep).gained * modulus[j];

@@ -30,7 +30,7 @@ struct HypoelasticVolume {
     return schema;
   }
   double meanStress(const VolumeState& s) const { return s.oldMeanStress + s.bulkModulus * s.dilatation; }
-  /// Temperature change by the volume change of the step, K.
+  /// Temperature change due to the volume change of the step, K.
   double heating(const VolumeState&) const { return 0; }
 };
 
@@ -63,8 +63,8 @@ struct MieGruneisen {
             "The Mie-Grüneisen equation of state, with the thermal energy taken from the temperature.")
             .required("C_0", &MieGruneisen::soundSpeed, "m/s", "speed of a weak shock", input::positive())
             .required("Gamma_0", &MieGruneisen::gruneisen, "1", "Grüneisen parameter", input::nonNegative())
-            .required("S_alpha", &MieGruneisen::slope, "1", "slope of the shock velocity over the particle velocity",
-                      input::nonNegative());
+            .required("S_alpha", &MieGruneisen::slope, "1",
+                      "slope of the shock velocity as a function of the particle velocity", input::nonNegative());
     return schema;
   }
   double meanStress(const VolumeState& s) const {
@@ -93,7 +93,8 @@ struct MieGruneisenEnergy {
             .required("C_0", &Self::soundSpeed, "m/s", "speed of a weak shock", input::positive())
             .required("Gamma_0", &Self::gruneisen, "1", "Grüneisen parameter", input::nonNegative())
             .required("S_alpha", &Self::s1, "1",
-                      "slope of the shock velocity over the particle velocity, for a weak shock", input::nonNegative())
+                      "slope of the shock velocity as a function of the particle velocity, for a weak shock",
+                      input::nonNegative())
             .value("S_2", &Self::s2, 0, "1", "second-order coefficient of the shock velocity")
             .value("S_3", &Self::s3, 0, "1", "third-order coefficient of the shock velocity");
     return schema;

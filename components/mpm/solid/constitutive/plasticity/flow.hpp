@@ -107,13 +107,14 @@ struct ZerilliArmstrong {
                     "constant part, Pa; or <sigma_g> + <k_H> <sqrt_l_inv>, from the grain size")
             .forms({input::typeForm({"c_0", "sigma_g", "k_H", "sqrt_l_inv"}, std::string(input::typeName<double>))})
             .required("B", &Self::b, "Pa", "part without hardening", input::nonNegative())
-            .required("beta_0", &Self::beta0, "1/K", "its fall with the temperature", input::nonNegative())
-            .required("beta_1", &Self::beta1, "1/K", "its growth with the logarithm of the strain rate",
+            .required("beta_0", &Self::beta0, "1/K", "decrease of this part with the temperature", input::nonNegative())
+            .required("beta_1", &Self::beta1, "1/K", "increase of this part with the logarithm of the strain rate",
                       input::nonNegative())
             .required("B_0", &Self::b0, "Pa", "part that grows with the square root of the plastic strain",
                       input::nonNegative())
-            .required("alpha_0", &Self::alpha0, "1/K", "its fall with the temperature", input::nonNegative())
-            .required("alpha_1", &Self::alpha1, "1/K", "its growth with the logarithm of the strain rate",
+            .required("alpha_0", &Self::alpha0, "1/K", "decrease of that part with the temperature",
+                      input::nonNegative())
+            .required("alpha_1", &Self::alpha1, "1/K", "increase of that part with the logarithm of the strain rate",
                       input::nonNegative())
             .required("K", &Self::k, "Pa", "factor of e_p^n", input::nonNegative())
             .required("n", &Self::n, "1", "exponent of the plastic strain", input::nonNegative());
@@ -157,7 +158,7 @@ class RadialReturn {
   RadialReturn(const Flow& flow, const FlowState& start, double timeStep)
       : flow_(flow), start_(start), time_step_(timeStep) {}
 
-  /// Length by which the return shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y, e_p =
+  /// Amount by which the return shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y, e_p =
   /// (2/3)^(1/2) q/(2 G) more than at the start, Pa, by Newton's iteration between bounds; Simo & Hughes, Computational
   /// Inelasticity (1998), box 3.1.
   double excess(double trialSize) const {

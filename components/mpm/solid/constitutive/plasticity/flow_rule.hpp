@@ -31,7 +31,8 @@ struct Hardening {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<Flow, Hardening>;
     constexpr bool isAbsent = requires { &Both<Flow, Name>::hardening; };
-    static_assert(isNamed || isAbsent, "a member hardening is used only if the flow model names capability::Hardening");
+    static_assert(isNamed || isAbsent,
+                  "the member `hardening` is used only if the flow model lists capability::Hardening");
     constexpr bool fits = requires { Member<Flow, double, const FlowState&>{&Flow::hardening}; };
     static_assert(!isNamed || fits,
                   "capability::Hardening needs the public member `double hardening(const FlowState&) const`");
@@ -50,7 +51,7 @@ struct PlasticRate {
     constexpr bool isNamed = providesCapability<Flow, PlasticRate>;
     constexpr bool isAbsent = requires { &Both<Flow, Name>::dependsOnPlasticRate; };
     static_assert(isNamed || isAbsent,
-                  "a member dependsOnPlasticRate is used only if the flow model names capability::PlasticRate");
+                  "the member `dependsOnPlasticRate` is used only if the flow model lists capability::PlasticRate");
     constexpr bool fits = requires { Member<Flow, bool>{&Flow::dependsOnPlasticRate}; };
     static_assert(!isNamed || fits,
                   "capability::PlasticRate needs the public member `bool dependsOnPlasticRate() const`");
@@ -63,7 +64,7 @@ using OfFlowModels = CapabilityList<Hardening, PlasticRate>;
 
 }  // namespace capability
 
-/// True, or compilation stops with a sentence that says what is missing in Flow.
+/// True; otherwise compilation stops with a message that says what is missing in Flow.
 template <class Flow>
 consteval bool isFlowRule() {
   static_assert(

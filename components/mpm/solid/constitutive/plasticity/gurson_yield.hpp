@@ -43,28 +43,28 @@ struct GursonYield {
                       input::between(0, 1));
     return schema;
   }
-  /// f*, 1; at most greatest(), as the formula would give more strength to more pores.
+  /// f*, 1; at most greatest(), because beyond it the formula would give more strength to more pores.
   double effective(double f) const {
     return std::min(f > criticalPorosity ? criticalPorosity + acceleration * (f - criticalPorosity) : f, greatest());
   }
   /// The smallest root of 1 + q3 f*² = 2 q1 f*, at which no strength is left: 1/q1 if q3 = q1²; without a root, the
   /// position of the minimum.
   double greatest() const { return q3 > q1 * q1 ? q1 / q3 : 1 / (q1 + std::sqrt(q1 * q1 - q3)); }
-  /// (q/sigma_y)² on the yield surface, at p by sigma_y; negative where it bears no q.
+  /// (q/sigma_y)² on the yield surface as a function of p / sigma_y; negative where it bears no q.
   double square(double p, double f) const {
     const double pores = effective(f);
     return 1 + q3 * pores * pores - 2 * q1 * pores * std::cosh(argument(p));
   }
   double strength(double p, double f) const { return std::sqrt(std::max(square(p, f), 0.0)); }
-  /// sigma_y d Phi/dp at p by sigma_y.
+  /// sigma_y d Phi/dp as a function of p / sigma_y.
   double dilatancy(double p, double f) const { return 3 * q1 * q2 * effective(f) * std::sinh(argument(p)); }
 
  private:
-  /// The argument of cosh, limited so that it does not overflow, to a value that no metal bears.
+  /// The argument of cosh, limited so that it does not overflow, to a value above the strength of any metal.
   double argument(double p) const { return std::clamp(1.5 * q2 * p, -300.0, 300.0); }
 };
 
-/// Largest porosity: some metal must be left, as the equations divide by 1 - f.
+/// Largest porosity: some metal must remain, because the equations divide by 1 - f.
 inline constexpr double greatestPorosity = 0.999;
 
 /// Return to Gurson's surface with associated flow: Aravas, Int. J. Numer. Meth. Engng 24 (1987) 1395. `yieldStress(x)`
@@ -100,14 +100,15 @@ class GursonReturn {
     if (residual(0) == 0) return at(trial, 0);
     return at(trial, rootBetween(residual, 0.0, farthest(mean)));
   }
-  /// f after more plastic dilatation and strain: the pores grow with the one, new ones open with the other in tension.
+  /// f after additional plastic dilatation and strain: pores grow with the dilatation, and new pores open with the
+  /// strain in tension.
   double porosity(double dilatation, double strain) const {
     if (!nucleation_) return porosity_;
     return std::clamp(1 - (1 - porosity_) * std::exp(-dilatation) + *nucleation_ * strain, 0.0, greatestPorosity);
   }
 
  private:
-  /// The plastic dilatation that takes all of the mean stress away or, in compression, closes the pores.
+  /// The plastic dilatation that removes all mean stress or, in compression, closes the pores.
   double farthest(double mean) const {
     const double least = nucleation_ ? std::log1p(-porosity_) : -1;
     double end = mean > 0 ? 1e-6 : std::max(-1e-6, least);
@@ -130,8 +131,8 @@ class GursonReturn {
     while (end < 1e3 && after(end).second < 0) end *= 2;
     return after(rootBetween([&](double strain) { return after(strain).second; }, 0.0, end)).first;
   }
-  /// 0 if the dilatation t goes with the plastic strain z of the deviator by the normal of the surface,
-  /// 2 t q/sigma_y = z sigma_y dPhi/dp, or where the surface ends without any deviator.
+  /// 0 if the dilatation t and the plastic strain z of the deviator are related by the normal of the surface, 2 t
+  /// q/sigma_y = z sigma_y dPhi/dp, or where the surface ends without any deviator.
   double associated(const Result& result, double trial) const {
     const double yield = yield_stress_(result.plasticStrain), f = porosity(result.dilatation, result.plasticStrain);
     const double p = result.mean / yield, strain = (trial - result.equivalent) / (3 * shear_modulus_);

@@ -11,7 +11,7 @@ namespace tushar::mpm::solid {
 /// Arguments of shear and melting models.
 struct Compression {
   double pressure;             ///< Pa
-  double ratio;                ///< density over that at the start, 1
+  double ratio;                ///< density relative to that at the start, 1
   double temperature;          ///< K
   double density = 0;          ///< kg/m^3
   double meltTemperature = 0;  ///< K; only for the shear modulus
@@ -40,8 +40,10 @@ struct ScgShear {
     static const input::Schema<ScgShear> schema =
         input::Schema<ScgShear>("shear_modulus_model", "The Steinberg-Cochran-Guinan shear modulus.")
             .required("mu_0", &ScgShear::initial, "Pa", "shear modulus at 300 K without pressure", input::positive())
-            .required("A", &ScgShear::byPressure, "1/Pa", "its growth with the pressure", input::nonNegative())
-            .required("B", &ScgShear::byTemperature, "1/K", "its fall with the temperature", input::nonNegative());
+            .required("A", &ScgShear::byPressure, "1/Pa", "increase of the shear modulus with the pressure",
+                      input::nonNegative())
+            .required("B", &ScgShear::byTemperature, "1/K", "decrease of the shear modulus with the temperature",
+                      input::nonNegative());
     return schema;
   }
   double modulus(const Compression& c, double) const {
@@ -60,8 +62,8 @@ struct MtsShear {
     static const input::Schema<MtsShear> schema =
         input::Schema<MtsShear>("shear_modulus_model",
                                 "Varshni's shear modulus, which belongs to the mechanical threshold stress.")
-            .required("mu_0", &MtsShear::initial, "Pa", "at 0 K", input::positive())
-            .required("D", &MtsShear::fall, "Pa", "its fall with the temperature", input::nonNegative())
+            .required("mu_0", &MtsShear::initial, "Pa", "shear modulus at 0 K", input::positive())
+            .required("D", &MtsShear::fall, "Pa", "scale of the decrease with the temperature", input::nonNegative())
             .required("T_0", &MtsShear::temperature, "K", "temperature at which it begins to fall", input::positive());
     return schema;
   }
@@ -84,8 +86,10 @@ struct NpShear {
     static const input::Schema<NpShear> schema =
         input::Schema<NpShear>("shear_modulus_model", "The Nadal-Le Poac shear modulus, which falls to 0 at melting.")
             .required("mu_0", &NpShear::initial, "Pa", "shear modulus at 0 K without pressure", input::positive())
-            .required("zeta", &NpShear::zeta, "1", "width of its fall at melting", input::positive())
-            .required("slope_mu_p_over_mu0", &NpShear::byPressure, "1/Pa", "its growth with the pressure")
+            .required("zeta", &NpShear::zeta, "1", "relative temperature range of the drop at melting",
+                      input::positive())
+            .required("slope_mu_p_over_mu0", &NpShear::byPressure, "1/Pa",
+                      "increase of the shear modulus with the pressure")
             .required("C", &NpShear::lindemann, "1", "Lindemann's constant", input::positive())
             .required("m", &NpShear::atomicMass, "u", "mass of an atom", input::positive());
     return schema;

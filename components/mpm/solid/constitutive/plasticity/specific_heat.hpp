@@ -11,7 +11,7 @@ namespace tushar::mpm::solid {
 /// Arguments of a model of the specific heat.
 struct HeatState {
   double temperature;  ///< K
-  double ratio;        ///< density over that at the start, 1
+  double ratio;        ///< density relative to that at the start, 1
   double density;      ///< kg/m^3
   double bulkModulus;  ///< Pa
 };
@@ -78,7 +78,7 @@ struct SteelHeat {
             .value("n_HighT", &Self::n1, 0.35, "1", "n above the transition");
     return schema;
   }
-  /// At T_c itself the value one kelvin below it, as in Uintah.
+  /// At T_c itself, it has the value one kelvin below, as in Uintah.
   double specificHeat(const HeatState& s, double) const {
     const double away = s.temperature == transition ? -1 : s.temperature - transition;
     const double t = away / transition;

@@ -49,7 +49,7 @@ struct SuvicI {
     return schema;
   }
 
-  /// Relaxes the trial stress deviator `stress`, Pa, in a step: by backward Euler, so that any time step is stable.
+  /// Relaxes the trial stress deviator `stress`, Pa, in a step by backward Euler, so that any time step is stable.
   /// Returns the inelastic strain of the step. The deviator of s - B keeps the direction of z = s_trial - B/(1 + A1
   /// e/B'), so that the strain e is the root of one equation, X - R - K (e/(dt A exp(-Q/(R_u T))))^(1/N) = 0.
   double relax(double shearModulus, double timeStep, Matrix3& stress, Stresses& internal) const {
@@ -90,8 +90,8 @@ struct SuvicI {
       return {kept, z, std::sqrt(1.5) * z.norm(), grown(start.yield, yield, model.yieldGrowth * strain),
               grown(start.drag, drag, model.dragGrowth * strain)};
     }
-    /// By the rule of false position in the variable e^(1/N), in which slow creep is linear; Dowell & Jarratt, BIT 11
-    /// (1971) 168.
+    /// Uses the method of false position in the variable e^(1/N), in which slow creep is linear; Dowell & Jarratt, BIT
+    /// 11 (1971) 168.
     double strain() const {
       const double greatest = std::sqrt(1.5) * (trial.norm() + start.back.norm()) / (3 * shearModulus);
       double low = 0, high = std::pow(greatest, 1 / model.rateExponent), root = high;

@@ -10,8 +10,8 @@ namespace tushar::mpm::solid {
 // that velocities that are linear in space go to the grid and back as they are, and angular momentum is kept; Jiang,
 // Schroeder, Selle, Teran & Stomakhin, ACM Trans. Graph. 34 (2015) 51. Velocities are those of PIC.
 
-/// S_i D^(-1) (x_i - x_p) along an axis, 1/m, with D = sum_i S_i (x_i - x_p)^2; where D vanishes, the factors stay
-/// dS_i/dx, its limit for the tent function.
+/// S_i D^(-1) (x_i - x_p) along an axis, 1/m, with D = sum_i S_i (x_i - x_p)^2; where D vanishes, the factors are
+/// dS_i/dx, the limit for the tent function.
 template <std::size_t N>
 void setAffineFactors(const std::array<Quad, N>& s, int axis, double firstNode, double spacing, double x,
                       std::array<Quad, N>& factors) {
@@ -61,7 +61,7 @@ void updateAffineMoment(const Patch& patch, const Material&, const Vec3& commonS
   });
 }
 
-/// At the start a particle has no B.
+/// At the start, B of a particle is 0.
 inline void initializeAffineMoment(const Patch&, const Material&, ParticleView<const double> mass,
                                    ParticleView<Matrix3> moment) {
   for (int p = 0; p < mass.owned(); ++p) moment[p].setZero();

@@ -11,7 +11,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Cells beyond a patch whose particles may have a corner next to its nodes.
+/// Layers of cells around a patch whose particles may have a corner next to its nodes.
 inline constexpr int cornerReach = 2;
 
 /// Particles that bear loads.
@@ -55,7 +55,7 @@ void applyLoadsAtCorners(const Patch& patch, const Material&, const Loads& loads
   }
 }
 
-/// f_i += N_i(x) force, with the tent functions of the cell that a point lies in.
+/// f_i += N_i(x) force, with the tent functions of the cell that contains the point.
 template <int D>
 void addForceAt(const Level& level, const Vec<D>& x, const Vec<D>& force, NodeView<NodeRecord> record) {
   Index<D> cell;

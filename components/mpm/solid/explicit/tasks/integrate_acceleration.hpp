@@ -7,8 +7,8 @@
 
 namespace tushar::mpm::solid {
 
-/// v*_i = v_i + (f_i / m_i - damping v_i + gravity) dt, or v_i where the material transmits force; afterwards the
-/// record holds v* and v.
+/// v*_i = v_i + (f_i / m_i - damping v_i + gravity) dt, or v_i if the material transmits force; afterwards the record
+/// holds v* and v.
 template <int D>
 void computeAndIntegrateAcceleration(const Patch& patch, const Material& material, const Method& method, int ghostNodes,
                                      ParticleView<const Vec<D>> x, double dt, NodeView<NodeRecord> record) {

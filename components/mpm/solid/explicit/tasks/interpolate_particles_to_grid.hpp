@@ -33,7 +33,7 @@ struct MomentumSources {
   }
 };
 
-/// The variables besides F from which the forces of particles follow.
+/// The variables, in addition to F, from which the forces of particles follow.
 template <int D>
 struct ForceSources {
   OptionalView<const double> volume;
@@ -41,7 +41,7 @@ struct ForceSources {
   OptionalView<const double> viscosity;
   OptionalView<const Vec<D>> externalForce;
 
-  /// `stressed` reads what follows the stress: as it was at the start of the step, or as the step has it.
+  /// `stressed` reads variables that depend on the stress: at the start of the step, or as computed in the step.
   static ForceSources from(auto& take, int reach, const Keeps& keeps, auto stressed) {
     return {.volume = take(when(keeps.stress, stressed(p::volume, reach))),
             .stress = take(when(keeps.stress, stressed(p::stress, reach))),
@@ -123,7 +123,7 @@ class Scatter {
     }
     return true;
   }
-  /// V (sigma - q I) of up to stressGroup particles from `first` on, N m; 0 without stress.
+  /// V (sigma - q I) of up to stressGroup particles starting with `first`, N m; 0 without stress.
   void forceMoments(int first, int count, Matrix3* moments) const {
     if (!has_stress_) {
       std::fill_n(moments, count, Matrix3(Matrix3::Zero()));
@@ -140,7 +140,7 @@ class Scatter {
       moments[k].diagonal().array() -= volume * viscosity_[p];
     }
   }
-  /// Adds those of up to stressGroup particles of a ghost cell whose bit in `touching` is set.
+  /// Adds up to stressGroup particles of a ghost cell: those whose bit in `touching` is set.
   void addTouching(const Index<D>& cell, int first, int count, Touching touching) const {
     std::array<Matrix3, stressGroup> moments;
     forceMoments(first, count, moments.data());
@@ -166,7 +166,7 @@ class Scatter {
         scatter(stencil, windowOf<NodeRecord>(record_, stencil), share.value, share.slope, share.hoop);
     });
   }
-  /// Adds particles that touch only the nodes of their cell, whose records stay in registers meanwhile.
+  /// Adds particles that touch only the nodes of their cell, whose records are kept in registers.
   void addTogether(const CellFrame<D>& frame, const Index<D>& cell, int first, int count, const Matrix3* moments) const
       requires(sharesNodes<Shape>) {
     CellRecords<D> records(windowFrom(record_, cell));
@@ -213,7 +213,7 @@ class Scatter {
   const NodeView<NodeRecord>& record_;
 };
 
-/// The cells whose particles touch nodes of a box: those at the nodes, and `ghostNodes` beyond.
+/// The cells whose particles touch nodes of a box: those at the nodes, and `ghostNodes` layers around them.
 template <int D>
 Box cellsThatTouch(Box nodes, int ghostNodes) {
   for (int d = 0; d < D; ++d) {
@@ -223,8 +223,8 @@ Box cellsThatTouch(Box nodes, int ghostNodes) {
   return nodes;
 }
 
-/// Velocities, masses and forces on the patch's own nodes: complete on all that are touched; what is not touched is 0
-/// where `clearsAll`, else undefined.
+/// Velocities, masses and forces on the patch's own nodes: complete on all touched nodes; untouched nodes are 0 if
+/// `clearsAll`, otherwise undefined.
 template <class Shape, int D = Shape::dimension>
 void scatterParticles(const Patch& patch, const Material& material, bool clearsAll, ParticleView<const Vec<D>> x,
                       const Scatter<Shape>& scatter, NodeView<NodeRecord> record) {

@@ -13,7 +13,7 @@ struct ParticleUpdate {
   static ParticleUpdate from(auto& take, int ghostNodes, const Keeps& keeps) {
     return {.newX = take(computes(p::x<D>)),
             .newVelocity = take(computes(p::velocity<D>)),
-            .state = StateUpdate<D>::from(take, ghostNodes, keeps, &g::record)};
+            .state = StateUpdate<D>::from(take, ghostNodes, keeps, &g::record, false)};
   }
 };
 
@@ -22,8 +22,10 @@ struct ParticleUpdate {
 template <class Shape, int D = Shape::dimension>
 void interpolateToParticlesAndUpdate(const Patch& patch, const Material& material, const Method& method, double time,
                                      double dt, const ParticleUpdate<D>& u) {
+  StateUpdate<D> state = u.state;
+  if (method.removesLost) state.newX = u.newX;
   updateParticles<Shape, Volumes::own>(
-      patch, material, method, time, dt, u.state, [&](int p, int count, const auto& sums) {
+      patch, material, method, time, dt, state, [&](int p, int count, const auto& sums) {
         prefetch(u.newX.values(), p + count, count);
         prefetch(u.newVelocity.values(), p + count, count);
         moveGroup<D>(dt, sums, count, u.state.x.values() + p, u.state.velocity.values() + p, u.newX.values() + p,

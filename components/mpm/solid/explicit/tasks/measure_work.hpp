@@ -21,7 +21,7 @@ namespace works {
 inline constexpr int external = 0, boundary = 1, contact = 2, dissipated = 3, strain = 4, plastic = 5, start = 6;
 }
 
-/// No work has been done at the start.
+/// At the start, no work has been done.
 template <int D>
 void startWork(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                ParticleView<p::Works> work) {

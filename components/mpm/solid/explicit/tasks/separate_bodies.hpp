@@ -146,8 +146,8 @@ Vec<D> normalAt(const Patch& patch, const MeetingNodes<D>& nodes, std::size_t k)
   return length > 0 ? Vec<D>(normal / length) : normal;
 }
 
-/// Prominence of material m: the largest extent of its particles along the normal where it leads, the smallest
-/// elsewhere.
+/// Prominence of material m: the largest extent of its particles along the normal if it is the reference body,
+/// otherwise the smallest.
 template <class Shape, int D = Shape::dimension>
 void measureProminence(const Patch& patch, const Vec3& commonSize, int m, const MeetingNodes<D>& nodes,
                        const std::vector<Vec<D>>& normals, const PlaneSources<D>& of) {

@@ -14,11 +14,11 @@ enum class Volumes {
   shared  ///< that of all particles of its material in the cell that have not failed
 };
 
-/// F_p = (J_c / det F_p)^(1/3) F_p with J_c = sum_p V0_p det F_p / sum_p V0_p over the sound particles of a cell
-/// (masses go as V0), and tr L_p to match: their pressure no longer keeps the cell from being sheared or bent (Uintah's
-/// DoPressureStabilization; as F-bar, de Souza Neto et al., Int. J. Solids Structures 33 (1996) 3277, for a cell). A
-/// particle that is turned inside out is left as it is, and out of the sums. `velocityGradient` holds L, 1/s, of the
-/// particles of `range`.
+/// F_p = (J_c / det F_p)^(1/3) F_p with J_c = sum_p V0_p det F_p / sum_p V0_p over the intact particles of a cell
+/// (masses are proportional to V0), and tr L_p accordingly: their pressure no longer prevents the cell from being
+/// sheared or bent (Uintah's DoPressureStabilization; as F-bar, de Souza Neto et al., Int. J. Solids Structures 33
+/// (1996) 3277, for a cell). A particle that is turned inside out is left as it is, and out of the sums.
+/// `velocityGradient` holds L, 1/s, of the particles of `range`.
 template <int D>
 void shareVolume(double dt, const data::ParticleRange& range, const StateUpdate<D>& u, Matrix3* velocityGradient) {
   const auto bears = [&](int p) { return (!u.localized || !(*u.localized)[p]) && u.deformation[p].determinant() > 0; };

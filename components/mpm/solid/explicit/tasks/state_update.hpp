@@ -6,10 +6,10 @@
 
 namespace tushar::mpm::solid {
 
-/// The variables with which F, the stress and internal variables reach the end of a step.
+/// The variables with which F, the stress and internal variables are updated in a step.
 template <int D>
 struct StateUpdate {
-  NodeView<const NodeRecord> record;  ///< contains the velocity by which F changes
+  NodeView<const NodeRecord> record;  ///< contains the velocity that changes F
 
   // At the start of the step.
   ParticleView<const Vec<D>> x;
@@ -29,10 +29,13 @@ struct StateUpdate {
   OptionalView<double> state, viscosity, strainEnergy, temperatureChange;
   OptionalView<Matrix3> velocityGradient;
   CellView<double> stableTimeStep;
+  OptionalView<Vec<D>> newX;  ///< if particles can be removed
 
   int stateSize = 0;  ///< number of values per particle in `state`
 
-  static StateUpdate from(auto& take, int ghostNodes, const Keeps& keeps, const NodeLabel<NodeRecord>* record) {
+  /// `removes`: whether positions at the end of the step exist, to remove particles.
+  static StateUpdate from(auto& take, int ghostNodes, const Keeps& keeps, const NodeLabel<NodeRecord>* record,
+                          bool removes) {
     return {.record = take(requiresNew(*record, ghostNodes)),
             .x = take(requiresOld(p::x<D>)),
             .size = Sizes<D>::from(take, keeps.sizes),
@@ -53,6 +56,7 @@ struct StateUpdate {
             .temperatureChange = take(when(keeps.temperatureChange, computes(p::temperatureChange))),
             .velocityGradient = take(offers(p::velocityGradient)),
             .stableTimeStep = take(computes(c::stableTimeStep)),
+            .newX = take(when(removes, modifies(p::x<D>))),
             .stateSize = keeps.stateSize};
   }
 };

@@ -65,8 +65,8 @@ void accelerate(ParticleView<const Vec<D>> x, int ghostNodes, const Vec<D>& chan
   });
 }
 
-/// Gives all nodes of a material that transmits force the acceleration (sum of its loads and of what is transmitted) /
-/// mass, whatever holds on the sides of the grid. `motions[patch][material]`.
+/// Gives all nodes of a material that transmits force the acceleration (sum of its loads and of the transmitted forces)
+/// / mass, whatever the conditions at the sides of the grid. `motions[patch][material]`.
 template <int D>
 void computeGridVelocityForFTM(const RankPatches& patches, const std::vector<Material>& materials,
                                const mpi::Communicator& ranks, int ghostNodes, double dt,

@@ -8,7 +8,7 @@ namespace tushar::mpm::solid {
 // The two halves of interpolateToParticlesAndUpdate, for schedules that separate them: stresses first in the step, or
 // last with velocities interpolated to the grid once more.
 
-/// The variables with which x and v reach the end of a step.
+/// The variables with which x and v are updated in a step.
 template <int D>
 struct MotionUpdate {
   NodeView<const NodeRecord> record;

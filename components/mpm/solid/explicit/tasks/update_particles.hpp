@@ -1,11 +1,10 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 
 #include <vector>
 
+#include "components/mpm/solid/explicit/tasks/remove_lost.hpp"
 #include "components/mpm/solid/explicit/tasks/share_volume.hpp"
 #include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
 #include "components/mpm/solid/explicit/tasks/state_update.hpp"
@@ -106,7 +105,7 @@ template <int D>
 }
 
 /// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p, in
-/// parts or with the terms of its series that the scene requests.
+/// substeps, or with the terms of its series that the scene requests.
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt,
                                                   const Gathered<D>& sums, const Erosion& erosion,
@@ -124,7 +123,7 @@ template <class Shape, int D = Shape::dimension>
   finishDeformation(erosion, u, p, velocityGradient);
 }
 
-/// The same in three dimensions for `count` particles from `first` on, in the lanes; `velocityGradient` is of the
+/// The same in three dimensions for `count` particles starting with `first`, in the lanes; `velocityGradient` is of the
 /// first.
 [[gnu::always_inline]] inline void deformParticles(const Method& method, double dt, const GatheredLanes<3>& sums,
                                                    const Erosion& erosion, const StateUpdate<3>& u, int first,
@@ -153,7 +152,7 @@ struct StressResults {
   std::array<double, stressGroup> energyDensity;  ///< J/m^3 of the volume at the start
 };
 
-/// The positions, masses and the time of particles from `first` on, for a model that reads them.
+/// The positions, masses and the time of particles starting with `first`, for a model that reads them.
 template <int D>
 void placePoints(const Level& level, const StateUpdate<D>& u, double time, int first,
                  std::array<Vec3, stressGroup>& positions, StressPoints& points) {
@@ -163,7 +162,7 @@ void placePoints(const Level& level, const StateUpdate<D>& u, double time, int f
   points.time = time;
 }
 
-/// Particles from `first` on, in the form for a constitutive model. `velocityGradient` is that of the first.
+/// Particles starting with `first`, in the form for a constitutive model. `velocityGradient` is that of the first.
 template <int D>
 StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* velocityGradient, int first, int count,
                           double* waveSpeed, StressResults& results) {
@@ -196,8 +195,8 @@ void heatByViscosity(const Material& material, double growth, const StateUpdate<
   material.model->addViscousHeat(valuesOf(u.state) + p * u.stateSize, heat);
 }
 
-/// Updates the artificial viscosity of particles from `first` on, and its heat; the arrays of velocity gradients and
-/// bulk wave speeds (m/s) start with the first particle.
+/// Updates the artificial viscosity of particles starting with `first`, and its heat; the arrays of velocity gradients
+/// and bulk wave speeds (m/s) start with the first particle.
 template <int D>
 void updateViscosity(const Material& material, const Method& method, double dt, const StateUpdate<D>& u,
                      const Matrix3* velocityGradient, const double* bulkSpeed, int first, int count) {
@@ -215,8 +214,8 @@ void updateViscosity(const Material& material, const Method& method, double dt, 
   }
 }
 
-/// Strain energy of particles from `first` on, from its density (J/m^3 of the volume at F = I): failed particles have
-/// none.
+/// Strain energy of particles starting with `first`, from its density (J/m^3 of the volume at F = I); 0 for failed
+/// particles.
 template <int D>
 void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const double* density, int first,
                         int count) {
@@ -247,25 +246,11 @@ void updateStress(const Level& level, const Material& material, const Method& me
   if (u.strainEnergy) updateStrainEnergy(material, u, results.energyDensity.data(), first, count);
 }
 
-/// The error for the first particle of a cell without a wave speed: its velocity is not a number, or it is inverted.
-template <int D>
-NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
-                                const data::ParticleRange& range) {
-  const auto isSound = [&](int p) { return u.velocity[p].allFinite() && u.deformation[p].determinant() > 0; };
-  int p = range.first;
-  while (p + 1 < range.last && isSound(p)) ++p;
-  const Vec3 x = level.expandPoint<D>(u.x[p]);
-  return {fmt::format("the wave speed of the particle at ({:g}, {:g}, {:g}) m is not a number: det F is {:g}, the "
-                      "particle's speed {:g} m/s",
-                      x[0], x[1], x[2], u.deformation[p].determinant(), u.velocity[p].norm()),
-          "", "p.deformationMeasure", level.cellNumber<D>(cell)};
-}
-
 /// Whether several particles are updated at once: only in three dimensions do cells contain enough of them.
 template <class Shape>
 inline constexpr bool updatesTogether = Shape::dimension == 3;
 
-/// Moves `count` particles of a cell, from `first` on, to the end of the step, without updating their stress.
+/// Moves `count` particles of a cell, starting with `first`, to the end of the step, without updating their stress.
 template <class Shape, class Move, int D = Shape::dimension>
 [[gnu::always_inline]] inline void moveAndDeform(const Level& level, const Index<D>& cell,
                                                  const Extents<Shape>& extents, const Material& material,
@@ -312,20 +297,22 @@ struct MovedParticles {
   }
 };
 
-/// Updates the stress of particles that have moved, and the stable time step of their cells. Throws NumericalError
-/// where a wave has no speed. No particle is left in `moved`.
+/// Updates the stress of particles that have moved, and the stable time step of their cells. Removes those that the
+/// step turns inside out or throws out of `space`, or throws NumericalError. No particle is left in `moved`.
 template <int D>
 void updateStresses(const Level& level, const Material& material, const Method& method, double time, double dt,
-                    const StateUpdate<D>& u, const CrossingRate<D>& none, MovedParticles<D>& moved) {
+                    const StateUpdate<D>& u, const CrossingRate<D>& none, const BetweenPlanes<D>& space,
+                    MovedParticles<D>& moved) {
   moved.cells.forEachGroup([&](int k, int count) {
     updateStress<D>(level, material, method, time, dt, u, moved.velocityGradient.data() + k, moved.cells.first() + k,
                     count, moved.waveSpeed.data() + k);
   });
   moved.cells.forEachCell([&](const Index<D>& cell, const data::ParticleRange& range) {
     CrossingRate<D> rate = none;
-    rate.add(moved.waveSpeed.data() + (range.first - moved.cells.first()), u.velocity.values() + range.first,
-             range.size());
-    if (!rate.isKnown()) throw withoutWaveSpeed<D>(level, u, cell, range);
+    const double* const waveSpeed = moved.waveSpeed.data() + (range.first - moved.cells.first());
+    rate.add(waveSpeed, u.velocity.values() + range.first, range.size());
+    if (!rate.isKnown() || (u.newX && !space.containAll(u.newX->values() + range.first, range.size())))
+      rate = withoutLost<D>(level, u, cell, range, none, space, waveSpeed);
     u.stableTimeStep[cell] = rate.time();
   });
   moved.cells.clear();
@@ -340,16 +327,17 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
   const Level& level = patch.level();
   const Extents<Shape> extents(level, method.commonSize, u.size, u.oldDeformation);
   const CrossingRate<D> none(level);
+  const BetweenPlanes<D> space(level, material.index);
   u.stableTimeStep.fill(none.time());
   if (u.x.owned() == 0) return;
   MovedParticles<D> moved;
   u.x.template forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
-    if (!moved.cells.takes(range)) updateStresses<D>(level, material, method, time, dt, u, none, moved);
+    if (!moved.cells.takes(range)) updateStresses<D>(level, material, method, time, dt, u, none, space, moved);
     Matrix3* const velocityGradient = moved.add(cell, range);
     moveAndDeform(level, cell, extents, material, method, dt, u, range, velocityGradient, move);
     if constexpr (volumes == Volumes::shared) shareVolume<D>(dt, range, u, velocityGradient);
   });
-  updateStresses<D>(level, material, method, time, dt, u, none, moved);
+  updateStresses<D>(level, material, method, time, dt, u, none, space, moved);
 }
 
 }  // namespace tushar::mpm::solid

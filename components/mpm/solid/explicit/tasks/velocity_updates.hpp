@@ -20,7 +20,7 @@ void blendVelocity(const Patch& patch, const Material&, const Method& method, No
   });
 }
 
-/// v+_p = sum_i S_i v_i, the velocity at the start of the step seen through the grid.
+/// v+_p = sum_i S_i v_i, the velocity at the start of the step, filtered by the grid.
 template <class Shape, int D = Shape::dimension>
 void computeSSPlusVp(const Patch& patch, const Material&, const Vec3& commonSize, NodeView<const NodeRecord> record,
                      const Placed<D>& particles, ParticleView<Vec<D>> smooth) {
@@ -59,9 +59,9 @@ struct XpicUpdate {
   }
 };
 
-/// v_p = 2 v+_p - v++_p + a dt,   x_p += (v* - (v_p + a dt - 2 v+_p + v++_p) / 2) dt with v++_p = sum_i S_i v+_i of the
-/// grid that v+ went to: XPIC of order 2, Hammerquist & Nairn, Comput. Methods Appl. Mech. Engng 318 (2017) 724. The
-/// particles have moved by FLIP before; as in Uintah those of a rigid material stay with it.
+/// v_p = 2 v+_p - v++_p + a dt,   x_p += (v* - (v_p + a dt - 2 v+_p + v++_p) / 2) dt with v++_p = sum_i S_i v+_i, where
+/// v+_i is v+_p interpolated to the grid: XPIC of order 2, Hammerquist & Nairn, Comput. Methods Appl. Mech. Engng 318
+/// (2017) 724. The particles have moved by FLIP before; as in Uintah those of a rigid material stay with it.
 template <class Shape, int D = Shape::dimension>
 void applyXpic(const Patch& patch, const Material& material, const Vec3& commonSize, double dt,
                const XpicUpdate<D>& u) {

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <algorithm>
+
+#include "core/base/lanes.hpp"
+#include "core/core.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+/// A matrix of Lanes: one matrix for each of several particles, cells or nodes side by side.
+template <int Rows, int Columns>
+using LanesMatrix = Eigen::Matrix<Lanes, Rows, Columns, Eigen::DontAlign>;
+/// One vector in each lane.
+template <int D>
+using LanesVec = LanesMatrix<D, 1>;
+/// One tensor in each lane.
+template <int D>
+using LanesTensor = LanesMatrix<D, D>;
+
+/// A matrix with these coefficients, in the order in which Eigen stores them.
+template <int Rows, int Columns>
+[[gnu::always_inline]] inline LanesMatrix<Rows, Columns> matrixOf(const std::array<Lanes, Rows * Columns>& columns) {
+  LanesMatrix<Rows, Columns> values;
+  for (int k = 0; k < Rows * Columns; ++k) values(k % Rows, k / Rows) = columns[static_cast<std::size_t>(k)];
+  return values;
+}
+/// The reverse of matrixOf.
+template <int Rows, int Columns>
+[[gnu::always_inline]] inline std::array<Lanes, Rows * Columns> coefficientsOf(
+    const LanesMatrix<Rows, Columns>& values) {
+  std::array<Lanes, Rows * Columns> columns;
+  for (int k = 0; k < Rows * Columns; ++k) columns[static_cast<std::size_t>(k)] = values(k % Rows, k / Rows);
+  return columns;
+}
+
+/// Consecutive cells or nodes of a row, one per lane; lanes beyond `count` repeat the last.
+template <int D>
+struct RowPart {
+  Index<D> first;
+  int count;
+
+  bool isFull() const { return count == Lanes::count; }
+  Index<D> at(int lane) const {
+    Index<D> index = first;
+    index[0] += std::min(lane, count - 1);
+    return index;
+  }
+  RowPart operator+(const Index<D>& by) const { return {first + by, count}; }
+};
+
+/// Calls `visit(part)` for the cells or nodes of a box, row by row.
+template <int D, class Visit>
+[[gnu::always_inline]] inline void forEachRowPart(const Box& box, Visit&& visit) {
+  forEachRow<D>(box, [&](Index<D> first, int count) {
+    for (; count > 0; count -= Lanes::count, first[0] += Lanes::count)
+      visit(RowPart<D>{first, std::min(count, Lanes::count)});
+  });
+}
+
+template <int D, data::Centring C>
+[[gnu::always_inline]] inline Lanes load(const data::GridView<C, const double>& view, const RowPart<D>& part) {
+  if (part.isFull()) return Lanes::at(&view[part.first]);
+  return Lanes::of([&](int lane) { return view[part.at(lane)]; });
+}
+template <int D, data::Centring C, int Rows, int Columns>
+[[gnu::always_inline]] inline LanesMatrix<Rows, Columns> load(
+    const data::GridView<C, const Eigen::Matrix<double, Rows, Columns, Eigen::DontAlign>>& view,
+    const RowPart<D>& part) {
+  constexpr int numbers = Rows * Columns;
+  if constexpr (numbers <= Lanes::count)
+    if (part.isFull()) return matrixOf<Rows, Columns>(unpack<numbers>(view[part.first].data()));
+  return matrixOf<Rows, Columns>(columnsOf<numbers>([&](int lane) { return view[part.at(lane)].data(); }));
+}
+template <int D, data::Centring C>
+[[gnu::always_inline]] inline void store(const Lanes& values, const data::GridView<C, double>& view,
+                                         const RowPart<D>& part) {
+  if (part.isFull()) return values.copyTo(&view[part.first]);
+  for (int lane = 0; lane < part.count; ++lane) view[part.at(lane)] = values[lane];
+}
+template <int D, data::Centring C, int Rows, int Columns>
+[[gnu::always_inline]] inline void store(
+    const LanesMatrix<Rows, Columns>& values,
+    const data::GridView<C, Eigen::Matrix<double, Rows, Columns, Eigen::DontAlign>>& view, const RowPart<D>& part) {
+  const auto columns = coefficientsOf<Rows, Columns>(values);
+  if constexpr (Rows * Columns <= Lanes::count)
+    if (part.isFull()) return pack(columns, view[part.first].data());
+  storeColumns(columns, part.count, [&](int lane) { return view[part.at(lane)].data(); });
+}
+
+}  // namespace tushar::mpm::gas::conserving

@@ -1,0 +1,63 @@
+#include "components/mpm/solid/explicit/check_problem.hpp"
+
+#include <fmt/format.h>
+
+namespace tushar::mpm::solid {
+
+using input::Diagnostics;
+using input::Element;
+
+namespace {
+
+/// Checks that, with use_CBDI_boundary_condition, pressures specify the faces of particles on which they act.
+void checkCorners(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  const auto loads = root.child("PhysicalBC");
+  if (!problem.method.loadsAtCorners || !loads) return;
+  if (problem.method.turnsPressures)
+    diagnostics.error(root.child("MPM")->child("keepPressBCNormalToSurface").value(),
+                      "is not available with <use_CBDI_boundary_condition>");
+  if (!problem.start.loads.bodies.empty())
+    diagnostics.error(
+        *loads, "force: is not available with <use_CBDI_boundary_condition>, which takes only pressures and torques");
+  for (const Element& pressure : loads->child("MPM").value().children("pressure"))
+    if (!pressure.child("outward_normal"))
+      diagnostics.error(pressure, "missing tag <outward_normal>: needed with <use_CBDI_boundary_condition>");
+}
+
+/// Refuses settings of contacts that conflict with other parts of the method.
+void checkContactsOfMethod(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  for (const Contact& contact : problem.contacts) {
+    if (problem.start.axisymmetric && contact.volumeConstraint > 0 && !contact.usesPlanes())
+      diagnostics.error(
+          root.child("MPM")->child("axisymmetric").value(),
+          "volume_constraint of <contact> compares volumes, which are per radian in this scene: remove it");
+    if (problem.method.stressUpdate == StressUpdate::first && contact.usesPlanes())
+      diagnostics.error(
+          root.child("MPM")->child("stress_update").value(),
+          "contacts of type friction_LR, friction_LRVar and specified_friction are available only with usl and musl");
+  }
+}
+
+/// Refuses loads that would have no effect because of another setting.
+void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  const Loads& loads = problem.start.loads;
+  if (problem.start.solution && (loads.hasForces() || loads.hasHeat()))
+    diagnostics.error(root.child("PhysicalBC").value(), "<RunMMSProblem> applies its own loads: remove these");
+  for (const SurfaceLoad& load : loads.surfaces)
+    if (load.material >= static_cast<int>(problem.materials.size()))
+      diagnostics.error(root.child("PhysicalBC").value(),
+                        fmt::format("load_curve/material: there is no material {}; materials are numbered from 0 to {}",
+                                    load.material, problem.materials.size() - 1));
+  if (loads.hasHeat() && !problem.method.conductsHeat)
+    diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <DoExplicitHeatConduction> true");
+}
+
+}  // namespace
+
+void checkProblem(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  checkLoads(problem, root, diagnostics);
+  checkCorners(problem, root, diagnostics);
+  checkContactsOfMethod(problem, root, diagnostics);
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,262 @@
+#pragma once
+
+#include "components/mpm/solid/constitutive/model.hpp"
+#include "components/mpmice/burn/burning_surface.hpp"
+
+namespace tushar::mpmice {
+
+/// The particles of a body at the start of a step, with their stress and internal variables.
+struct StressedParticles {
+  ParticleView<const double> mass;
+  ParticleView<const mpm::solid::Matrix3> deformation, stress;
+  ParticleView<const double> state;
+
+  static StressedParticles from(auto& take, const ParticleLabel<double>* state) {
+    return {.mass = take(requiresOld(p::mass)),
+            .deformation = take(requiresOld(p::deformationMeasure)),
+            .stress = take(requiresOld(p::stress)),
+            .state = take(requiresOld(*state))};
+  }
+};
+
+/// Finds the mean pressure, Pa, of the body that burns in each cell, and its widest cracks, m; 0 where it is not.
+template <int D>
+void measureLoad(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
+                 int stateSize, const std::vector<StressedParticles>& bodies, CellView<double> pressure,
+                 CellView<double> radius) {
+  const StressedParticles& body = bodies[settings.burning->body];
+  const mpm::solid::Material& material = materials[settings.burning->body];
+  const int crack = offsetOf(*material.model, "p.crackRad");
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    double volume = 0, sum = 0;
+    radius[cell] = 0;
+    for (const int p : body.mass.template in<D>(cell)) {
+      const double own = body.mass[p] / material.undeformedDensity() * body.deformation[p].determinant();
+      volume += own;
+      sum -= own * body.stress[p].trace() / 3;
+      radius[cell] = std::max(radius[cell], (&body.state[0])[p * stateSize + crack]);
+    }
+    pressure[cell] = volume > 0 ? sum / volume : 0;
+  });
+}
+
+/// What measureLoad finds.
+struct Load {
+  CellView<const double> pressure, crackRadius;
+
+  static Load from(auto& take, int ghost) {
+    return {.pressure = take(requiresNew(c::bodyPressure, ghost)),
+            .crackRadius = take(requiresNew(c::crackRadius, ghost))};
+  }
+};
+
+/// How cells waited for their flame before the step; only with an induction time.
+struct Waited {
+  std::optional<CellView<const double>> mode, time, induction;
+
+  static Waited from(auto& take, bool waits) {
+    return {.mode = take(when(waits, requiresOld(c::burnMode, 1))),
+            .time = take(when(waits, requiresOld(c::waited))),
+            .induction = take(when(waits, requiresOld(c::inductionTime)))};
+  }
+  template <int D>
+  BurnMode modeIn(const Index<D>& cell) const {
+    return static_cast<BurnMode>(static_cast<int>((*mode)[cell]));
+  }
+};
+
+struct NewBurnModes {
+  CellView<double> mode, pressure, waited, induction;
+
+  static NewBurnModes from(auto& take) {
+    return {.mode = take(computes(c::burnMode)),
+            .pressure = take(computes(c::burnPressure)),
+            .waited = take(computes(c::waited)),
+            .induction = take(computes(c::inductionTime))};
+  }
+};
+
+/// The modes in which cells of an explosive burn, by the state at the start of the step, as Uintah's DDT1 decides
+/// them. Pressures of a cell are those of gas and explosive together, by volume; that of the product is the gas's in
+/// the cell around with most room.
+template <int D>
+class BurnModes {
+ public:
+  BurnModes(const Level& level, const Settings& settings, const GasInCells<D>& cells, const Reactant& reactant,
+            const Load& load)
+      : level_(level),
+        settings_(settings),
+        model_(settings.burning->model),
+        cells_(cells),
+        reactant_(reactant),
+        load_(load),
+        surface_(level, settings, cells) {}
+
+  struct Found {
+    BurnMode mode = BurnMode::none;
+    double pressure = 0;               ///< at which the cell burns, Pa
+    double waited = 0, induction = 0;  ///< s
+  };
+  /// `before`: only with an induction time. `dt` in s.
+  Found find(const Index<D>& cell, const Waited& before, double dt) const {
+    if (!(reactant_.mass[cell] > 0)) return {};
+    const double own = pressureOf(cell);
+    if (own > model_.ddt()->detonationPressure) refuseDetonation(cell, own);
+    const Around around = lookAround(cell);
+    const double pressure = std::max(own, around.product);
+    const bool isSurface = isExposed(cell);
+    const bool lights = isSurface && around.isHot && around.product > model_.leastPressure;
+    const bool cracked = model_.ddt()->burnsCracks && ice::Ddt::enterCracks(pressure, load_.crackRadius[cell]) &&
+                         pressure > model_.leastPressure;
+    if (before.mode) return wait(cell, {isSurface, lights, cracked, around.isHot, pressure}, before, dt);
+    if (lights) return {BurnMode::surface, pressure, 0, 0};
+    return {cracked && around.isHot ? BurnMode::cracks : BurnMode::none, pressure, 0, 0};
+  }
+
+ private:
+  [[noreturn]] void refuseDetonation(const Index<D>& cell, double pressure) const {
+    const Vec3 at = level_.expandPoint<D>(level_.cellCentre<D>(cell));
+    throw NumericalError(
+        fmt::format("the body detonates: its pressure is {:.6g} Pa in the cell at ({:g}, {:g}, {:g}) m, "
+                    "above <ThresholdPressureJWL>; DDT1 has only the deflagration here",
+                    pressure, at[0], at[1], at[2]),
+        "", "c.burnPressure", level_.cellNumber<D>(cell));
+  }
+  struct Around {
+    double product = 0;  ///< pressure, Pa
+    bool isHot = false;
+  };
+  struct Conditions {
+    bool isSurface, lights, cracked, isHot;
+    double pressure;
+  };
+  /// The way of a flame into a cell.
+  struct Flame {
+    double part = std::numeric_limits<double>::infinity();  ///< of the time along a surface
+    BurnMode from = BurnMode::none;
+  };
+
+  double gasPressure(const Index<D>& cell) const {
+    const euler::Gas law = lawAt<D>(settings_, cells_.held, cell);
+    const euler::State<D> w = cells_.primitive(law, cell);
+    return law.pressureOf(w[euler::kDensity], w[euler::kPressure<D>]);
+  }
+  double pressureOf(const Index<D>& cell) const {
+    const double gas = cells_.isEmpty(cell) ? 0 : cells_.free[cell], body = reactant_.volume[cell];
+    if (!(gas + body > 0)) return 0;
+    return ((gas > 0 ? gas * gasPressure(cell) : 0) + body * load_.pressure[cell]) / (gas + body);
+  }
+  bool isHot(const Index<D>& cell) const {
+    double hottest = reactant_.hottest[cell];
+    if (!cells_.isEmpty(cell) && cells_.free[cell] > leastVisible)
+      hottest = std::max(hottest, gasTemperature<D>(settings_, cells_, cell));
+    return hottest > model_.ignitionTemperature;
+  }
+  template <class Visit>
+  void forEachAround(const Index<D>& cell, Visit&& visit) const {
+    forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), visit);
+  }
+  Around lookAround(const Index<D>& cell) const {
+    Around found;
+    double most = 0;
+    forEachAround(cell, [&](const Index<D>& at) {
+      found.isHot = found.isHot || isHot(at);
+      if (cells_.isEmpty(at) || cells_.free[at] <= most) return;
+      most = cells_.free[at];
+      found.product = gasPressure(at);
+    });
+    return found;
+  }
+  /// Whether the surface of the body goes through a face of the cell: its nodes would differ in mass by more than 30 %.
+  bool isExposed(const Index<D>& cell) const {
+    constexpr double least = 0.3;
+    for (int d = 0; d < D; ++d) {
+      if (!surface_.space().isAtSide(cell, d, 0) && std::abs(surface_.step(cell, d)) > least) return true;
+      if (!surface_.space().isAtSide(cell, d, 1) && std::abs(surface_.step(cell + Index<D>::unit(d), d)) > least)
+        return true;
+    }
+    return false;
+  }
+  static bool burns(BurnMode mode) { return mode == BurnMode::surface || mode == BurnMode::cracks; }
+
+  /// With an induction time: a cell waits from the first step with a flame beside it.
+  Found wait(const Index<D>& cell, const Conditions& now, const Waited& before, double dt) const {
+    const bool burned = burns(before.modeIn(cell));
+    const Flame flame = burned ? Flame{1, before.modeIn(cell)} : flameInto(cell, now, before);
+    Found found{BurnMode::none, now.pressure, 0, 0};
+    if (flame.from == BurnMode::none) return found;
+    found.waited = (*before.time)[cell] + dt;
+    found.induction = (*before.induction)[cell];
+    if (!burned) {
+      const double time = inductionTime(flame.part, now.pressure);
+      found.induction = (*before.time)[cell] > 0 ? 0.2 * time + 0.8 * (*before.induction)[cell] : time;
+    }
+    const bool isOver = burned || found.waited >= found.induction;
+    if (isOver && now.lights && flame.from == BurnMode::surface)
+      found.mode = BurnMode::surface;
+    else if (isOver && now.cracked && now.isHot && flame.from == BurnMode::cracks)
+      found.mode = BurnMode::cracks;
+    else if (!isOver)
+      found.mode = BurnMode::waiting;
+    return found;
+  }
+  /// s
+  double inductionTime(double part, double pressure) const {
+    double width = 0;
+    for (int d = 0; d < D; ++d) width += level_.spacing(d) / D;
+    const ice::Induction& law = *model_.ddt()->induction;
+    return part * law.time(width, pressure);
+  }
+  Flame flameInto(const Index<D>& cell, const Conditions& now, const Waited& before) const {
+    const ice::Induction& law = *model_.ddt()->induction;
+    Flame best;
+    const auto take = [&](double part, BurnMode from) {
+      if (part < best.part) best = {part, from};
+    };
+    forEachAround(cell, [&](const Index<D>& at) {
+      const double part = law.part(at == cell ? 1 : cosineOf(cell, at));
+      if (now.lights && isHot(at)) take(part, BurnMode::surface);
+      if (!now.cracked || !burns(before.modeIn(at))) return;
+      if (!now.isSurface)
+        take(law.part(1), BurnMode::cracks);
+      else if (isHot(at))
+        take(part, before.modeIn(at));
+    });
+    return best;
+  }
+  /// Between the way from a cell beside and the normal of the surface; 0 where that has none.
+  double cosineOf(const Index<D>& cell, const Index<D>& from) const {
+    const Vec<D> way = level_.cellCentre<D>(cell) - level_.cellCentre<D>(from);
+    return std::max(0.0, surface_.space().normal(cell).dot(way) / way.norm());
+  }
+
+  const Level& level_;
+  const Settings& settings_;
+  const ice::BurnModel& model_;
+  GasInCells<D> cells_;
+  const Reactant& reactant_;
+  const Load& load_;
+  SurfaceAtFaces<D> surface_;
+};
+
+/// Finds how the cells of a patch burn.
+template <int D>
+void findBurnModes(const Patch& patch, const Settings& settings, double dt, const GasInCells<D>& cells,
+                   const Reactant& reactant, const Load& load, const Waited& before, const NewBurnModes& fresh) {
+  const BurnModes<D> modes(patch.level(), settings, cells, reactant, load);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const auto found = modes.find(cell, before, dt);
+    fresh.mode[cell] = double(found.mode);
+    fresh.pressure[cell] = found.pressure;
+    fresh.waited[cell] = found.waited;
+    fresh.induction[cell] = found.induction;
+  });
+}
+
+/// Nothing burns before the first step.
+template <int D>
+void startBurnModes(const Patch& patch, CellView<double> mode, CellView<double> waited, CellView<double> induction) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { mode[cell] = waited[cell] = induction[cell] = 0; });
+}
+
+}  // namespace tushar::mpmice
