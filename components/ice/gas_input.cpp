@@ -125,10 +125,10 @@ ImplicitPressure implicitPressureOf(const IceSection& ice) {
 
 /// Why a gas beside bodies takes explicit steps though the scene has an <ImplicitSolver>; empty if it does not.
 std::string whyExplicit(const std::vector<GasMaterial>& materials, const GasScene& scene) {
-  if (!scene.burns.empty()) return "with a body that burns";
-  if (materials.size() > 1) return "with several gases beside bodies";
+  if (!scene.burns.empty()) return "with a burning body";
+  if (materials.size() > 1) return "with bodies in several gases";
   const GasMaterial& gas = materials.front();
-  return gas.state.law(gas.specificHeat) ? "beside bodies in a gas that is neither ideal nor stiffened" : "";
+  return gas.state.law(gas.specificHeat) ? "with bodies in a gas that is neither ideal nor stiffened" : "";
 }
 
 /// Takes the settings of implicit steps, or notes why steps are explicit.
@@ -140,7 +140,7 @@ void takeImplicitSteps(const IceSection& ice, const std::vector<GasMaterial>& ma
     scene.implicit = implicitPressureOf(ice);
   else
     diagnostics.note(*root.child("CFD")->child("ICE")->child("ImplicitSolver"),
-                     fmt::format("does nothing: {} steps are explicit, so that sound limits them", why));
+                     fmt::format("does nothing: {}, steps are explicit, so the speed of sound limits them", why));
 }
 
 /// Refuses features of a gas that are not available with bodies.

@@ -149,7 +149,7 @@ class WrongScenes(RefusedSceneTest):
     def test_steps_are_explicit_whatever_the_scene_says(self):
         implicit = SLAB.replace("<ICE>", "<ICE>\n<ImplicitSolver/>", 1)
         done = run(self.scene(implicit), options=("--check",))
-        self.assertIn("ICE/ImplicitSolver: does nothing: with a body that burns steps are explicit", done.out + done.err)
+        self.assertIn("ICE/ImplicitSolver: does nothing: with a burning body, steps are explicit", done.out + done.err)
         prints = {run(self.scene(text), "Time/max_Timesteps=5").report["fingerprint"] for text in (SLAB, implicit)}
         self.assertEqual(len(prints), 1)
 
