@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Particles that a step turns inside out are removed, and others enter later: counts, and the same bits on any grid."""
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -53,24 +54,47 @@ def pellets(folder, lines="0.25 1 0.1 4 0 2 0 0\n0.5 2 3.1 4 0 4 0 0\n"):
     return str(scene)
 
 
+def thrown(folder):
+    """A block at rest, and a particle that a step longer than the stable one throws through a symmetry plane."""
+    bodies = (BODY.format(label="first", low="[2,1,0]", high="[3,2,1]", color=1)
+              .replace("<res>[2,2,1]", "<res>[1,1,1]").replace("<velocity>[0,0,0]", "<velocity>[-100,0,0]")
+              + BODY.format(label="second", low="[6,1,0]", high="[15,7,1]", color=2))
+    text = re.sub("<InsertParticles>.*</InsertParticlesFile>", "", PELLETS.format(bodies=bodies, faces=FACES))
+    scene = pathlib.Path(folder) / "thrown.ups"
+    scene.write_text(text.replace("<timestep_multiplier>0.5", "<timestep_multiplier>6"))
+    return str(scene)
+
+
 class RemovedParticles(unittest.TestCase):
-    def test_are_counted_and_the_run_goes_on_with_the_same_bits_on_any_patches(self):
-        reports = [run(COLLISION, f"Grid/Level/Box/patches={layout}", *UNSTABLE).report
-                   for layout in ("[1,1,1]", "[3,2,1]")]
-        self.assertEqual(reports[0]["steps"], 60)
-        self.assertGreater(reports[0]["particles_removed"], 0)
-        for key in ("fingerprint", "particles", "particles_removed"):
-            self.assertEqual(reports[0][key], reports[1][key])
+    STEPS = "Time/max_Timesteps=10"
+
+    def test_are_counted_and_the_run_goes_on_with_the_same_bits_on_any_patches_and_ranks(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = thrown(folder)
+            reports = [run(scene, self.STEPS, f"Grid/Level/Box/patches={layout}", ranks=ranks).report
+                       for layout, ranks in (("[1,1,1]", 1), ("[4,2,1]", 1), ("[4,2,1]", 2))]
+        self.assertEqual((reports[0]["steps"], reports[0]["particles_removed"]), (10, 1))
+        for report in reports[1:]:
+            for key in ("fingerprint", "particles", "particles_removed", "particles_dropped"):
+                self.assertEqual(report[key], reports[0][key])
 
     def test_are_counted_across_a_restart(self):
-        expected = run(COLLISION, *UNSTABLE).report
         folder = Folder()
         self.addCleanup(folder.cleanup)
-        folder.run(COLLISION, *UNSTABLE, "DataArchiver/checkpoint/@timestepInterval=55", "Time/max_Timesteps=55")
-        code, errors, report = folder.restart("Time/max_Timesteps=60", step=55)
+        scene = thrown(folder.path)
+        expected = run(scene, self.STEPS).report
+        folder.run(scene, "DataArchiver/checkpoint/@timestepInterval=5", "Time/max_Timesteps=5")
+        code, errors, report = folder.restart(self.STEPS, step=5)
         self.assertEqual((code, errors), (0, ""))
-        for key in ("fingerprint", "particles_removed"):
+        for key in ("fingerprint", "particles_removed", "particles_dropped"):
             self.assertEqual(report[key], expected[key])
+
+    def test_are_not_too_many(self):
+        results = [run(COLLISION, *UNSTABLE, f"Grid/Level/Box/patches={layout}") for layout in ("[1,1,1]", "[3,2,1]")]
+        for result in results:
+            self.assertEqual(result.code, 4)
+            self.assertIn("of 832 particles were removed, more than 1 %", result.err)
+            self.assertEqual(result.report["steps"], results[0].report["steps"])
 
     def test_stop_the_run_if_the_scene_says_so(self):
         result = run(COLLISION, *UNSTABLE, "MPM/lost_particles=stop")
