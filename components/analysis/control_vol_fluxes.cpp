@@ -216,7 +216,7 @@ AnalysisKind controlVolFluxesKind() {
         const auto density = isDerived(component, densityName), velocity = isDerived(component, velocityName);
         if (!density || !velocity)
           throw InputError({{module.where(), "DataAnalysis/Module",
-                             "this component has no density and velocity of a gas in cells; remove the module"}});
+                             "this component has no gas with density and velocity in cells; remove the module"}});
         checkGas(settings.material, component, module);
         checkBoxes(settings.boxes.list, level, module);
         const std::array<bool, 2> derived{*density, *velocity};

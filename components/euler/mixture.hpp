@@ -19,7 +19,7 @@ struct MixedGas {
     softness += share / (gamma - 1);
     stiffness += share * gamma * pInfinity / (gamma - 1);
   }
-  /// c² [m²/s²], of rho c² = (p (1 + G) + S) / G.
+  /// c² [m²/s²], from rho c² = (p (1 + G) + S) / G.
   double soundSpeedSquared(double density, double pressure) const {
     return (pressure * (1 + softness) + stiffness) / (softness * density);
   }

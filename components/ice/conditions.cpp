@@ -106,13 +106,13 @@ std::vector<BoundaryCondition> readSine(const std::string& label, const Element&
     return {one};
   }
   diagnostics.error(condition.whereOf("var"), condition.path(),
-                    "var: 'Sine' is for a Pressure, a Velocity or a Temperature");
+                    "var: 'Sine' applies only to a Pressure, a Velocity or a Temperature");
   return {};
 }
 
 std::vector<BoundaryCondition> readSlip(const std::string& label, const Element& condition, Diagnostics& diagnostics) {
   if (label == euler::boundary::velocity.name) return {{grid::symmetric, BoundaryKind::symmetry}};
-  diagnostics.error(condition.whereOf("var"), condition.path(), "var: 'FreeSlipWall' is for a Velocity");
+  diagnostics.error(condition.whereOf("var"), condition.path(), "var: 'FreeSlipWall' applies only to a Velocity");
   return {};
 }
 

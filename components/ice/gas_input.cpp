@@ -31,7 +31,7 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   if (var == nameOf(BoundaryKind::neumann)) {
     if ((number && *number != 0) || (vector && *vector != Vec3::Zero()))
       diagnostics.error(
-          *text, fmt::format("found '{}', expected 0: a Neumann condition continues {} unchanged outside the grid",
+          *text, fmt::format("found '{}', expected 0: a Neumann condition extends {} unchanged beyond the grid",
                              text->text(), label));
     return;
   }

@@ -166,7 +166,7 @@ void readModel(const Element& model, ModelsSection& models, Diagnostics& diagnos
   if (type == steadyBurnSchema().name()) return readBurning(model, steadyBurnSchema(), models, diagnostics);
   if (type == ddtSchema().name()) return readBurning(model, ddtSchema(), models, diagnostics);
   if (type != "PassiveScalar")
-    return diagnostics.error(model, fmt::format("the type '{}' is not available; available are {}; remove the model",
+    return diagnostics.error(model, fmt::format("the type '{}' is not available; remove the model, or use one of {}",
                                                 type, input::listed(modelTypes)));
   const auto given = model.child("PassiveScalar");
   if (!given) return diagnostics.error(model, "missing tag <PassiveScalar> in <Model>");

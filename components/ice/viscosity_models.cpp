@@ -54,7 +54,8 @@ void readOne(euler::VaryingDiffusion& varying, const Element& model, Diagnostics
   } else if (name == "SpongeLayer") {
     const SpongeTag read = spongeSchema().read(model, diagnostics);
     if (!(read.box.min.array() < read.box.max.array()).all())
-      return diagnostics.error(model, "the <box> is empty: each number of <min> must be less than that of <max>");
+      return diagnostics.error(
+          model, "the <box> is empty: each number of <min> must be less than the corresponding one of <max>");
     varying.sponges.push_back({read.box.min, read.box.max, read.viscosity});
   } else {
     diagnostics.error(model, fmt::format("name: {}", input::choiceProblem(name, {"Sutherland", "SpongeLayer"})));

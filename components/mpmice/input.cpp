@@ -132,8 +132,9 @@ void checkCracks(const Element& body, bool areRigid, const ice::BurnModel& model
   const auto given = body.child("constitutive_model");
   const std::string name = given ? given->attribute("type").value_or("") : "";
   if (name != mpm::solid::ViscoScram::name)
-    diagnostics.error(given.value_or(body),
-                      fmt::format("the model DDT1 needs a body of visco_scram, which has cracks, found '{}'", name));
+    diagnostics.error(
+        given.value_or(body),
+        fmt::format("found '{}', but the model DDT1 needs a body of visco_scram, which has cracks", name));
   if (areRigid)
     diagnostics.error(model.where, "Models/Model/DDT1",
                       "is not available with rmpmice, whose bodies have no stress; use mpmice");
@@ -179,7 +180,7 @@ void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diag
     diagnostics.error(*radial, "is not available with a gas, whose grid is Cartesian");
   if (scene.gas.cfl > greatestCfl)
     diagnostics.error(*root.child("CFD")->child("cfl"),
-                      fmt::format("found {:g}, expected at most {:g} with bodies, as cells may be half full",
+                      fmt::format("found {:g}, expected at most {:g} with bodies, since they may half fill a cell",
                                   scene.gas.cfl, greatestCfl));
 }
 

@@ -41,7 +41,7 @@ class Poisson : public Component {
   Settings settings_;
 };
 
-/// phi = 0: the guess of the first solve. Throws InputError where k is not greater than 0.
+/// phi = 0, the initial guess for the first solve. Throws InputError where k is not greater than 0.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> phi);
 

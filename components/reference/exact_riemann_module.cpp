@@ -59,7 +59,7 @@ const input::Schema<RiemannSection>& riemannSchema() {
               "the tube is mirrored where normal · x has this value, and again half a period of the grid further along")
           .ours()
           .check([](const RiemannSection& read, const input::Element& element, input::Diagnostics& diagnostics) {
-            if (read.normal.isZero(0)) diagnostics.error(element, "normal is [0,0,0], which is no direction");
+            if (read.normal.isZero(0)) diagnostics.error(element, "normal is [0,0,0], which is not a direction");
           });
   return schema;
 }

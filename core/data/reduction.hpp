@@ -132,8 +132,8 @@ struct VectorSum {
   std::vector<double> values() const { return {x.total(), y.total(), z.total()}; }
 };
 
-/// Norms of an error, unweighted over the places for which it is added: L1 = mean |e|, L2 = sqrt(mean e²), max |e|, and
-/// L1 over the mean magnitude of the exact values, where they are given.
+/// Norms of an error over the places for which it is added, by default with equal weights: L1 = mean |e|,
+/// L2 = sqrt(mean e²), max |e|, and L1 over the mean magnitude of the exact values, where they are given.
 struct Norm {
   Sum absolute, squared, count, exact;
   double max = 0;

@@ -18,8 +18,8 @@ struct RimPiece {
   bool isFiner;       ///< whether the other level is the finer one
   std::size_t first;  ///< index of the first face among those of the patch
 
-  /// Number of fluxes that a patch stores: those of its faces and, if the other level is finer, the means of the fluxes
-  /// behind them.
+  /// Number of fluxes that a patch stores: one for each face and, if the other level is finer, a second one: the mean
+  /// of the fluxes on the finer side of the face.
   std::size_t size() const { return cells.size() * (isFiner ? 2 : 1); }
 };
 

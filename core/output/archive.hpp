@@ -30,8 +30,8 @@ struct ArchivePoint {
   std::string index;  ///< content of index.xml
 };
 
-/// The `.uda` folder of a run: the scene, an index, an HDF5 file per output, an XDMF file that shows them to ParaView,
-/// and a text file per global quantity. One process writes it, with other ranks that help with the
+/// The `.uda` folder of a run: the scene, an index, an HDF5 file per output, an XDMF file with which ParaView opens
+/// them, and a text file per global quantity. One process writes it, with other ranks that help with the
 /// outputs. Any function may throw FileError, which names the file
 /// and the system's reason.
 ///

@@ -9,7 +9,7 @@ namespace tushar::output {
 /// waits for a second after the last time, and for 20 times as long as that has taken.
 class Pace {
  public:
-  /// Notes that there is a new entry; `urgent` if readers need it.
+  /// Notes that there is a new entry; `urgent` if readers need it at once.
   void note(bool urgent) {
     behind_ = true;
     urgent_ = urgent_ || urgent;

@@ -10,7 +10,7 @@ struct MemoryUse {
   double peak = 0;       ///< resident
   double fields = 0;     ///< variables on nodes and cells
   double particles = 0;  ///< variables of particles
-  double buffers = 0;    ///< memory kept from step to step: for variables within a step, for messages
+  double buffers = 0;    ///< reused in every step, for messages and for variables that exist only within a step
   double files = 0;      ///< increase of the peak by outputs and checkpoints
 };
 

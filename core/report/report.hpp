@@ -52,8 +52,8 @@ struct Compression {
   double bytes = 0, packed = 0;     ///< without compression, and with it
   double packing = 0, writing = 0;  ///< s spent on compressing, and on writing the result
 
-  /// The additional time for writing all bytes at the same speed, minus the time for compressing, s; negative if
-  /// compression did not pay off.
+  /// The time that compression saved, s: what writing all bytes uncompressed at the same speed would have added, minus
+  /// the time for compressing; negative if compression did not pay off.
   double savedSeconds() const { return packed > 0 ? writing * (bytes / packed - 1) - packing : 0; }
 };
 

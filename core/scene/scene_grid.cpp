@@ -134,8 +134,9 @@ grid::Domain readGrid(const Element& section, const SideWords& words, const grid
   if (diagnostics.size() > before) return domain;
   const std::vector<Element> boxes = section.children("Level").front().children("Box");
   if (boxes.size() > 1)
-    diagnostics.error(boxes[1], fmt::format("the first Level has one Box; this is a second one (the first is at {})",
-                                            boxes[0].where().text()));
+    diagnostics.error(boxes[1],
+                      fmt::format("the first Level can have only one Box; this is a second one (the first is at {})",
+                                  boxes[0].where().text()));
   const LevelSection& level = read.levels.front();
   const GridBox& box = level.boxes.front();
   domain.lower = box.lower;

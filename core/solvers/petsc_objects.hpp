@@ -150,8 +150,8 @@ PetscErrorCode guarded(std::exception_ptr& thrown, Work&& work) {
   }
 }
 
-/// The line search of Newton's method, by the energy (Crisfield, Non-linear Finite Element Analysis, 9.2); `context` is
-/// a std::exception_ptr.
+/// The line search of Newton's method, based on the energy (Crisfield, Non-linear Finite Element Analysis, 9.2);
+/// `context` is a std::exception_ptr.
 PetscErrorCode searchAlongStep(SNESLineSearch search, void* context);
 
 /// Why a solve ended, in words, and PETSc's name for the reason.

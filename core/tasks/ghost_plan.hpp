@@ -36,7 +36,7 @@ struct CoarseGhosts {
 struct GhostPlan {
   std::vector<std::vector<GhostCopy>> into;        ///< by patch of this rank
   std::vector<std::vector<CoarseGhosts>> coarse;   ///< by patch of this rank
-  std::vector<bool> isLocal;                       ///< by patch of this rank: whether it needs no other rank
+  std::vector<bool> isLocal;                       ///< by patch of this rank: whether no ghost comes from another rank
   std::map<int, std::vector<GhostCopy>> outgoing;  ///< by destination rank
   std::set<int> incoming;                          ///< ranks from which copies come
 };

@@ -45,7 +45,7 @@ class ParticleMigration {
   void run(const std::vector<Carried>& carried, bool goFar);
   /// The particles that have arrived.
   const std::vector<MigratingParticle>& arrived() const { return arrived_; }
-  /// The values of a carried variable for the arrived particles, one after the other.
+  /// The values of a carried variable for the particles that have arrived, one after the other.
   const std::byte* values(std::size_t carried) const { return values_[carried].data(); }
 
  private:

@@ -35,7 +35,8 @@ double errorOf(const std::string& scene, const Overrides& overrides = {}) {
 
 TEST(IceConditions, AWallThatSlipsIsAPlaneOfSymmetry) {
   EXPECT_EQ(fingerprintOf(withSide(condition("Velocity", "FreeSlipWall", "[0,0,0]"))), fingerprintOf(sod));
-  EXPECT_EQ(problemOf(withSide(condition("Pressure", "FreeSlipWall"))), "var: 'FreeSlipWall' is for a Velocity");
+  EXPECT_EQ(problemOf(withSide(condition("Pressure", "FreeSlipWall"))),
+            "var: 'FreeSlipWall' applies only to a Velocity");
 }
 
 TEST(IceConditions, APressureSwingsAsAFormulaSays) {
@@ -45,7 +46,7 @@ TEST(IceConditions, APressureSwingsAsAFormulaSays) {
   EXPECT_EQ(fingerprintOf(withSide(condition("Pressure", "Sine") + condition("Temperature", "Sine"), section)), given);
   EXPECT_EQ(problemOf(withSide(condition("Pressure", "Sine"))), "needs a <SINE_BC> in <BoundaryConditions>");
   EXPECT_EQ(problemOf(withSide(condition("Density", "Sine"), section)),
-            "var: 'Sine' is for a Pressure, a Velocity or a Temperature");
+            "var: 'Sine' applies only to a Pressure, a Velocity or a Temperature");
   EXPECT_EQ(problemOf(withSide(condition("Temperature", "Sine"), section)),
             "var Sine for the Temperature needs var Sine for the Pressure or the Velocity");
 }
@@ -134,7 +135,7 @@ TEST(IceViscosity, OfModelsIsRead) {
   EXPECT_EQ(problemOf(with("")), "is empty: it needs at least one Model");
   EXPECT_EQ(problemOf(with("<Model name=\"SpongeLayer\"><maxDynamicViscosity>1</maxDynamicViscosity><box label=\"b\">"
                            "<min>[0,1,0]</min><max>[1,0,1]</max></box></Model>")),
-            "the <box> is empty: each number of <min> must be less than that of <max>");
+            "the <box> is empty: each number of <min> must be less than the corresponding one of <max>");
   EXPECT_EQ(problemOf(with("<Model name=\"Power\"/>")), "name: found 'Power', expected 'Sutherland' or 'SpongeLayer'");
 }
 

@@ -110,7 +110,7 @@ TEST(IceScene, TakesNeumannConditionsForAnOpenSide) {
 
 TEST(IceScene, RefusesAGradientAtASide) {
   EXPECT_EQ(problemOf(withSide(R"(<BCType id="0" label="Density" var="Neumann"><value>1</value></BCType>)")),
-            "found '1', expected 0: a Neumann condition continues Density unchanged outside the grid");
+            "found '1', expected 0: a Neumann condition extends Density unchanged beyond the grid");
 }
 
 TEST(IceScene, RefusesAnInflowOfNoTemperature) {

@@ -41,7 +41,7 @@ class SilentMistakes(unittest.TestCase):
         plane, space = "Grid/Level/Box/resolution=[20,2,1]", "Grid/Level/Box/resolution=[20,2,2]"
         self.assert_refused(run("ups/mpm/sod_redistribute.ups", *sets, plane, outputs=True),
                             "ups/mpm/sod_redistribute.ups:57:8: MPM/gas_dynamics/redistribute: target_particles: 5 "
-                            "in a cell become 9, 3 along each of 2 axes, but max_particles is 8; decrease "
+                            "per cell are rounded up to 9, 3 along each of 2 axes, but max_particles is 8; decrease "
                             "target_particles or increase max_particles")
         self.assertEqual(run("ups/mpm/sod_redistribute.ups", *sets, "Time/max_Timesteps=1").code, 0)
         self.assertEqual(run("ups/mpm/sod_redistribute.ups", *sets, space, "Time/max_Timesteps=1").code, 0)
@@ -80,7 +80,7 @@ class SilentMistakes(unittest.TestCase):
             self.assert_refused(run("ups/euler/sod.ups", body + change, outputs=True),
                                 f"--set {body}{change}: Euler/geom_object: density ",
                                 "at (0.005, 0.5, 0.5); the density",
-                                "and all finite")
+                                "and all values finite")
 
     def test_starts_that_depend_on_time(self):
         gas = "MaterialProperties/MPM/material/geom_object[1]/"

@@ -154,7 +154,7 @@ TEST(DiagonalTubeScene, RefusesWhatTheGridCannotHold) {
   EXPECT_EQ(problemOf(scene, {normal + "[1,1,1]"}), "normal: points along z, but this grid does not use z");
   EXPECT_EQ(problemOf(scene, {normal + "[1,1.1,0]"}),
             "normal: in this direction the grid has a period of 1.34535 m for one axis, but 1.47988 m for another");
-  EXPECT_EQ(problemOf(scene, {normal + "[0,0,0]"}), "normal is [0,0,0], which is no direction");
+  EXPECT_EQ(problemOf(scene, {normal + "[0,0,0]"}), "normal is [0,0,0], which is not a direction");
   EXPECT_EQ(problemOf(scene, {"DataAnalysis/Module/diaphragm=1"}),
             "The diaphragm must lie between two mirrors, which are 0.707107 m apart along the tube, but it is 0.707107 "
             "m from the first.");

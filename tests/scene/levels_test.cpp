@@ -109,7 +109,7 @@ TEST(Levels, TheFirstHasOneBox) {
   const Read found = read(level(box("0,0,0", "1,1,0", "16,16,1") + box("0,0,0", "1,1,0", "16,16,1")));
 
   EXPECT_EQ(found.problems,
-            (Strings{"Grid/Level/Box: the first Level has one Box; this is a second one (the first is at "
+            (Strings{"Grid/Level/Box: the first Level can have only one Box; this is a second one (the first is at "
                      "s.ups:1:37)"}));
 }
 

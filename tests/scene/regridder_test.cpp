@@ -14,7 +14,7 @@ TEST(Regridder, SaysHowManyLevelsThereMayBe) {
                                   "alone determine what is refined"}));
 
   EXPECT_EQ(read(square + halved, amr("<max_levels>1</max_levels>")).problems,
-            (Strings{"AMR/Regridder/max_levels: found 1, but there are 2 levels according to the Levels of <Grid>"}));
+            (Strings{"AMR/Regridder/max_levels: found 1, but the Levels of <Grid> define 2 levels"}));
   EXPECT_EQ(read(square, amr(adaptive + "<max_levels>1</max_levels>", criteria)).problems,
             (Strings{"AMR/Regridder/max_levels: found 1, expected at least 2, since the grid is <adaptive>"}));
   EXPECT_EQ(read(square, amr("<max_levels>17</max_levels>")).problems,

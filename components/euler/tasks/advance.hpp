@@ -16,7 +16,7 @@ struct GasRims {
   }
 };
 
-/// The fluxes of the state through the rim of the level, kg/(m² s), Pa and W/m², and those of mass through all faces.
+/// The fluxes of the state through the rim of the level [kg/(m² s), Pa, W/m²], and the mass fluxes through all faces.
 template <int D>
 struct RimFluxes {
   RimFlux<double> mass;

@@ -19,7 +19,7 @@ void checkState(const Settings& settings, const GasObject& object, const Vec3& p
                 object.where),
         settings.section + "/geom_object",
         fmt::format("density {:g} kg/m^3, pressure {:g} Pa and velocity ({:g}, {:g}, {:g}) m/s at ({:g}, "
-                    "{:g}, {:g}); the density and the pressure + p_infinity must be positive, and all finite",
+                    "{:g}, {:g}); the density and the pressure + p_infinity must be positive, and all values finite",
                     density, pressure, velocity[0], velocity[1], velocity[2], point[0], point[1], point[2])}});
 }
 

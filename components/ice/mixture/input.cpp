@@ -47,8 +47,8 @@ void checkExchange(const GasScene& scene, const Element& root, int solids, Diagn
   for (std::size_t pair = ofGases; pair < momentum.size(); ++pair)
     if (momentum[pair] < oneForAll)
       return diagnostics.error(tag.child("momentum").value_or(tag),
-                               fmt::format("{:g} between gases is not available: they share one velocity, so it must "
-                                           "be 1e9 or more",
+                               fmt::format("{:g} between gases is not available: gases share one velocity, so the "
+                                           "value must be 1e9 or more",
                                            momentum[pair]));
 }
 

@@ -195,7 +195,7 @@ void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::G
   });
 }
 
-/// Interior sources of a scalar, which increases by their value in each step, up to their limit.
+/// Applies the interior sources of a scalar: each raises the scalar by its value in every step, up to its limit.
 template <int D>
 void raiseScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const double> density,
                  CellView<double> held) {

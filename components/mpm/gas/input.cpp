@@ -86,7 +86,8 @@ void refuseSolidsOnly(const Element& root, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root))
     if (const auto label = condition.attribute("label");
         label && (*label == boundary::velocity.name || *label == boundary::temperature.name))
-      diagnostics.error(condition, "label: found '" + *label + "', expected 'Symmetric', the only one for a gas");
+      diagnostics.error(condition,
+                        "label: found '" + *label + "', expected 'Symmetric', the only label available for a gas");
 }
 
 std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases) {

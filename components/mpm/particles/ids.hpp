@@ -19,7 +19,8 @@ ParticleId idOf(const Level& level, const Index<D>& cell, ParticleId k, const Lo
   if (k >= idsOfCell)
     throw InputError(
         {{where, "geom_object",
-          fmt::format("a cell can contain at most {} particles, but bodies put more into one cell", idsOfCell)}});
+          fmt::format("a cell can contain at most {} particles, but the bodies put more than that into one cell",
+                      idsOfCell)}});
   return level.cellNumber(cell) * idsOfCell + k;
 }
 

@@ -118,7 +118,7 @@ class BurnModes {
     const Vec3 at = level_.expandPoint<D>(level_.cellCentre<D>(cell));
     throw NumericalError(
         fmt::format("the body detonates: its pressure is {:.6g} Pa in the cell at ({:g}, {:g}, {:g}) m, "
-                    "above <ThresholdPressureJWL>; DDT1 has only the deflagration here",
+                    "above <ThresholdPressureJWL>; this DDT1 models only deflagration",
                     pressure, at[0], at[1], at[2]),
         "", "c.burnPressure", level_.cellNumber<D>(cell));
   }

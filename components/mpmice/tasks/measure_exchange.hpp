@@ -135,7 +135,7 @@ inline double leakAlong(double in, double out, double openIn, double openOut, do
   return width > straight ? through * (1 - straight / width) : 0;
 }
 
-/// Adds the leak of a step to that since the start.
+/// Adds the leak of a step to the total leak since the start.
 template <int D>
 void measureLeak(const Patch& patch, const std::vector<mpm::solid::Material>&, const std::vector<Boxes<D>>& materials,
                  const Settings& settings, const GasInCells<D>& cells, CellView<const Vec<D>> flow,

@@ -194,8 +194,8 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
       });
 }
 
-/// Pressure of the gas on walls: that at the end of the step and, for approaching walls, the viscosity of von Neumann
-/// and Richtmyer.
+/// Pressure of the gas on walls: the pressure at the end of the step plus, for approaching walls, the viscosity of
+/// von Neumann and Richtmyer.
 template <int D>
 void takeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                       const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,

@@ -152,7 +152,7 @@ Vec<D> frictionAt(const Level& level, const Settings& settings, const FreeSpace<
   return level.cellVolume() * force;
 }
 
-/// Whether the grid has a face below the cell across an axis, including its upper side.
+/// Whether the lower face of a cell, normal to an axis, belongs to the grid; faces on the upper side of the grid do.
 template <int D>
 bool isFace(const Level& level, const Index<D>& cell, int axis) {
   for (int d = 0; d < D; ++d) {

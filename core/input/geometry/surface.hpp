@@ -27,7 +27,8 @@ class Surface : public GeometryPiece {
   explicit Surface(Triangles triangles, bool isClosed = true);
   bool contains(const Vec3& point) const override;
   Box3 bounds() const override { return bounds_; }
-  /// The fraction of a lattice of points in the bounds for which lines along x, y and z, in both directions, disagree.
+  /// The fraction of the points of a lattice in the bounds at which lines along x, y and z, in both directions,
+  /// disagree on whether the point is inside.
   double disagreement() const;
 
  private:

@@ -1,4 +1,4 @@
-"""A scene given instead of an archive: it is run, with its report on the screen, and a tool draws the archive."""
+"""Runs a scene that a tool was given instead of an archive, and shows the report; the tool then draws the archive."""
 from __future__ import annotations
 
 import os

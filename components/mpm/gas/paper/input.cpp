@@ -72,7 +72,7 @@ void checkSeeds(const Redistribution& how, int dimension) {
   const int seeds = static_cast<int>(std::pow(along, dimension));
   if (how.mode != Redistribution::Mode::reseed || seeds <= how.maxParticles) return;
   throw InputError({{how.where, "MPM/gas_dynamics/redistribute",
-                     fmt::format("target_particles: {} in a cell become {}, {} along each of {} axes, but "
+                     fmt::format("target_particles: {} per cell are rounded up to {}, {} along each of {} axes, but "
                                  "max_particles is {}; decrease target_particles or increase max_particles",
                                  how.targetParticles, seeds, along, dimension, how.maxParticles)}});
 }

@@ -60,7 +60,7 @@ struct CompMooneyRivlin {
   double initialWaveSpeed(double initialDensity) const {
     return std::sqrt(4 * (c1 + c2) * (1 - poissonRatio) / ((1 - 2 * poissonRatio) * initialDensity));
   }
-  /// An upper bound of the wave speed, as in Uintah, m/s.
+  /// An upper bound on the wave speed [m/s], as in Uintah.
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State&) const {
     const Invariants i(d.deformationGradient);
     const double least = stress.diagonal().minCoeff();

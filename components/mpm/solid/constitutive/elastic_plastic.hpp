@@ -187,7 +187,7 @@ struct ElasticPlastic {
     acceptWhatDoesNotMatter(tags);
     tags.check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
       if (read.maxwell() && std::holds_alternative<GursonYield>(read.yieldCondition))
-        diagnostics.error(element, "yield_condition gurson needs a <deviatoric_stress_model> hypoElastic");
+        diagnostics.error(element, "yield_condition gurson needs <deviatoric_stress_model> hypoElastic");
     });
     return tags;
   }

@@ -87,8 +87,8 @@ struct ThWater {
     const double difference = at.temperature * at.byTemperature * at.byTemperature / at.byPressure;
     return std::max(at.heat - difference, least / (1 - least) * difference);
   }
-  /// The smaller root p of v(p, T) = v, a quadratic equation: the liquid whose volume falls under pressure. It ends at
-  /// the pressure where `least` of its compressibility is left, and goes on along its tangent there.
+  /// The smaller root p of the quadratic equation v(p, T) = v, where the volume of the liquid falls with pressure. The
+  /// curve ends at the pressure where `least` of its compressibility is left, and goes on along its tangent there.
   Point pointAt(const Deformation& d) const {
     const double volume = d.deformationGradient.determinant() / material.density, t = d.temperature;
     const double warm = t - densestTemperature, bent = 2 * curvature * pressureShift;

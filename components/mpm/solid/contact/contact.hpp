@@ -47,7 +47,7 @@ struct Contact {
   Profile<Vec3> centres, angularVelocity;                ///< m, 1/s: the rotation of the master; empty: none
 
   bool actsTwice = true;  ///< whether it also acts on the velocities interpolated from the particles
-  int excluded = -1;      ///< at nodes with this material, nothing follows a master or moves as one; -1: none
+  int excluded = -1;      ///< the material that disables the contact at its nodes; -1: none
 
   double friction = 0;  ///< coefficient mu
   Profile<double>

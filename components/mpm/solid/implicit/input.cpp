@@ -173,7 +173,7 @@ void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnosti
       diagnostics.error(
           root.child("MaterialProperties").value(),
           "'" + material.name + "' is " + std::string(material.model->name()) +
-              ", which has no tangent, as implicit time steps need; use comp_neo_hook, comp_mooney_rivlin, "
+              ", which has no tangent; implicit time steps need one: use comp_neo_hook, comp_mooney_rivlin, "
               "trans_iso_hyper, visco_trans_iso_hyper, hypo_elastic, UCNH or elastic_plastic, or make the material the "
               "master of a <contact> of type rigid or specified");
 }
@@ -201,8 +201,9 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
     if (material.erosion.acts() || !onlyCounts(material.damage))
       diagnostics.error(
           where, "'" + material.name +
-                     "' may lose strength, which needs <time_integrator> explicit; implicit steps support only the "
-                     "<damage_model> hancock_mackenzie or johnson_cook without <erosion>, which accumulate damage");
+                     "' may lose strength, which needs <time_integrator> explicit; implicit steps support only "
+                     "damage without loss of strength: <damage_model> hancock_mackenzie or johnson_cook, and no "
+                     "<erosion>");
   for (const Contact& contact : problem.contacts) {
     if (contact.type == Contact::Type::friction || contact.usesPlanes())
       diagnostics.error(

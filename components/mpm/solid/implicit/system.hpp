@@ -77,7 +77,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
     double mass = 0, volume = 0;  ///< kg, m^3 at the start of the simulation
     double rigidity = 0;          ///< N, sum of the forces of particles at a strain of 1
     Vec<D> velocity = Vec<D>::Zero(), acceleration = Vec<D>::Zero(), force = Vec<D>::Zero();  ///< m/s, m/s^2, N
-    double support = 0;  ///< N/m, of a weak spring to the position that the node reaches at its velocity
+    double support = 0;  ///< N/m, stiffness of a weak spring to where the velocity takes the node
   };
   static constexpr int sums_ = 3 + 3 * D;
 

@@ -6,8 +6,8 @@
 
 namespace tushar::mpm::solid {
 
-/// The force of a body on a side of the grid, - sum_i f_i over its nodes, and the area that the body covers there,
-/// 2 sum_i V_i / h, with the f_i and V_i of showForce; an axis that the grid does not use has no such nodes.
+/// The force of a body on a side of the grid, - sum_i f_i over the nodes of the side, and the area that the body covers
+/// there, 2 sum_i V_i / h. showForce computes f_i and V_i. Sides across axes that the grid does not use have no nodes.
 template <int D>
 void measureBoundary(const Patch& patch, const Material&, int face, NodeView<const Vec<D>> force,
                      NodeView<const double> volume, VectorSum& total, Sum& area) {

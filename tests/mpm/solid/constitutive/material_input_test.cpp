@@ -105,7 +105,7 @@ TEST(MaterialInput, GivesMetalsThePoresOfGursonsYieldCondition) {
   const std::string relaxing =
       "<deviatoric_stress_model type='hypoViscoElastic'><mu>[1]</mu><tau>[1]</tau></deviatoric_stress_model>";
   expectProblem(sceneOf("elastic_plastic", moduli + flow + surface + relaxing, "<specific_heat>5</specific_heat>"),
-                "yield_condition gurson needs a <deviatoric_stress_model> hypoElastic");
+                "yield_condition gurson needs <deviatoric_stress_model> hypoElastic");
 }
 
 TEST(MaterialInput, RefusesColorsThatDoNotGrow) {

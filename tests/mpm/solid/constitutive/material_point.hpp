@@ -12,7 +12,7 @@ inline Matrix3 rotation(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
 }
 
-/// A deformation gradient without symmetries: all strains of the size of `strain`, and a rotation.
+/// A deformation gradient without symmetries: all strains are of the order of `strain`, and there is a rotation.
 inline Matrix3 generalDeformation(double strain) {
   Matrix3 gradient;
   gradient << 1.0, 0.5, -0.3, 0.2, -0.8, 0.4, -0.6, 0.1, 0.7;

@@ -62,7 +62,7 @@ class Section:
 
 
 def tags_of(sus):
-    """All sections that a sus describes. A component that reads scenes in two ways gives two."""
+    """All sections that the program `sus` describes. A component that reads scenes in two ways gives two."""
     sections = [Section("scene", "scene", "what all scenes share", [])]
     sections += [Section(name, kind, sentence, []) for kind, name, sentence in _listed(_output(sus, "--list"))]
     described = []

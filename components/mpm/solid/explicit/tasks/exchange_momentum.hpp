@@ -25,7 +25,7 @@ void exchangeMomentum(const Patch& patch, const std::vector<Material>&, const st
     if (contact.actsTwice || moment == Moment::end) applyContact<D>(patch, contact, time, dt, records, planes);
 }
 
-/// By material, a force on the nodes, N; empty if no material transmits force.
+/// For each material, a force on the nodes [N]; empty if no material transmits force.
 template <int D>
 using TransmittedForces = std::vector<std::optional<NodeView<Vec<D>>>>;
 

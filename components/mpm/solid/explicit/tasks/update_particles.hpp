@@ -152,7 +152,7 @@ struct StressResults {
   std::array<double, stressGroup> energyDensity;  ///< J/m^3 of the volume at the start
 };
 
-/// The positions, masses and the time of particles starting with `first`, for a model that reads them.
+/// The positions and masses of the particles from `first` on, and the time, for a model that reads them.
 template <int D>
 void placePoints(const Level& level, const StateUpdate<D>& u, double time, int first,
                  std::array<Vec3, stressGroup>& positions, StressPoints& points) {

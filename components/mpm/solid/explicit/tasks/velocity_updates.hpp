@@ -40,7 +40,7 @@ void limitVelocity(const Patch&, const Material&, double greatest, ParticleView<
   }
 }
 
-/// The XPIC correction for particles that have moved by FLIP.
+/// The XPIC correction for particles that have been moved by FLIP.
 template <int D>
 struct XpicUpdate {
   NodeView<const NodeRecord> smoothRecord;
