@@ -100,7 +100,7 @@ Measurable findMeasurable(const Component& component, const ExactSolutionSetting
   std::vector<std::string> names;
   for (const auto& entry : found) names.push_back(entry.first);
   const std::string none =
-      fmt::format("this component has no cell or node variable {} without a material; remove the module",
+      fmt::format("this component has no {} cell or node variable without a material; remove the module",
                   settings.component ? "vector" : "scalar");
   throw InputError({{where, "DataAnalysis/Module/label", names.empty() ? none : input::choiceProblem(name, names)}});
 }

@@ -55,13 +55,14 @@ std::string problemOf(const Extent& extent, int axes, const Level& level) {
   int along = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double from = extent.start[axis], to = extent.end[axis];
-    const double beyond = slack * (upper[axis] - lower[axis]) + coarsestWidth(level, axis);
+    const double rounding = slack * (upper[axis] - lower[axis]), beyond = rounding + coarsestWidth(level, axis);
     if (from > to)
       return fmt::format("found endingPt at {} = {:g} m, expected {:g} m or more, the coordinate of startingPt",
                          "xyz"[axis], to, from);
-    if (from < lower[axis] - beyond || to > upper[axis] + beyond || from > upper[axis] || to < lower[axis])
-      return fmt::format("found {} from {:g} to {:g} m, expected places on the grid, from {:g} to {:g} m", "xyz"[axis],
-                         from, to, lower[axis], upper[axis]);
+    if (from < lower[axis] - beyond || to > upper[axis] + beyond || from > upper[axis] + rounding ||
+        to < lower[axis] - rounding)
+      return fmt::format("found {} from {:g} to {:g} m, expected positions on the grid, from {:g} to {:g} m",
+                         "xyz"[axis], from, to, lower[axis], upper[axis]);
     if (from < to) ++along;
   }
   if (along == axes) return {};

@@ -30,9 +30,9 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   const auto vector = input::parse<Vec3>(text->text());
   if (var == nameOf(BoundaryKind::neumann)) {
     if ((number && *number != 0) || (vector && *vector != Vec3::Zero()))
-      diagnostics.error(
-          *text, fmt::format("found '{}', expected 0: a Neumann condition extends {} unchanged beyond the grid",
-                             text->text(), label));
+      diagnostics.error(*text,
+                        fmt::format("found '{}', expected 0: a Neumann condition extends {} unchanged beyond the grid",
+                                    text->text(), label));
     return;
   }
   const auto limit = [&](const grid::BoundaryVariable& of, const std::string& unit) {
@@ -97,11 +97,11 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
 bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }
 
 /// Sections of implicit steps that have no effect in Tushar.
-void noteIdle(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
+void noteIdle(const Element& root, const IceSection& ice, bool isImplicit, Diagnostics& diagnostics) {
   if (const auto solver = root.child(solverTag))
-    diagnostics.note(*solver, isImplicit(ice) ? "does nothing: the settings of the solve are in <ImplicitSolver>"
-                                              : "does nothing: explicit steps solve no system of equations");
-  if (ice.steps && !isImplicit(ice))
+    diagnostics.note(*solver, isImplicit ? "does nothing: the settings of the solve are in <ImplicitSolver>"
+                                         : "does nothing: explicit steps solve no system of equations");
+  if (ice.steps && !isImplicit)
     diagnostics.note(*root.child("CFD")->child("ICE")->child("TimeStepControl"),
                      "does nothing: steps follow from <cfl>, and from the sound speed and the diffusion in each cell");
 }
@@ -185,12 +185,12 @@ Vec3 middleOf(const Element& root) {
 
 /// Applies the velocity and the temperature of <customInitialization> to the initial gas.
 void takeDisturbance(const CustomStart& start, const std::vector<GasMaterial>& materials, const Element& root,
-                     euler::Settings& gas, Diagnostics& diagnostics) {
-  if (const std::string problem = start.problem(materials.size()); !problem.empty())
+                     GasScene& scene, Diagnostics& diagnostics) {
+  if (const std::string problem = start.problem(scene.binary ? 2 : materials.size()); !problem.empty())
     diagnostics.error(*root.child("CFD")->child("ICE")->child("customInitialization"), problem);
   const double gasConstant = (materials.front().gamma - 1) * materials.front().specificHeat;
-  gas.disturb = [start, gasConstant, middle = middleOf(root)](const Vec3& point, double rho, Vec3& velocity,
-                                                              double& temperature) {
+  scene.gas.disturb = [start, gasConstant, middle = middleOf(root)](const Vec3& point, double rho, Vec3& velocity,
+                                                                    double& temperature) {
     start.apply(point, {rho, gasConstant, middle}, velocity, temperature);
   };
 }
@@ -203,7 +203,6 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   const ConstantsSection constants = simulation::readOptionalSection(root, constantsSchema(), diagnostics);
   const PropertiesSection properties = simulation::readSection(root, propertiesSchema(), diagnostics);
   ModelsSection models = simulation::readOptionalSection(root, modelsSchema(), diagnostics);
-  noteIdle(root, cfd.ice, diagnostics);
   checkWords(root, diagnostics);
   const auto& materials = properties.ice.materials;
   checkConditions(root, solids, static_cast<int>(std::max<std::size_t>(materials.size(), 1)), diagnostics);
@@ -220,10 +219,11 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   scene.gravity = constants.gravity;
   scene.referencePressure = constants.referencePressure;
   takeImplicitSteps(cfd.ice, materials, root, solids, scene, diagnostics);
+  noteIdle(root, cfd.ice, scene.implicit.has_value(), diagnostics);
   if (cfd.ice.push) scene.push = Vec3(cfd.ice.push->x, cfd.ice.push->y, cfd.ice.push->z);
   if (cfd.ice.heating) scene.heating = heatingOf(*cfd.ice.heating, solids, materials.size(), diagnostics);
   if (cfd.ice.eddies) scene.varying.smagorinsky = cfd.ice.eddies->constant;
-  if (cfd.ice.start) takeDisturbance(*cfd.ice.start, materials, root, scene.gas, diagnostics);
+  if (cfd.ice.start) takeDisturbance(*cfd.ice.start, materials, root, scene, diagnostics);
   if (properties.exchange) {
     scene.exchange = properties.exchange->coefficients;
     scene.exchange->heatByMasses = properties.exchange->model.value_or(CoefficientSection()).heat != "constant";

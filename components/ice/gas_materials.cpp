@@ -168,6 +168,7 @@ void readBinary(const GasMaterial& material, const Element& root, GasScene& scen
   scene.gas.name = material.name;
   scene.mixture = binary.gases(common);
   scene.diffusions = binary.diffusions();
+  if (!scene.heating.perMass.empty()) scene.heating.perMass.assign(2, scene.heating.perMass.front());
   constexpr double atOnce = 1e30;  // W/(m³ K)
   scene.exchange = Exchange{.where = binary.where, .momentum = {}, .heat = {atOnce}};
   checkMixture({material}, root, scene, scene.gas.gas.material, diagnostics);
@@ -183,10 +184,10 @@ void readMaterials(const std::vector<GasMaterial>& materials, const Element& roo
                    Diagnostics& diagnostics) {
   if (solids > 0 && !scene.programs.empty())
     diagnostics.error(scene.programs.front().where, "Models/Model",
-                      "LightTime is not available beside bodies; remove it");
+                      "LightTime is not available with bodies; remove it");
   if (scene.binary && (materials.size() > 1 || solids > 0))
     return diagnostics.error(scene.binary->where, "Models/Model",
-                             "BinaryProperties is not available beside bodies or a second gas: give each gas a "
+                             "BinaryProperties is not available with bodies or a second gas: give each gas a "
                              "<material>");
   if (scene.binary) return readBinary(materials.front(), root, scene, diagnostics);
   if (materials.size() > 1) return readGases(materials, root, scene, diagnostics);

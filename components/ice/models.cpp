@@ -7,7 +7,7 @@
 #include "components/ice/gas_schemas.hpp"
 #include "core/input/refuse.hpp"
 
-// The section Models: scalars scalars that are transported with the gas.
+// The section Models: scalars that are transported with the gas.
 
 namespace tushar::ice {
 

@@ -64,9 +64,10 @@ double fastestCrossing(const std::vector<euler::Settings>& gases, const Element&
         return std::numeric_limits<double>::infinity();
       const double density = object.density(Vec3::Zero()), temperature = (*object.temperature)(Vec3::Zero());
       const double squared = gas.gas.soundSpeedSquared(density, gas.gas.lastAt(density, temperature));
+      if (!(squared > 0)) return std::numeric_limits<double>::infinity();
       greatest = std::max(greatest, density * std::sqrt(squared) / width.value_or(1));
     }
-  return greatest;
+  return greatest > 0 ? greatest : std::numeric_limits<double>::infinity();
 }
 
 /// Checks the exchange of momentum: between gas and bodies, only walls are available; bodies interact by their

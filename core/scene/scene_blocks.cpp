@@ -34,7 +34,7 @@ class BlockChoice {
 
   void chooseBlock(int axis) {
     const int cells = coarsest_.domain().resolution[axis];
-    const int wanted = coarsest_.dimension() == 1 ? 16 : 8;
+    const int wanted = std::max(coarsest_.dimension() == 1 ? 16 : 8, amr_.fewestCellsOfBlock);
     const std::vector<int> sizes = blockSizes(cells);
     if (amr_.block) return checkBlock(axis, cells, sizes);
     const int most = wanted + 2;  // rather than none, where a grid has 10 cells

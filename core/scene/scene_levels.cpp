@@ -238,8 +238,7 @@ class Refiner {
     const int said = amr_.maxLevels.value_or(isAdaptive ? 2 : 1);
     const int asked = amr_.maxLevels ? levelsOfTwos(said) : std::max(levelsOfTwos(said), given);
     if (asked < given)
-      diagnostics_.error(
-          place, fmt::format("found {}, but the Levels of <Grid> define {} levels", asked, given));
+      diagnostics_.error(place, fmt::format("found {}, but the Levels of <Grid> define {} levels", asked, given));
     else if (isAdaptive && asked < 2)
       diagnostics_.error(place, "found 1, expected at least 2, since the grid is <adaptive>");
     else if (!isAdaptive && asked > given)

@@ -187,6 +187,7 @@ void Simulation::loop() {
   report_.beginLoop(outputSeconds());
   try {
     while (!hasEnded()) step();
+    refuseLosses(run_);
   } catch (const NumericalError& error) {
     failure_ = advised(error);
   }

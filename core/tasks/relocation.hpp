@@ -39,7 +39,7 @@ class Relocation {
   /// periodic face come in at the opposite one; those that left through a free face are to be dropped.
   ///
   /// All ranks run it together. False if one of them has stopped before: then nothing is done on any.
-  /// Those at `data::vanished` are dropped, too, without being counted.
+  /// Those at `data::vanished` are dropped, too, without being counted; those at `data::removed` are counted.
   /// Throws NumericalError, on all ranks, for a position that is not finite, lies behind a symmetry plane, or in
   /// coarser cells than the finest or too near to them.
   bool find(int material, int position, bool hasStopped);

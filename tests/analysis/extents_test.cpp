@@ -51,8 +51,8 @@ TEST(Extents, WhatTheGridCannotShowIsRefused) {
   };
   EXPECT_EQ(problem(extent({0, 0, .2}, {1, 0, .2}), 1), "");
   EXPECT_EQ(problem(extent({0, 0, .1}, {1, 0, .2}), 2), "");
-  EXPECT_TRUE(problem(extent({0, 0, .1}, {1, 0, .2}), 1).starts_with("a line goes along one axis"));
-  EXPECT_TRUE(problem(extent({0, 0, .1}, {1, 0, .1}), 2).starts_with("a plane goes along two axes"));
+  EXPECT_TRUE(problem(extent({0, 0, .1}, {1, 0, .2}), 1).starts_with("a line is parallel to one axis"));
+  EXPECT_TRUE(problem(extent({0, 0, .1}, {1, 0, .1}), 2).starts_with("a plane is parallel to two axes"));
   EXPECT_EQ(problem(extent({-.1, 0, .2}, {1.1, 0, .2}), 1), "") << "in the layer of cells beyond the sides";
   EXPECT_EQ(problem(extent({0, 0, .2}, {1.5, 0, .2}), 1),
             "found x from 0 to 1.5 m, expected positions on the grid, from 0 to 1 m");

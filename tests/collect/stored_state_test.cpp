@@ -146,7 +146,7 @@ TEST(StoredState, RefusesWhatDoesNotFitTheScene) {
   fileOf(written);
 
   EXPECT_EQ(refusalOf(larger, {}),
-            "the checkpoint has 35 numbers for /cells/fine/c.heat, but the scene needs 40; undo the changes made to "
+            "the checkpoint has 35 values of /cells/fine/c.heat, but the scene needs 40; undo the changes made to "
             "the scene since then");
   EXPECT_EQ(refusalOf(same, {"p.mark"}),
             "the checkpoint has no /particles/fine/p.mark, which the scene needs; undo the changes made to the scene "

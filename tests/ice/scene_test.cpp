@@ -225,10 +225,9 @@ TEST(IceScene, RefusesExactSolutionsOfAnIdealGasForAnother) {
 }
 
 TEST(IceScene, RefusesModels) {
-  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"DDT1\"/></Models>\n  <CFD>")),
-            "the type 'DDT1' is not available, but PassiveScalar, Test, Simple_Burn, Steady_Burn, LightTime, "
-            "BinaryProperties "
-            "are; remove the model");
+  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"DDT0\"/></Models>\n  <CFD>")),
+            "the type 'DDT0' is not available; remove the model, or use one of PassiveScalar, Test, Simple_Burn, "
+            "Steady_Burn, DDT1, LightTime, BinaryProperties");
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {

@@ -135,7 +135,7 @@ TEXTS = {
     "unclosed tag": ("<Uintah_specification>\n  <Time>\n", ":3:1", "found the end of the file while <Time> of "),
     "wrong root": ("<Uintah_spec>\n</Uintah_spec>\n", ":1:2", "Uintah_specification"),
     "tag given twice": (SOD.replace("<Time>", "<Time>\n    <maxTime>1</maxTime>"), ":15:6",
-                        "Time/maxTime: tag <maxTime> is given twice, on line 14 and on line 15; one is allowed"),
+                        "Time/maxTime: tag <maxTime> is given twice, on line 14 and on line 15; only one is allowed"),
     "missing section": (SOD[:SOD.index("  <Grid>")] + SOD[SOD.index("  </Grid>") + 10:], ":10:2",
                         "the section <Grid> is missing"),
     "missing value": (SOD.replace("<maxTime>0.2</maxTime>", ""), ":13:4", "Time: missing tag <maxTime> in <Time>"),

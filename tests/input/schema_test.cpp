@@ -189,13 +189,13 @@ TEST(Schema, SaysThatAnAttributeIsMissing) {
 
 TEST(Schema, SaysThatATagIsGivenTwice) {
   EXPECT_EQ(problemsOf("<cfl>0.1</cfl>\n\n<cfl>0.2</cfl>"),
-            Lines{"s.ups:4:2: gas/cfl: tag <cfl> is given twice, on line 2 and on line 4; one is allowed"});
+            Lines{"s.ups:4:2: gas/cfl: tag <cfl> is given twice, on line 2 and on line 4; only one is allowed"});
 }
 
 TEST(Schema, SaysThatTextIsNotAllowed) {
   EXPECT_EQ(problemsOf("oops"), Lines{"s.ups:1:24: gas: found text 'oops' in <gas>, where only tags are allowed"});
   EXPECT_EQ(problemsOf("<save label='a'>oops</save>"),
-            Lines{"s.ups:2:2: gas/save: text 'oops' in <save>, where none is allowed"});
+            Lines{"s.ups:2:2: gas/save: found text 'oops' in <save>, where none is allowed"});
 }
 
 TEST(Schema, SaysThatATagIsNotAllowedInAValue) {
@@ -265,9 +265,9 @@ TEST(Schema, RefusesWhatFunctionsDoNotLookAt) {
   EXPECT_EQ(problemsOfFlow("<speed>1</speed><model type='a'><b/></model><law c='d'/>"), Lines{});
   EXPECT_EQ(problemsOfFlow("<speed unit='m'><b/></speed>").size(), 2u);
   EXPECT_EQ(problemsOfFlow("<speed>1</speed>\n<speed>1</speed>"),
-            Lines{"s.ups:2:2: flow/speed: tag <speed> is given twice, on line 1 and on line 2; one is allowed"});
+            Lines{"s.ups:2:2: flow/speed: tag <speed> is given twice, on line 1 and on line 2; only one is allowed"});
   EXPECT_EQ(problemsOfFlow("<law/>\n<law/>"),
-            Lines{"s.ups:2:2: flow/law: tag <law> is given twice, on line 1 and on line 2; one is allowed"});
+            Lines{"s.ups:2:2: flow/law: tag <law> is given twice, on line 1 and on line 2; only one is allowed"});
   ASSERT_EQ(problemsOfFlow("<model type='a' kind='b'/>").size(), 1u);
   EXPECT_NE(problemsOfFlow("<model type='a' kind='b'/>")[0].find("unknown attribute 'kind' of <model>"),
             std::string::npos);

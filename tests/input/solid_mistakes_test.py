@@ -87,7 +87,7 @@ REFUSED = {
          "temperature_solve: is not available; nodes take the mean temperature of their particles"),
     "a body that does not fill its shape":
         (BILLET, ("<geom_object>", "<geom_object><volumeFraction>0.5</volumeFraction>"),
-         "volumeFraction: found '0.5', expected 1: a body fills its shape"),
+         "volumeFraction: found '0.5', expected 1: a body always fills its shape"),
     "a load curve with the number of another load":
         (BEAM, ("<Grid>", HEAT.replace("heat_flux", "pressure").replace("<time_point>", "<id>2</id><time_point>", 1)),
          "id: found '2', expected 1: loads are numbered in the order of the scene", "MPM/use_load_curves=true"),

@@ -118,7 +118,7 @@ class Program(unittest.TestCase):
                 with empty:
                     self.assertEqual(find_sus(), on_path)
                     os.environ["PATH"] = "/none"
-                    with self.assertRaisesRegex(tushar.SusError, "there is no sus: .* tools/run builds it"):
+                    with self.assertRaisesRegex(tushar.SusError, "sus was not found in .* tools/run builds it"):
                         find_sus()
 
 

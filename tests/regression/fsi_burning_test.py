@@ -144,7 +144,7 @@ class WrongScenes(RefusedSceneTest):
 
     def test_what_would_change_the_rate(self):
         self.assert_refused(SLAB.replace("<ICE>", "<ICE>\n<thin_walls>true</thin_walls>", 1),
-                            "ICE/thin_walls: is not available with a body that burns")
+                            "ICE/thin_walls: is not available with a burning body")
 
     def test_steps_are_explicit_whatever_the_scene_says(self):
         implicit = SLAB.replace("<ICE>", "<ICE>\n<ImplicitSolver/>", 1)
@@ -162,7 +162,7 @@ class WrongScenes(RefusedSceneTest):
 
     def test_one_body_burns(self):
         model = SLAB[SLAB.index("    <Model "):SLAB.index("  </Models>")]
-        self.assert_refused(SLAB.replace(model, 2 * model), "one body of a scene may burn")
+        self.assert_refused(SLAB.replace(model, 2 * model), "only one body of a scene can burn")
 
 
 if __name__ == "__main__":

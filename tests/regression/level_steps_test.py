@@ -157,7 +157,7 @@ class LevelSteps(FolderTest):
 
     def test_lists_that_need_one_step_for_all_levels_are_refused(self):
         """Each with its tag and its first task."""
-        for scene, task in (("ups/burgers/levels.ups", "burgers::correct reads the new c.predictedU beyond a patch"),
+        for scene, task in (("ups/burgers/levels.ups", "burgers::correct reads the new c.predictedU outside a patch"),
                             ("ups/solid/penetration_levels.ups", "uses particles (p."),
                             ("ups/heat/implicit_levels.ups", "needs all patches at once")):
             text = (ROOT / scene).read_text()

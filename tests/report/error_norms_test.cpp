@@ -61,7 +61,9 @@ TEST(ErrorNorms, ThatAreNotFiniteAreNamed) {
     const auto sentence = unmeasurable({normsOf(error, normOf(1, 1).values()), normsOf(error, norm.values())});
 
     ASSERT_TRUE(sentence);
-    EXPECT_EQ(*sentence, "no errors at the end of the run: the L1 norm of the error of density, cell, is not finite");
+    EXPECT_EQ(*sentence,
+              "the report has no errors at the end of the run, because the L1 norm of the error of density, cell, is "
+              "not finite");
   }
 }
 

@@ -72,7 +72,7 @@ TEST(DryRun, SaysWhatItDoesNotCountOfGridsOfSeveralLevels) {
   const DryRun stays, adapts{.isAdaptive = true}, steps{.hasSmallerSteps = true};
   EXPECT_FALSE(says(stays, "criteria refine it"));
   EXPECT_TRUE(says(adapts, "this is the grid before criteria refine it"));
-  EXPECT_FALSE(says(adapts, "of all levels once"));
+  EXPECT_FALSE(says(adapts, "for one step of all levels"));
   EXPECT_TRUE(says(steps, "for one step of all levels; finer levels take several steps"));
 }
 

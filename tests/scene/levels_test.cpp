@@ -174,7 +174,7 @@ TEST(Blocks, ThatCannotBeGetASentence) {
             (Strings{"AMR/Regridder/min_patch_size: found [[10,1,1],[20,1,1]], expected the same for all levels: a "
                      "block is refined into blocks with the same number of cells"}));
   EXPECT_EQ(refused(along("1048576"), "<max_levels>16</max_levels>"),
-            (Strings{"with AMR/Regridder/max_levels: 16 levels there would be 3.44e+10 cells in 2.15e+09 blocks along "
+            (Strings{"AMR/Regridder/max_levels: with 16 levels there would be 3.44e+10 cells in 2.15e+09 blocks along "
                      "x; at most 2.15e+09 cells and 1048576 blocks are possible"}));
 }
 

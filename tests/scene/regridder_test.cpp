@@ -48,7 +48,7 @@ TEST(Regridder, RefusesOtherRatios) {
                              criteria))
                 .problems,
             (Strings{"AMR/Regridder/max_levels: found 12, which corresponds to 23 levels of ratio 2 because of "
-                     "<cell_refinement_ratio>; at most 1 are possible6"}));
+                     "<cell_refinement_ratio>; at most 16 are possible"}));
   EXPECT_EQ(read(square, amr("<simple_refinement_ratio>4</simple_refinement_ratio>")).problems,
             (Strings{"AMR/Regridder/simple_refinement_ratio: found '4', expected 2: give one more level instead"}));
 }

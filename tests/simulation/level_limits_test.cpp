@@ -92,7 +92,7 @@ TEST(LevelLimits, RefuseTasksThatSeeAllPatchesOfMaterials) {
   ofNone.perPatch("flow", flow, computes(value), keepsFlux(value));
   ofGas.perMaterial("flow", flowOfGas, gases, computes(value), keepsFlux(value));
   EXPECT_EQ(problemsOf(solve), "");
-  EXPECT_TRUE(problemsOf(solveFar).starts_with("a.ups:7:3: task solve reads c.value up to 3 cells beyond a patch"));
+  EXPECT_TRUE(problemsOf(solveFar).starts_with("a.ups:7:3: task solve reads c.value up to 3 cells outside a patch"));
   EXPECT_EQ(problemsOf(solveGas), "a.ups:7:3: task solve needs all patches at once, and hence a grid of one level\n");
   EXPECT_EQ(problemsOf(ofNone) + problemsOf(ofGas), "");
   EXPECT_EQ(problemsOf(solveGas, 1) + problemsOf(ofGas, 1), "");

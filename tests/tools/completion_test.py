@@ -83,7 +83,7 @@ class Completion(unittest.TestCase):
         self.assertGreater(len(paths), 40)
         sets = [word for path in paths for word in ("--set", path + "=nonsense")]
         said = subprocess.run([SUS, "-check", scene, *sets], cwd=ROOT, capture_output=True, text=True).stderr
-        for wrong in ("say which one", "expected PATH=VALUE", "expected Tag, Tag[2]"):
+        for wrong in ("match; choose one", "expected PATH=VALUE", "expected Tag, Tag[2]"):
             self.assertNotIn(wrong, said)
 
     def test_paths_of_a_run(self):

@@ -83,7 +83,7 @@ class Scenes(InFolder):
         for words, code, sentence in ((("--movie", "film.avi"), 1, "must end in .mp4 or .gif"),
                                       (("--movie", "no/film.gif"), 1, "there is no folder 'no'"),
                                       (("--cmap", "virdis"), 1, "did you mean 'viridis'?"),
-                                      (("--follow",), 2, "--follow draws the archive of a run that goes on")):
+                                      (("--follow",), 2, "--follow draws the archive of a run in progress")):
             found, _, err = self.plot(SOD, *words, sus=self.dying())
             self.assertEqual(found, code, err)
             self.assertIn(sentence, err)

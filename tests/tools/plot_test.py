@@ -111,7 +111,7 @@ class Values(WithArchives):
                          Archive(self.disks)[-1].materials["left"])
         with self.assertRaisesRegex(ArchiveError, r"no material 'lft' \(did you mean 'left'"):
             Figure(Archive(self.disks), view=View(material="lft"))
-        with self.assertRaisesRegex(ArchiveError, "holds no 'p.density' of material 'none'"):
+        with self.assertRaisesRegex(ArchiveError, "contains no 'p.density' of material 'none'"):
             Figure(Archive(self.disks), variables=["p.density"], view=View(material="none"))
 
     def test_a_component_of_a_vector(self):
@@ -291,10 +291,10 @@ class Options(WithArchives):
                                         (("--cmap", "virdis"), 1, "no colour map 'virdis' (did you mean 'viridis'?)"),
                                         (("--index", "9"), 1, "no output 9"),
                                         (("--time", "nan"), 2, "found 'nan', expected a number"),
-                                        (("--slice", "x=inf"), 2, "found 'x=inf', expected an axis and a place"),
+                                        (("--slice", "x=inf"), 2, "found 'x=inf', expected an axis and a coordinate"),
                                         (("--slice", "x=0", "--slice", "x=1"), 2, "two slices at x; keep one"),
                                         (("--movie", "a.gif", "--out", "a.png"), 2, "--movie a film: keep one"),
-                                        (("--movie", ""), 1, "'' is no film"),
+                                        (("--movie", ""), 1, "'' is not a film"),
                                         (("c.temperature.x",), 1, "did you mean 'c.temperature'?"),
                                         (("--movie", "a.gif", "--index", "1"), 2, "not allowed with argument")):
             done = self.plot(self.plate, *options)

@@ -233,8 +233,8 @@ class Command(WithArchives):
         self.assertIn("p.density [kg/m^3]", run("uda", self.disks, "--material", "left", "p.density", "--stats")[1])
 
     def test_options_that_choose_nothing_are_told(self):
-        for words, code, sentence in (((self.sod, "--csv", "x.csv"), 2, "name a variable"),
-                                      ((self.sod, "--index", "0"), 2, "name a variable"),
+        for words, code, sentence in (((self.sod, "--csv", "x.csv"), 2, "give a variable"),
+                                      ((self.sod, "--index", "0"), 2, "give a variable"),
                                       ((self.sod, "p.density", "--time", "nan"), 2, "found 'nan', expected a number"),
                                       ((self.sod, "KineticEnergy", "--index", "1"), 1, "printed over all times"),
                                       ((), 2, "the following arguments are required: archive\n")):

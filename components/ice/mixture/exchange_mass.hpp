@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "components/ice/mixture/programmed_burn.hpp"
 #include "components/ice/mixture/tasks.hpp"
 
@@ -44,13 +46,19 @@ void burnByProgram(const Patch& patch, const Gases&, const BurningGas& one, doub
                    const std::vector<euler::ChangedGas>& held) {
   const Level& level = patch.level();
   const euler::ChangedGas &from = held[one.from], &to = held[one.to];
-  double volume = 1;
-  for (int axis = 0; axis < 3; ++axis) volume *= level.cellWidth(axis);
+  double product = 1;  // of the widths of cells along the axes with an extent
+  int axes = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (const double wide = level.cellWidth(axis); wide > 0) {
+      product *= wide;
+      ++axes;
+    }
+  const double width = axes == 3 ? std::cbrt(product) : std::pow(product, 1.0 / axes);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double mass = from.mass[cell];
     if (!(mass > 0) || !one.burn.takesCell(from.share[cell] + to.share[cell])) return;
     const Vec3 point = level.expandPoint<D>(level.cellCentre<D>(cell));
-    const double reached = one.burn.reached(point, time, std::cbrt(volume)) * (mass + to.mass[cell]);
+    const double reached = one.burn.reached(point, time, width) * (mass + to.mass[cell]);
     const double burned = std::clamp(reached - to.mass[cell], 0.0, mass), share = burned / mass * from.share[cell];
     from.mass[cell] = burned < mass ? mass - burned : 0;
     to.mass[cell] += burned;

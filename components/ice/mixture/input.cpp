@@ -134,10 +134,6 @@ void checkMixture(const std::vector<GasMaterial>& materials, const Element& root
     if (!scene.binary && !names.insert(scene.mixture[k].name).second)
       diagnostics.error(elements[k], fmt::format("the name '{}' is given twice", scene.mixture[k].name));
   }
-  if (scene.implicit && solids > 0)
-    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
-                      "is not available with several gases beside bodies: remove it, or run with --set "
-                      "CFD/ICE/explicit=true");
   if (!scene.scalars.empty())
     diagnostics.error(scene.scalars.front().where, "Models/Model",
                       "is not available with several gases; remove it, or keep one gas");

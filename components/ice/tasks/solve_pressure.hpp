@@ -149,7 +149,7 @@ void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, 
     const CellView<double>& change = changes.emplace_back(fresh[p].change);
     forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
       change[cell] = isEmpty(p, cell) ? 0 : guess[p][cell] - old(p, cell);
-      if (!isEmpty(p, cell)) greatest = std::max(greatest, std::abs(scaleOf(p, cell)));
+      greatest = std::max(greatest, std::abs(scaleOf(p, cell)));
     });
     first.emplace_back(change.values(), change.stored(), change.box());
   }
@@ -165,16 +165,6 @@ void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, 
                [&](const Index<D>& cell) { fresh[p].atEnd[cell] = old(p, cell) + changes[p][cell]; });
   totals.iterations.add(outcome.krylovIterations);
   solvers::addTimes(outcome, totals.assembly, totals.preconditioner, totals.solution);
-}
-
-/// The same for equations in Pa.
-template <int D, int K, class IsEmpty, class EquationOf>
-void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, const IceSettings& settings,
-                    const std::vector<FaceFlow<D, K>>& flows, const std::vector<CellView<const double>>& guess,
-                    const std::vector<PressureViews>& fresh, const SolveTotals& totals, IsEmpty&& isEmpty,
-                    EquationOf&& equationOf) {
-  solveForChange<D>(patches, ranks, settings, flows, guess, fresh, totals, isEmpty, equationOf,
-                    [&](std::size_t p, const Index<D>& cell) { return stiffPressureIn(flows[p], cell); });
 }
 
 /// Solves for the change of pressure in the step [Pa], from the state before it, and computes the pressure at the end.

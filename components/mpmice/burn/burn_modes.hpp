@@ -120,7 +120,7 @@ class BurnModes {
         fmt::format("the body detonates: its pressure is {:.6g} Pa in the cell at ({:g}, {:g}, {:g}) m, "
                     "above <ThresholdPressureJWL>; this DDT1 models only deflagration",
                     pressure, at[0], at[1], at[2]),
-        "", "c.burnPressure", level_.cellNumber<D>(cell));
+        "weaker confinement, or a shorter <maxTime>", "c.burnPressure", level_.cellNumber<D>(cell));
   }
   struct Around {
     double product = 0;  ///< pressure, Pa
@@ -227,7 +227,7 @@ class BurnModes {
   /// Between the way from a cell beside and the normal of the surface; 0 where that has none.
   double cosineOf(const Index<D>& cell, const Index<D>& from) const {
     const Vec<D> way = level_.cellCentre<D>(cell) - level_.cellCentre<D>(from);
-    return std::max(0.0, surface_.space().normal(cell).dot(way) / way.norm());
+    return std::abs(surface_.space().normal(cell).dot(way)) / way.norm();
   }
 
   const Level& level_;

@@ -71,9 +71,7 @@ void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Materia
     addWalls<D>(exchange, near, block, level.cellVolume() / dt, fresh.held, offered, power);
   });
   refuseFarGas<D>(patch, settings, near, cells, fresh.held);
-  if (!(most <= 1))
-    throw NumericalError(fmt::format("gas would cross {:.3g} cells in a step of {:.3g} s", most, dt),
-                         "a smaller CFD/cfl", "c.velocity");
+  ice::refuseCrossing(most, dt);
 }
 
 /// dt = cfl / s as in `ice`, s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2, by the pressure of the gas.

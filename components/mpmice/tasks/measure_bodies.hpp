@@ -3,6 +3,7 @@
 #include "components/mpm/solid/material.hpp"
 #include "components/mpmice/gas_in_cells.hpp"
 #include "components/mpmice/particle_box.hpp"
+#include "core/data/vanished.hpp"
 
 namespace tushar::mpmice {
 
@@ -163,6 +164,7 @@ void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&,
   swept.fill(Vec<D>::Zero());
   for (const MovedBoxes<D>& boxes : materials)
     forEachParticle<D>(level, boxes.before.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
+      if (boxes.after.x[p][0] == data::removed) return;  // its space becomes free, as that of a burnt particle
       const ParticleBox<D> before = boxes.before.of(frame, p);
       ParticleBox<D> after = boxes.after.of(frame, p);
       after.middle = withinReach<D>(after.middle, before.edges.cwiseMax(after.edges));

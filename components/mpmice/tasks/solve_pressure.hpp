@@ -186,11 +186,15 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
   ice::solveForChange<D>(
       patches, ranks, *settings.implicit, flows, guess, fresh, totals,
       [&](std::size_t p, const Index<D>& cell) {
-        const bool wasEmpty = std::abs(guess[p][cell] - pressureOfNothing) < 1e-12;  // the guess is none then
+        const double roundOff = 1e-12 * (pressureOfNothing + settings.gas.gas.pInfinity);
+        const bool wasEmpty = std::abs(guess[p][cell] - pressureOfNothing) < roundOff;
         return spaces[p].isEmpty(cell) || wasEmpty;
       },
       [&](std::size_t p, const Index<D>& cell) {
         return pressureEquationBeside<D>(flows[p], spaces[p], walls[p], cells[p].free[cell], cell, dt);
+      },
+      [&](std::size_t p, const Index<D>& cell) {
+        return spaces[p].isEmpty(cell) ? 0.0 : ice::stiffPressureIn(flows[p], cell);
       });
 }
 

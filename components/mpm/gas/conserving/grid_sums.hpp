@@ -61,9 +61,11 @@ class GridSums : public GridFields<D, N> {
     const Pair next = field + Lanes::count;
     CarefulSum<Lanes> low{Lanes::at(field.sum), Lanes::at(field.lost)}, high{Lanes::at(next.sum), Lanes::at(next.lost)};
     const auto addShifted = [&]<int Shift>(std::integral_constant<int, Shift>) {
-      if (Shift >= end) return;
-      low.add(window<Lanes::count - Shift>(0, brought[Shift]));
-      high.add(window<Lanes::count - Shift>(brought[Shift], 0));
+      if constexpr (Shift <= Lanes::count) {
+        if (Shift >= end) return;
+        low.add(window<Lanes::count - Shift>(0, brought[Shift]));
+        high.add(window<Lanes::count - Shift>(brought[Shift], 0));
+      }
     };
     low.add(brought[0]);
     (addShifted(std::integral_constant<int, K + 1>()), ...);
@@ -71,6 +73,13 @@ class GridSums : public GridFields<D, N> {
     low.lost.copyTo(field.lost);
     high.sum.copyTo(next.sum);
     high.lost.copyTo(next.lost);
+    for (int shift = Lanes::count + 1; shift < end; ++shift) {  // beyond both registers, if these have few lanes
+      const Pair at = field + shift;
+      CarefulSum<Lanes> far{Lanes::at(at.sum), Lanes::at(at.lost)};
+      far.add(brought[shift]);
+      far.sum.copyTo(at.sum);
+      far.lost.copyTo(at.lost);
+    }
   }
 
   std::vector<double> lost_;

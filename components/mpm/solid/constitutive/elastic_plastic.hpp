@@ -149,10 +149,11 @@ struct ElasticPlastic {
     return temperature > compressionOf(deformation.determinant(), -stress.trace() / 3, temperature).meltTemperature;
   }
   bool isUnstable(const Deformation& d, const Matrix3& stress, const State& state) const {
-    const FlowState end = flowStateOf(compressionOf(d, stress), state, d.timeStep);
+    if (std::holds_alternative<NoStabilityCheck>(stability)) return false;
+    FlowState end = flowStateOf(compressionOf(d, stress), state, d.timeStep);
+    end.plasticStrainRate = state.plasticStrainRate;
     if (!(state.plasticStrainRate > 0) || isFluid(end)) return false;
-    const double hardening = std::visit(
-        [&]<class Flow>(const Flow& model) { return RadialReturn<Flow>(model, end, d.timeStep).hardening(end); }, flow);
+    const double hardening = std::visit([&](const auto& model) { return hardeningAtRate(model, end); }, flow);
     const PlasticTangent tangent{bulkModulus, end.shearModulus, hardening};
     const Matrix3 rate = 0.5 * (d.velocityGradient + d.velocityGradient.transpose());
     return std::visit([&](const auto& check) { return check.fails(tangent, stress, rate); }, stability);

@@ -199,11 +199,11 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
   const Element where = root.child("MaterialProperties").value();
   for (const Material& material : problem.materials)
     if (material.erosion.acts() || !onlyCounts(material.damage))
-      diagnostics.error(
-          where, "'" + material.name +
-                     "' may lose strength, which needs <time_integrator> explicit; implicit steps support only "
-                     "damage without loss of strength: <damage_model> hancock_mackenzie or johnson_cook, and no "
-                     "<erosion>");
+      diagnostics.error(where,
+                        "'" + material.name +
+                            "' may lose strength, which needs <time_integrator> explicit; implicit steps support only "
+                            "damage without loss of strength: <damage_model> hancock_mackenzie or johnson_cook, and no "
+                            "<erosion>");
   for (const Contact& contact : problem.contacts) {
     if (contact.type == Contact::Type::friction || contact.usesPlanes())
       diagnostics.error(

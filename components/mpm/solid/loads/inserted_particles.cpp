@@ -34,10 +34,9 @@ std::vector<double> numbersOf(const std::string& line, const Location& where, Di
 
 std::vector<Insertion> readInsertions(const std::string& path, const Location& named, Diagnostics& diagnostics) {
   std::ifstream file(path);
-  if (!file) {
-    diagnostics.error(
-        named, "MPM/InsertParticlesFile",
-        fmt::format("'{}' cannot be read{}", path, std::filesystem::exists(path) ? "" : ": there is no such file"));
+  if (const bool isFolder = std::filesystem::is_directory(path); !file || isFolder) {
+    const char* why = isFolder ? ": it is a folder" : std::filesystem::exists(path) ? "" : ": there is no such file";
+    diagnostics.error(named, "MPM/InsertParticlesFile", fmt::format("'{}' cannot be read{}", path, why));
     return {};
   }
   std::vector<Insertion> insertions;

@@ -179,6 +179,23 @@ TEST(ZerilliArmstrong, GivesTheYieldStressOfCopper) {
 
 /// Rudnicki & Rice, J. Mech. Phys. Solids 23 (1975) 371: bands form at h = -(1 + nu)/2 N^2 G, N the middle principal
 /// stress over the shear stress, here 0 and 3^(-1/2); H = 3 h.
+TEST(ZerilliArmstrong, HardensAtAConstantRateAsItsFormulaSays) {
+  ZerilliArmstrong model;
+  model.c0 = 65e6;
+  model.b0 = 890e6;
+  model.alpha0 = 0.0028;
+  model.alpha1 = 0.000115;
+  model.k = 100e6;
+  model.n = 0.5;
+  FlowState state{};
+  state.plasticStrain = 0.1;
+  state.plasticStrainRate = 1e3;
+  state.temperature = 300;
+  const double fading = std::exp(-(0.0028 - 0.000115 * std::log(1e3)) * 300);
+  const double exact = 0.5 * (890e6 * fading + 100e6) / std::sqrt(0.1);
+  EXPECT_NEAR(hardeningAtRate(model, state), exact, 1e-6 * exact);
+}
+
 TEST(StabilityCheck, ShearBandsFormAtTheHardeningOfRudnickiAndRice) {
   const double bulk = 2, shear = 1, nu = (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear));
   const double small = 1e-8;  // of stresses: their effect on the threshold is of its size or less

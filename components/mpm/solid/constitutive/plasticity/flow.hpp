@@ -151,6 +151,22 @@ static_assert(FlowRule<ZerilliArmstrong>);
 using FlowModel = std::variant<IsotropicHardening, JohnsonCook, MechanicalThreshold, PrestonTonksWallace,
                                SteinbergCochranGuinan, ZerilliArmstrong>;
 
+/// d sigma_y / d e_p of a flow model at a constant rate, Pa.
+template <FlowRule Flow>
+double hardeningAtRate(const Flow& flow, const FlowState& state) {
+  if constexpr (providesCapability<Flow, capability::Hardening>) {
+    return flow.hardening(state);
+  } else {
+    const double h = std::min(1e-5 * std::max(state.plasticStrain, 1e-6), 0.5 * state.plasticStrain);
+    const auto at = [&](double more) {
+      FlowState moved = state;
+      moved.plasticStrain += more;
+      return flow.flowStress(moved);
+    };
+    return h > 0 ? (at(h) - at(-h)) / (2 * h) : 0;
+  }
+}
+
 /// A radial return to the yield surface of a flow model, in a step of `timeStep` s.
 template <FlowRule Flow>
 class RadialReturn {

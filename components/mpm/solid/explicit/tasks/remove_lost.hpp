@@ -52,37 +52,37 @@ struct BetweenPlanes {
       if (level.isSymmetry(d, 1, material)) upper[d] = level.nodePosition(d, level.cells().upper[d]);
     }
   }
-  bool contains(const Vec<D>& x) const {
-    return (x.array() >= lower.array()).all() && (x.array() <= upper.array()).all();
-  }
+  /// A position that is not a number counts as inside: it is an error of its own, which the relocation reports.
+  bool contains(const Vec<D>& x) const { return containAll(&x, 1); }
   /// Whether all of `count` positions are inside.
   bool containAll(const Vec<D>* x, int count) const {
     bool inside = true;
     for (int k = 0; k < count; ++k)
-      for (int d = 0; d < D; ++d) inside &= (x[k][d] >= lower[d]) & (x[k][d] <= upper[d]);
+      for (int d = 0; d < D; ++d) inside &= !(x[k][d] < lower[d]) & !(x[k][d] > upper[d]);
     return inside;
   }
 };
 
-/// Removes the particles of a cell that the step turns inside out, det F <= 0, or throws through a symmetry plane, as
+/// In a cell where a wave has no speed or a particle is outside the grid: removes the particles that the step turns
+/// inside out, det F <= 0, or throws through a symmetry plane, as
 /// finite elements with negative Jacobians are deleted in explicit codes. Returns the waves of the others; `none` has
 /// none. Throws NumericalError if particles cannot be removed, or if the wave speed of another is undefined.
 template <int D>
 CrossingRate<D> withoutLost(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
                             const data::ParticleRange& range, const CrossingRate<D>& none,
                             const BetweenPlanes<D>& space, const double* waveSpeed) {
-  const NumericalError error = withoutWaveSpeed<D>(level, u, cell, range);
   CrossingRate<D> rate = none;
   for (int k = 0; k < range.size(); ++k) {
     const int p = range.first + k;
-    if (u.deformation[p].determinant() > 0 && (!u.newX || space.contains((*u.newX)[p])))
+    const bool isInverted = u.deformation[p].determinant() <= 0;
+    if (!isInverted && (!u.newX || space.contains((*u.newX)[p])))
       rate.add(waveSpeed[k], u.velocity[p]);
     else if (u.newX)
       removeParticle<D>(u, p);
     else
-      throw error;
+      throw withoutWaveSpeed<D>(level, u, cell, range);
   }
-  if (!rate.isKnown()) throw error;
+  if (!rate.isKnown()) throw withoutWaveSpeed<D>(level, u, cell, range);
   return rate;
 }
 
