@@ -144,7 +144,8 @@ class SilentMistakes(unittest.TestCase):
         for scene in ("euler/sod", "mpm/sod", "mpm/sod_conserving"):
             self.assert_refused(run(f"ups/{scene}.ups", riemann + "gamma=1.9", outputs=True),
                                 "DataAnalysis/Module: gamma: found 1.9, but the gas of the scene has 1.4")
-        self.assert_refused(run("ups/euler/sod.ups", riemann + "normal=[0,1,0]", outputs=True), "this grid does not use y")
+        self.assert_refused(run("ups/euler/sod.ups", riemann + "normal=[0,1,0]", outputs=True),
+                            "this grid does not use y")
         self.assert_refused(run("ups/euler/sod.ups", riemann + "diaphragm=5", outputs=True),
                             "diaphragm: 5 m along the normal is outside the grid, which extends from 0 to 1 m")
         self.assert_refused(run("ups/euler/smooth_wave.ups", "Grid/Level/Box/resolution=[1,50,1]", outputs=True),
