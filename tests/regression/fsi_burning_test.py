@@ -155,7 +155,7 @@ class WrongScenes(RefusedSceneTest):
 
     def test_what_burns_has_a_specific_heat(self):
         self.assert_refused(SLAB.replace("<specific_heat>1</specific_heat>", ""),
-                            "missing tag <specific_heat>: it burns")
+                            "missing tag <specific_heat>: the body burns")
 
     def test_a_model_that_is_not_there(self):
         self.assert_refused(SLAB.replace("Simple_Burn", "Complex_Burn"), "the type 'Complex_Burn' is not available")
