@@ -52,7 +52,7 @@ class PlacedBodies(unittest.TestCase):
         self.assertEqual(report["fingerprint"], expected)
 
     def test_what_cannot_be_is_refused(self):
-        for change, sentence in ((BOXES + "affineTransformation_b=[1.1,0.2,0]", "outside of the grid"),
+        for change, sentence in ((BOXES + "affineTransformation_b=[1.1,0.2,0]", "outside the grid"),
                                  (BOXES + "affineTransformation_A0=[-0.8,0.6,0]", "determinant of A must be positive")):
             result = run(SCENE, change)
             self.assertEqual(result.code, 3)
