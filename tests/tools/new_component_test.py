@@ -70,7 +70,7 @@ class NewComponent(unittest.TestCase):
         before = sorted(self.copy.rglob("*"))
         for name, sentence in (("heat", "components/heat exists already"), ("9lives", "cannot be the name of a folder"),
                                ("class", "cannot be the name of a folder"), ("grid", "tests/grid exists already"),
-                               ("simulation", "tests/simulation exists already"), ("std", "use the name std already"),
+                               ("simulation", "tests/simulation exists already"), ("std", "already use the name std"),
                                ("patch", "use the name Patch already"), ("settings", "use the name Settings already")):
             done = subprocess.run([self.copy / "tools/new_component", name], capture_output=True, text=True)
             self.assertNotEqual(done.returncode, 0)
