@@ -71,7 +71,7 @@ class NewComponent(unittest.TestCase):
         for name, sentence in (("heat", "components/heat exists already"), ("9lives", "cannot be the name of a folder"),
                                ("class", "cannot be the name of a folder"), ("grid", "tests/grid exists already"),
                                ("simulation", "tests/simulation exists already"), ("std", "already use the name std"),
-                               ("patch", "use the name Patch already"), ("settings", "use the name Settings already")):
+                               ("patch", "already use the name Patch"), ("settings", "already use the name Settings")):
             done = subprocess.run([self.copy / "tools/new_component", name], capture_output=True, text=True)
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(sentence, done.stderr)
