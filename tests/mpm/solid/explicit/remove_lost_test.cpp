@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "components/mpm/solid/explicit/tasks/remove_lost.hpp"
+#include "tests/mpm/solid/explicit/bare_update.hpp"
 
 namespace tushar::mpm::solid {
 namespace {
@@ -31,27 +32,15 @@ struct Cell {
     const auto view = [&](auto& values) {
       return ParticleView<typename std::decay_t<decltype(values)>::value_type>{values.data(), set, level.cells()};
     };
-    const StateUpdate<2> update{.record = {nullptr, level.nodes()},
-                                .x = {x.data(), set, level.cells()},
-                                .size = {},
-                                .velocity = {velocity.data(), set, level.cells()},
-                                .mass = {mass.data(), set, level.cells()},
-                                .oldDeformation = {before.data(), set, level.cells()},
-                                .temperature = {},
-                                .oldVolume = ParticleView<const double>{oldVolume.data(), set, level.cells()},
-                                .oldStress = {},
-                                .oldState = {},
-                                .localized = {},
-                                .deformation = view(deformation),
-                                .volume = view(volume),
-                                .stress = {},
-                                .state = {},
-                                .viscosity = {},
-                                .strainEnergy = {},
-                                .temperatureChange = {},
-                                .velocityGradient = {},
-                                .stableTimeStep = {nullptr, level.cells()},
-                                .newX = canRemove ? OptionalView<Vec<2>>(view(newX)) : OptionalView<Vec<2>>{}};
+    StateUpdate<2> update = bareUpdate(set, level);
+    update.x = {x.data(), set, level.cells()};
+    update.velocity = {velocity.data(), set, level.cells()};
+    update.mass = {mass.data(), set, level.cells()};
+    update.oldDeformation = {before.data(), set, level.cells()};
+    update.oldVolume = ParticleView<const double>{oldVolume.data(), set, level.cells()};
+    update.deformation = view(deformation);
+    update.volume = view(volume);
+    if (canRemove) update.newX = view(newX);
     const CrossingRate<2> none(level);
     const BetweenPlanes<2> space(level, 0);
     return withoutLost<2>(level, update, Index<2>{}, {0, 3}, none, space, waveSpeed.data()).time();
@@ -88,6 +77,21 @@ TEST(RemoveLost, StopsTheRunIfAParticleIsSoundButItsWaveHasNoSpeed) {
   cell.deformation[1] = Matrix3::Identity();
 
   EXPECT_THROW(cell.remove(), NumericalError);
+}
+
+TEST(RemoveLost, LeavesWhatIsNotANumberToThoseWhoReportIt) {
+  Cell cell;
+  cell.deformation[1] = Matrix3::Identity();
+  cell.waveSpeed[1] = 3;
+  cell.newX[0][0] = std::nan("");
+  cell.newX[2][0] = -1e-9;
+  cell.remove();
+  EXPECT_TRUE(std::isnan(cell.newX[0][0]));
+  EXPECT_EQ(cell.newX[2][0], data::removed);
+
+  Cell broken;
+  broken.deformation[1](0, 0) = std::nan("");
+  EXPECT_THROW(broken.remove(), NumericalError);
 }
 
 TEST(RemoveLost, RemovesWhatIsThrownThroughASymmetryPlaneButNotWhatLeavesThroughAFreeSide) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "components/mpm/solid/explicit/tasks/share_volume.hpp"
+#include "tests/mpm/solid/explicit/bare_update.hpp"
 
 namespace tushar::mpm::solid {
 namespace {
@@ -30,29 +31,13 @@ struct Cell {
   void share() {
     set.reset(grid.patches().front(), 0);
     set.setOwned(4);
-    const ParticleView<const Vec<2>> none{nullptr, set, level.cells()};
     for (std::size_t p = 0; p < 4; ++p) volume[p] = mass[p] * before[p].determinant();
-    const StateUpdate<2> update{.record = {nullptr, level.nodes()},
-                                .x = none,
-                                .size = {},
-                                .velocity = none,
-                                .mass = {mass.data(), set, level.cells()},
-                                .oldDeformation = {before.data(), set, level.cells()},
-                                .temperature = {},
-                                .oldVolume = {},
-                                .oldStress = {},
-                                .oldState = {},
-                                .localized = ParticleView<const int>{localized.data(), set, level.cells()},
-                                .deformation = {deformation.data(), set, level.cells()},
-                                .volume = ParticleView<double>{volume.data(), set, level.cells()},
-                                .stress = {},
-                                .state = {},
-                                .viscosity = {},
-                                .strainEnergy = {},
-                                .temperatureChange = {},
-                                .velocityGradient = {},
-                                .stableTimeStep = {nullptr, level.cells()},
-                                .newX = {}};
+    StateUpdate<2> update = bareUpdate(set, level);
+    update.mass = {mass.data(), set, level.cells()};
+    update.oldDeformation = {before.data(), set, level.cells()};
+    update.localized = ParticleView<const int>{localized.data(), set, level.cells()};
+    update.deformation = {deformation.data(), set, level.cells()};
+    update.volume = ParticleView<double>{volume.data(), set, level.cells()};
     shareVolume<2>(dt, {0, 4}, update, gradient.data());
   }
 };
