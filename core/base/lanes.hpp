@@ -230,28 +230,14 @@ inline Lanes clamp(Lanes x, Lanes low, Lanes high) { return min(max(x, low), hig
 inline Lanes abs(Lanes x) {
   return Lanes::of([&](int lane) { return std::abs(x[lane]); });
 }
-inline Lanes floor(Lanes x) {
-  return Lanes::of([&](int lane) { return std::floor(x[lane]); });
-}
 inline Lanes nearbyint(Lanes x) {
   return Lanes::of([&](int lane) { return std::nearbyint(x[lane]); });
-}
-inline LaneIntegers truncate(Lanes x) {
-  LaneIntegers whole;
-  for (int lane = 0; lane < Lanes::count; ++lane) whole[lane] = static_cast<int>(x[lane]);
-  return whole;
 }
 inline Lanes widen(LaneIntegers whole) {
   return Lanes::of([&](int lane) { return static_cast<double>(whole[lane]); });
 }
 inline Lanes sqrt(Lanes x) {
   return Lanes::of([&](int lane) { return std::sqrt(x[lane]); });
-}
-/// Whether a condition is true in the first `count` lanes.
-inline bool all(Lanes::Mask mask, int count) {
-  bool holds = true;
-  for (int lane = 0; lane < count; ++lane) holds = holds && mask[lane] != 0;
-  return holds;
 }
 /// Whether a condition is true in every lane.
 inline bool all(Lanes::Mask mask) {
@@ -260,7 +246,9 @@ inline bool all(Lanes::Mask mask) {
 #elif defined(__AVX__)
   return _mm256_movemask_pd((__m256d)mask) == 0xF;
 #else
-  return all(mask, Lanes::count);
+  bool holds = true;
+  for (int lane = 0; lane < Lanes::count; ++lane) holds = holds && mask[lane] != 0;
+  return holds;
 #endif
 }
 /// The largest number in any lane.

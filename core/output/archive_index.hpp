@@ -27,7 +27,7 @@ class ArchiveIndex {
   std::vector<std::string> globals() const;
   /// Number of outputs, up to a step, in the text of an index.
   static std::size_t sizeOf(const std::string& text, int step) { return ArchiveIndex("", text, step).outputs_.size(); }
-  /// Why an archive cannot be read because its index has a newer format; empty if it can. Empty where it can.
+  /// Why an archive cannot be read because its index has a newer format; empty if it can.
   static std::string refusalOf(const std::string& text);
   /// The name of a variable, from that of its datasets, in which some characters may be replaced.
   std::string labelOf(const std::string& nameInFile) const;

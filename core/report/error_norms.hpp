@@ -13,7 +13,6 @@ namespace tushar::report {
 ErrorNorms normsOf(const MeasuredError& error, const std::vector<double>& values);
 
 /// A message about the first norm that is not finite, since such a run has no valid errors; none if all are finite.
-/// None if all are.
 std::optional<std::string> unmeasurable(const std::vector<ErrorNorms>& errors);
 
 }  // namespace tushar::report

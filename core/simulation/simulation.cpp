@@ -33,13 +33,12 @@ std::string adviceNearCoarser(const RegridSettings& regrid) {
 void refuseLosses(RunState& run) {
   constexpr double most = 0.01;
   const long removed = run.scheduler.relocation().lost().removed;
-  if (removed == 0) return;
-  const long left = collect::particleCount(run.warehouse, run.materials());
-  if (static_cast<double>(removed) > most * static_cast<double>(removed + left))
+  const long all = removed + collect::particleCount(run.warehouse, run.materials());
+  if (static_cast<double>(removed) > most * static_cast<double>(all))
     throw NumericalError(
         fmt::format("{} of {} were removed, more than {:g} %: steps turned them inside out, or threw them through a "
                     "symmetry plane; try smaller steps",
-                    removed, counted(removed + left, "particle"), 100 * most),
+                    removed, counted(all, "particle"), 100 * most),
         "");
 }
 
@@ -187,7 +186,6 @@ void Simulation::loop() {
   report_.beginLoop(outputSeconds());
   try {
     while (!hasEnded()) step();
-    refuseLosses(run_);
   } catch (const NumericalError& error) {
     failure_ = advised(error);
   }
@@ -196,6 +194,7 @@ void Simulation::loop() {
 
 void Simulation::step() {
   TimeControl& time = run_.time;
+  const long removed = run_.scheduler.relocation().lost().removed;
   advance();
   level_steps_ ? report_.noteStep(level_steps_->steps()) : report_.noteStep();
   if (run_.progress.due()) run_.progress.live(time.step(), time.time(), time.delT(), run_.problem.time.maxTime);
@@ -207,10 +206,10 @@ void Simulation::step() {
   outputs_.throwIfFailed();
   if (run_.clock.takeSaveRequest()) saveNow();
   if (!hasEnded() && checkpoints_.isDue()) checkpoints_.write();
+  if (run_.scheduler.relocation().lost().removed > removed) refuseLosses(run_);
 }
 
 void Simulation::advance() {
-  refuseLosses(run_);
   TimeControl& time = run_.time;
   tasks::TaskGraph& graph = run_.phases.timeAdvance;
   run_.warehouse.beginStep();

@@ -26,7 +26,7 @@ struct Method {
   std::optional<ArtificialViscosity> viscosity;
   double minimumMassForAcceleration = 1e-199;     ///< kg
   std::optional<double> maximumParticleVelocity;  ///< m/s
-  bool removesLost = true;                        ///< particles turned inside out or thrown out; or stops
+  bool removesLost = true;                        ///< those turned inside out or thrown out; false: the run ends
   int minimumSubcyclesForF = 1;    ///< -n: F follows from the series of exp(L dt) up to the power n instead
   Vec3 commonSize = Vec3::Ones();  ///< size of all particles at the start, in cells, unless each keeps its own
   std::array<bool, 3> isThin{};    ///< axes x, y, z that the grid does not use

@@ -278,7 +278,7 @@ struct Melting {
 };
 
 /// Whether plastic flow in the step has lost its stability; `stress` (Pa) and `state` are those at its end, before
-/// damage. The particle fails then where the scene has an <erosion>.
+/// damage. The particle fails then where the scene has an <erosion>. `checksStability`: whether that is possible.
 struct Stability {
   struct Name {
     int isUnstable;
@@ -287,13 +287,14 @@ struct Stability {
   static consteval bool check() {
     constexpr bool isNamed = providesCapability<M, Stability>;
     constexpr bool isAbsent = requires { &Both<M, Name>::isUnstable; };
-    static_assert(isNamed || isAbsent, "a member isUnstable is used only if the model names capability::Stability");
+    static_assert(isNamed || isAbsent, "the member `isUnstable` is used only if the model lists capability::Stability");
     constexpr bool fits = requires {
       Member<M, bool, const Deformation&, const Matrix3&, const typename M::State&>{&M::isUnstable};
+      Member<M, bool>{&M::checksStability};
     };
     static_assert(!isNamed || fits,
-                  "capability::Stability needs the public member `bool isUnstable(const Deformation&, const Matrix3& "
-                  "stress, const State&) const`");
+                  "capability::Stability needs the public members `bool isUnstable(const Deformation&, const Matrix3& "
+                  "stress, const State&) const` and `bool checksStability() const`");
     return true;
   }
 };

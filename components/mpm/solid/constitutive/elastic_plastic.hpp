@@ -148,8 +148,8 @@ struct ElasticPlastic {
   bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const {
     return temperature > compressionOf(deformation.determinant(), -stress.trace() / 3, temperature).meltTemperature;
   }
+  bool checksStability() const { return !std::holds_alternative<NoStabilityCheck>(stability); }
   bool isUnstable(const Deformation& d, const Matrix3& stress, const State& state) const {
-    if (std::holds_alternative<NoStabilityCheck>(stability)) return false;
     FlowState end = flowStateOf(compressionOf(d, stress), state, d.timeStep);
     end.plasticStrainRate = state.plasticStrainRate;
     if (!(state.plasticStrainRate > 0) || isFluid(end)) return false;

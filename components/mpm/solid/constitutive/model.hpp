@@ -76,6 +76,8 @@ class Model {
   virtual bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const = 0;
   /// See capability::Stability; false for models without it.
   virtual bool isUnstable(const Deformation& d, const Matrix3& stress, const double* state) const = 0;
+  /// Whether isUnstable() can be true.
+  virtual bool checksStability() const = 0;
   /// Coefficients that replace those of the scene.
   virtual std::optional<ArtificialViscosity> ownViscosity() const = 0;
 
@@ -168,6 +170,12 @@ class ModelOf : public Model {
                   [[maybe_unused]] const double* state) const override {
     if constexpr (providesCapability<M, capability::Stability>)
       return model_.isUnstable(d, stress, load(state));
+    else
+      return false;
+  }
+  bool checksStability() const override {
+    if constexpr (providesCapability<M, capability::Stability>)
+      return model_.checksStability();
     else
       return false;
   }

@@ -38,8 +38,8 @@ const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
         .required("D5", &Self::d5, "1", "factor of the temperature")
         .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller values of damage are treated as 0",
                input::nonNegative())
-        .ignored("D0", "Uintah does not read it either")
-        .ignored("Dc", "Uintah does not read it either");
+        .ignored("D0", "Uintah does not use it either")
+        .ignored("Dc", "Uintah does not use it either");
     declareStart(tags);
     return tags;
   }();

@@ -301,7 +301,7 @@ void refuseFlat(const Level& level, const Location& where) {
                        "needs a grid in three dimensions: more than one cell along x, y and z"}});
 }
 
-/// Throws InputError, at the place of <MPM>, if particles would enter from beyond an axis that the grid leaves out.
+/// Throws InputError, at the place of <MPM>, if particles would move along an axis that the grid does not use.
 void refuseShifts(const Level& level, const std::vector<Insertion>& insertions, const Location& where) {
   std::array<bool, 3> isThin{true, true, true};
   for (int d = 0; d < level.dimension(); ++d) isThin[level.axis(d)] = false;

@@ -80,7 +80,7 @@ struct DamageGrowth {
 
 /// Whether the plastic flow of a particle has lost its stability in the step; its stress is that before damage.
 inline bool isUnstable(const Material& material, int p, int stateSize, double dt, const DamageGrowth& d) {
-  if (!material.erosion.acts() || !d.state) return false;
+  if (!material.erosion.acts() || !d.state || !material.model->checksStability()) return false;
   const Matrix3& f = d.deformation[p];
   const Matrix3 velocityGradient = (f * d.oldDeformation[p].inverse() - Matrix3::Identity()) / dt;
   return material.model->isUnstable({f, d.oldDeformation[p], velocityGradient, dt, d.temperature[p]}, d.stress[p],

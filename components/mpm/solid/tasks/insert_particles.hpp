@@ -3,7 +3,6 @@
 #include "components/mpm/solid/loads/inserted_particles.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "core/core.hpp"
-#include "core/data/vanished.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -17,7 +16,7 @@ void insertParticles(const Patch& patch, const Material&, const std::vector<Inse
     if (!insertion.isIn(time, dt)) continue;
     const Vec<D> shift = patch.level().reduce<D>(insertion.shift), given = patch.level().reduce<D>(insertion.velocity);
     for (int p = 0; p < x.owned(); ++p) {
-      if (color[p] != insertion.color || x[p][0] == data::removed) continue;
+      if (color[p] != insertion.color) continue;
       x[p] += shift;
       velocity[p] = given;
     }

@@ -3,6 +3,8 @@
 #include "components/mpm/particles/drawn.hpp"
 #include "components/mpm/solid/damage/damage.hpp"
 #include "components/mpm/solid/damage/erosion.hpp"
+#include "components/mpm/solid/tasks/damage.hpp"
+#include "tests/mpm/solid/constitutive/example_models.hpp"
 #include "tests/mpm/solid/constitutive/material_point.hpp"
 
 namespace tushar::mpm::solid::testing {
@@ -226,6 +228,51 @@ TEST(Erosion, KeepsTheVolumeOfADeformationThatItDoesNotStop) {
   EXPECT_NEAR(rate.trace(), f.trace(), roundOff);
   EXPECT_EQ(stopped, old);
   EXPECT_EQ(none.norm(), 0);
+}
+
+TEST(Erosion, TakesParticlesWhosePlasticFlowIsUnstable) {
+  grid::Domain domain;
+  domain.upper = {1, 1, 0};
+  domain.resolution = {{1, 1, 0}};
+  const Grid grid(domain);
+  data::ParticleSet set;
+  set.reset(grid.patches().front(), 0);
+  set.setOwned(1);
+  const auto view = [&]<class T>(T& value) { return ParticleView<T>{&value, set, grid.level().cells()}; };
+  const auto fails = [&](const StabilityCheck& check) {
+    auto metal = elasticPlastic(IsotropicHardening{0.02, 0});
+    metal.stability = check;
+    const MaterialPoint<ElasticPlasticHp> point{metal};
+    Matrix3 sheared = Matrix3::Identity();
+    sheared(0, 1) = 0.2;
+    Matrix3 stress = point.stress(sheared);
+    const auto end = point.state(sheared);
+    const double zero = 0, one = 1;
+    const int sound = 0;
+    double damage = 0, threshold = 0, failureTime = 0;
+    int localized = 0;
+    Material material;
+    material.model = std::make_shared<ModelOf<ElasticPlasticHp>>(metal);
+    material.erosion.algorithm = Erosion::Algorithm::zeroStress;
+    const DamageGrowth growth{.oldDeformation = view(point.oldDeformation),
+                              .temperature = view(point.temperature),
+                              .oldDamage = view(zero),
+                              .oldThreshold = view(zero),
+                              .oldLocalized = view(sound),
+                              .oldFailureTime = view(zero),
+                              .deformation = view(std::as_const(sheared)),
+                              .volume = view(one),
+                              .state = view(end.plasticStrain),
+                              .stress = view(stress),
+                              .damage = view(damage),
+                              .threshold = view(threshold),
+                              .localized = view(localized),
+                              .failureTime = view(failureTime)};
+    computeDamage(grid.patches().front(), material, material.model->stateSize(), 0, point.timeStep, growth);
+    return localized == 1;
+  };
+  EXPECT_TRUE(fails(DruckerCheck()));
+  EXPECT_FALSE(fails(NoStabilityCheck()));
 }
 
 }  // namespace

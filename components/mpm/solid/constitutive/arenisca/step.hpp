@@ -135,8 +135,8 @@ class Substep {
 };
 
 /// Number of substeps of a step that leaves the yield surface with a tangent cap: `mostSubsteps` per 0.1 % of strain,
-/// or per stress increment of the length of the surface, whichever gives fewer. A step that stays within needs no
-/// parts.
+/// or per stress increment of the length of the surface, whichever gives more. A step that stays within is not
+/// divided.
 inline int substepsOfTangentCap(const Constants& c, const Point& start, const Matrix3& strain) {
   const Matrix3 change = Moduli{c.b0, c.g0}.stress(strain);
   const Invariants trial(start.stress + change);

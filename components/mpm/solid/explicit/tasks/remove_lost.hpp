@@ -63,10 +63,10 @@ struct BetweenPlanes {
   }
 };
 
-/// In a cell where a wave has no speed or a particle is outside the grid: removes the particles that the step turns
-/// inside out, det F <= 0, or throws through a symmetry plane, as
-/// finite elements with negative Jacobians are deleted in explicit codes. Returns the waves of the others; `none` has
-/// none. Throws NumericalError if particles cannot be removed, or if the wave speed of another is undefined.
+/// In a cell where a wave has no speed or a particle is behind a symmetry plane: removes the particles that the step
+/// turns inside out (det F <= 0), as explicit finite-element codes delete elements with a negative Jacobian, or throws
+/// through a symmetry plane. Returns the waves of the others; `none` has none. Throws NumericalError if particles
+/// cannot be removed, or if the wave speed of another is undefined.
 template <int D>
 CrossingRate<D> withoutLost(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
                             const data::ParticleRange& range, const CrossingRate<D>& none,
