@@ -37,7 +37,7 @@ void refuseLosses(RunState& run) {
   if (static_cast<double>(removed) > most * static_cast<double>(all))
     throw NumericalError(
         fmt::format("{} of {} were removed, more than {:g} %: steps turned them inside out, or threw them through a "
-                    "symmetry plane; try smaller steps",
+                    "symmetry plane",
                     removed, counted(all, "particle"), 100 * most),
         "");
 }

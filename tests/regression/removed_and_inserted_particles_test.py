@@ -54,11 +54,11 @@ def pellets(folder, lines="0.25 1 0.1 4 0 2 0 0\n0.5 2 3.1 4 0 4 0 0\n"):
     return str(scene)
 
 
-def thrown(folder):
+def thrown(folder, block="[15,7,1]"):
     """A block at rest, and a particle that a step longer than the stable one throws through a symmetry plane."""
     bodies = (BODY.format(label="first", low="[2,1,0]", high="[3,2,1]", color=1)
               .replace("<res>[2,2,1]", "<res>[1,1,1]").replace("<velocity>[0,0,0]", "<velocity>[-100,0,0]")
-              + BODY.format(label="second", low="[6,1,0]", high="[15,7,1]", color=2))
+              + BODY.format(label="second", low="[6,1,0]", high=block, color=2))
     text = re.sub("<InsertParticles>.*</InsertParticlesFile>", "", PELLETS.format(bodies=bodies, faces=FACES))
     scene = pathlib.Path(folder) / "thrown.ups"
     scene.write_text(text.replace("<timestep_multiplier>0.5", "<timestep_multiplier>6"))
@@ -95,6 +95,14 @@ class RemovedParticles(unittest.TestCase):
             self.assertEqual(result.code, 4)
             self.assertIn("of 832 particles were removed, more than 1 %", result.err)
             self.assertEqual(result.report["steps"], results[0].report["steps"])
+
+    def test_are_no_obstacle_to_a_restart_with_smaller_steps(self):
+        folder = Folder()
+        self.addCleanup(folder.cleanup)
+        scene = thrown(folder.path, block="[8,3,1]")
+        self.assertEqual(folder.run(scene, self.STEPS)[0], 4)
+        code, errors, report = folder.restart("Time/timestep_multiplier=0.5", self.STEPS)
+        self.assertEqual((code, errors, report["steps"], report["particles_removed"]), (0, "", 10, 1))
 
     def test_stop_the_run_if_the_scene_says_so(self):
         result = run(COLLISION, *UNSTABLE, "MPM/lost_particles=stop")

@@ -271,7 +271,7 @@ TEST(Erosion, TakesParticlesWhosePlasticFlowIsUnstable) {
     computeDamage(grid.patches().front(), material, material.model->stateSize(), 0, point.timeStep, growth);
     return localized == 1;
   };
-  EXPECT_TRUE(fails(DruckerCheck()));
+  EXPECT_TRUE(fails(BeckerCheck()));
   EXPECT_FALSE(fails(NoStabilityCheck()));
 }
 
