@@ -138,13 +138,15 @@ void checkGiven(const Place& place, const Gas& gas, std::uint64_t cell) {
   require(!velocity || velocity->allFinite(), boundary::velocity, "not finite");
 }
 
-/// The rules of all sides: `makeRule(place, gas)` makes one, and `pointAt(axis, side, cell)` is the point at which
-/// formulas are evaluated.
+/// The rules of the sides beyond which a box reaches: `makeRule(place, gas)` makes one, and `pointAt(axis, side, cell)`
+/// is the point at which formulas are evaluated.
 template <int D, class MakeRule, class PointAt>
-GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, MakeRule makeRule, PointAt pointAt) {
-  GhostRules<D> rules;
+GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, const Box& box, MakeRule makeRule,
+                      PointAt pointAt) {
+  GhostRules<D> rules{};
   for (int d = 0; d < D; ++d)
     for (int side = 0; side < 2; ++side) {
+      if (side == 0 ? box.lower[d] >= 0 : box.upper[d] <= level.cells().upper[d]) continue;
       SideRules<D>& of = rules[d][side];
       if (hasFormulas(level, d, side)) {
         of.varying = [&level, gas, d, side, time, makeRule, pointAt](int part, const Index<D>& cell) {
@@ -240,17 +242,21 @@ bool isWall(const Place& place, const Gas& gas) {
 }
 
 template <int D>
-GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time) {
-  return rulesOf<D>(level, gas, time, ghostRule<D>, [&level](int, int, const Index<D>& cell) {
+GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time, const Box& cells) {
+  return rulesOf<D>(level, gas, time, cells, ghostRule<D>, [&level](int, int, const Index<D>& cell) {
     return level.expandPoint<D>(level.cellCentre<D>(level.wrapped<D>(cell)));
   });
+}
+template <int D>
+GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time) {
+  return ghostRules<D>(level, gas, time, level.cells().grown(1, D));
 }
 
 template <int D>
 GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time) {
-  return rulesOf<D>(level, gas, time, diffusionRule<D>, [&level](int axis, int side, const Index<D>& cell) {
-    return level.middleOfSide<D>(axis, side, cell);
-  });
+  return rulesOf<D>(
+      level, gas, time, level.cells().grown(1, D), diffusionRule<D>,
+      [&level](int axis, int side, const Index<D>& cell) { return level.middleOfSide<D>(axis, side, cell); });
 }
 
 template <int D>
@@ -289,8 +295,11 @@ void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& 
 }
 
 template GhostRules<1> ghostRules<1>(const Level&, const Gas&, double);
+template GhostRules<1> ghostRules<1>(const Level&, const Gas&, double, const Box&);
 template GhostRules<2> ghostRules<2>(const Level&, const Gas&, double);
+template GhostRules<2> ghostRules<2>(const Level&, const Gas&, double, const Box&);
 template GhostRules<3> ghostRules<3>(const Level&, const Gas&, double);
+template GhostRules<3> ghostRules<3>(const Level&, const Gas&, double, const Box&);
 template GhostRules<1> diffusionRules<1>(const Level&, const Gas&, double);
 template GhostRules<2> diffusionRules<2>(const Level&, const Gas&, double);
 template GhostRules<3> diffusionRules<3>(const Level&, const Gas&, double);

@@ -89,9 +89,12 @@ bool isWall(const Place& place, const Gas& gas);
 /// Throws NumericalError where one gives a density, or a p + p_inf, that cannot be.
 template <int D>
 GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time = 0);
+/// The same, with rules only for the sides beyond which a box of cells reaches.
+template <int D>
+GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time, const Box& cells);
 
-/// The same for differences across the sides, of velocities and temperatures (which replace the densities): given
-/// values apply at the side itself, and the others are mirrored. Formulas count in the middle of each face.
+/// Like ghostRules, for differences across the sides, of velocities and temperatures (which replace the densities):
+/// given values apply at the side itself, and the others are mirrored. Formulas count in the middle of each face.
 template <int D>
 GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time = 0);
 

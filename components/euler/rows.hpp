@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -19,7 +20,8 @@ T* rowOf(const CellView<T>& view, Index<D> first, int count) {
   return row;
 }
 
-/// Largest number of cells of a block of work: the block and its surroundings fit into the second-level cache.
+/// Number of cells of a large block of work along each axis: the block and its surroundings fit into the second-level
+/// cache.
 template <int D>
 inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
                                  : D == 2 ? Index3{{128, 16, 1}}
@@ -29,10 +31,26 @@ inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
 /// second-level cache.
 inline constexpr int kColumnCells = 2400;
 
+/// The extents of the blocks that tile a box. In two dimensions, blocks of narrow boxes are higher, with as many cells
+/// and ghost cells (two around a block) as a block of kBlock: so fewer cells are beside two blocks.
+template <int D>
+Index3 blockOf(const Box& box) {
+  Index3 block = kBlock<D>;
+  if constexpr (D == 2) {
+    constexpr int around = 4, cells = (kBlock<2>[0] + around) * (kBlock<2>[1] + around);
+    const int width = std::clamp(box.extent(0), 1, block[0]), height = std::max(box.extent(1), 1);
+    const int most = std::max(cells / (width + around) - around, block[1]);
+    const int parts = (height - 1) / most + 1;
+    block = {{width, (height - 1) / parts + 1, 1}};
+  }
+  return block;
+}
+
 /// A box as large as the largest block of a box.
 template <int D>
 Box largestBlock(Box box) {
-  for (int d = 0; d < D; ++d) box.upper[d] = std::min(box.lower[d] + kBlock<D>[d], box.upper[d]);
+  const Index3 block = blockOf<D>(box);
+  for (int d = 0; d < D; ++d) box.upper[d] = std::min(box.lower[d] + block[d], box.upper[d]);
   return box;
 }
 
@@ -50,10 +68,10 @@ void forEachBlock(const Box& box, const Index3& extents, Visit&& visit) {
     visit(block);
   });
 }
-/// The same for boxes no larger than kBlock.
+/// The same for blocks of work.
 template <int D, class Visit>
 void forEachBlock(const Box& box, Visit&& visit) {
-  forEachBlock<D>(box, kBlock<D>, std::forward<Visit>(visit));
+  forEachBlock<D>(box, blockOf<D>(box), std::forward<Visit>(visit));
 }
 
 /// The extents along x and y of the columns along z that tile a box, each with `reach` ghost cells around it: as wide
@@ -139,6 +157,23 @@ class Rows {
   Box box_;
   std::array<std::ptrdiff_t, 3> stride_{};
 };
+
+/// Most cells of a stretch: what a step computes of them fits into the first-level cache.
+inline constexpr int kStretch = 128;
+
+/// Calls `visit(first, count)` for stretches of memory that hold the cells of a box, in rows that hold the box `held`.
+/// Short rows follow each other in one stretch, with the cells between them, so that loops are long.
+template <int D, class Visit>
+void forEachStretch(const Box& box, const Box& held, Visit&& visit) {
+  if (box.empty()) return;
+  Box planes = box.rowStarts();
+  planes.upper[1] = planes.lower[1] + 1;
+  const int cells = (box.extent(1) - 1) * held.extent(0) + box.extent(0);
+  const int parts = (cells - 1) / kStretch + 1, length = ((cells - 1) / parts / 8 + 1) * 8;
+  forEach<D>(planes, [&](Index<D> first) {
+    for (int done = 0; done < cells; done += length, first[0] += length) visit(first, std::min(length, cells - done));
+  });
+}
 
 /// The State at place `i` of rows.
 template <int D, std::size_t N>

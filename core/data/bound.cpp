@@ -1,4 +1,4 @@
-#include "core/data/bound.hpp"
+#include "core/data/bound_rows.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,42 +8,52 @@ namespace tushar::data {
 
 namespace {
 
-/// A summary of many numbers, for checking them at once.
-struct Look {
-  double least;  ///< smallest of those that are not NaN, or 1; computed only if it is needed
-  double sum;    ///< not finite if one number is not, or if the sum overflows
+/// A summary of many numbers, for checking them at once. Independent lanes, for vector instructions, are merged
+/// pairwise at the end.
+template <bool SeeksLeast>
+class Look {
+ public:
+  Look() { least_.fill(1); }
+
+  void add(const double* values, std::size_t count) {
+    std::size_t k = 0;
+    for (; k + width <= count; k += width) addTo(0, width, values + k);
+    if (k + width / 2 <= count) {
+      addTo(0, width / 2, values + k);
+      k += width / 2;
+    }
+    addTo(width / 2, count - k, values + k);
+  }
+  /// Whether the numbers certainly satisfy a bound: if their sum is finite, they are finite. The least is computed only
+  /// if it is needed; it is that of the numbers that are not NaN, and of 1.
+  bool surelyHolds(Bound bound) {
+    for (std::size_t half = width / 2; half > 0; half /= 2)
+      for (std::size_t lane = 0; lane < half; ++lane) {
+        lower(least_[lane], least_[lane + half]);
+        sum_[lane] += sum_[lane + half];
+      }
+    return std::isfinite(sum_[0]) && (!SeeksLeast || (bound == Bound::positive ? least_[0] > 0 : least_[0] >= 0));
+  }
+
+ private:
+  static constexpr std::size_t width = 16;
+
+  static void lower(double& a, double b) { a = b < a ? b : a; }
+  void addTo(std::size_t first, std::size_t count, const double* values) {
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if constexpr (SeeksLeast) lower(least_[first + lane], values[lane]);
+      sum_[first + lane] += values[lane];
+    }
+  }
+
+  std::array<double, width> least_, sum_{};
 };
 
-/// Summarises numbers in independent lanes, for vector instructions, which are then merged pairwise.
 template <bool SeeksLeast>
-Look lookAt(const double* values, std::size_t count) {
-  constexpr std::size_t width = 32;
-  std::array<double, width> least, sum{};
-  least.fill(1);
-  const auto lower = [](double& a, double b) { a = b < a ? b : a; };
-  std::size_t k = 0;
-  for (; k + width <= count; k += width)
-    for (std::size_t lane = 0; lane < width; ++lane) {
-      if constexpr (SeeksLeast) lower(least[lane], values[k + lane]);
-      sum[lane] += values[k + lane];
-    }
-  for (; k < count; ++k) {
-    if constexpr (SeeksLeast) lower(least[0], values[k]);
-    sum[0] += values[k];
-  }
-  for (std::size_t half = width / 2; half > 0; half /= 2)
-    for (std::size_t lane = 0; lane < half; ++lane) {
-      if constexpr (SeeksLeast) lower(least[lane], least[lane + half]);
-      sum[lane] += sum[lane + half];
-    }
-  return {least[0], sum[0]};
-}
-
-/// Whether the numbers certainly satisfy a bound: if their sum is finite, they are finite.
-bool surelyHolds(Bound bound, const double* values, std::size_t count) {
-  if (bound == Bound::finite) return std::isfinite(lookAt<false>(values, count).sum);
-  const Look look = lookAt<true>(values, count);
-  return std::isfinite(look.sum) && (bound == Bound::positive ? look.least > 0 : look.least >= 0);
+bool surelyHolds(Bound bound, NumberRows numbers) {
+  Look<SeeksLeast> look;
+  for (; numbers.rows > 0; --numbers.rows, numbers.first += numbers.stride) look.add(numbers.first, numbers.count);
+  return look.surelyHolds(bound);
 }
 
 }  // namespace
@@ -53,10 +63,18 @@ bool holds(Bound bound, double value) {
   return std::isfinite(value) && (bound != Bound::positive || value > 0) && (bound != Bound::nonNegative || value >= 0);
 }
 
-bool holds(Bound bound, const double* values, std::size_t count) {
-  if (bound == Bound::none || surelyHolds(bound, values, count)) return true;
-  return std::all_of(values, values + count, [bound](double value) { return holds(bound, value); });
+bool holds(Bound bound, const NumberRows& numbers) {
+  if (bound == Bound::none || numbers.rows == 0) return true;
+  if (bound == Bound::finite ? surelyHolds<false>(bound, numbers) : surelyHolds<true>(bound, numbers)) return true;
+  bool all = true;
+  for (std::size_t row = 0; row < numbers.rows; ++row) {
+    const double* values = numbers.first + static_cast<std::ptrdiff_t>(row) * numbers.stride;
+    all = all && std::all_of(values, values + numbers.count, [bound](double value) { return holds(bound, value); });
+  }
+  return all;
 }
+
+bool holds(Bound bound, const double* values, std::size_t count) { return holds(bound, {values, count, 1, 0}); }
 
 std::string_view textOf(Bound bound) {
   return bound == Bound::positive ? "greater than 0" : bound == Bound::nonNegative ? "at least 0" : "finite";

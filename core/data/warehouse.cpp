@@ -53,10 +53,11 @@ void Warehouse::grow(int materials) {
 }
 
 void Warehouse::startAnew(int materials) {
-  old_ = State();
-  fresh_ = State();
+  for (State* state : {&old_, &fresh_}) {
+    for (Storage& storage : state->storages) pool_.takeBack(storage.memory);  // for the values on the new patches
+    *state = State();
+  }
   grid_slots_.clear();
-  pool_ = BufferPool();
   grow(materials);
 }
 

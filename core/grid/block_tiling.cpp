@@ -72,13 +72,16 @@ Tile BlockTiling::tileOf(int level, const Index3& cell) const {
 }
 
 std::vector<Tile> BlockTiling::overlapping(int level, const Box& cells) const {
+  const Box blocks = blocksOver(cells, block_cells_);
   std::vector<int> ids;
-  forEach<3>(blocksOver(cells, block_cells_), [&](const Index3& block) {
+  ids.reserve(blocks.rows() * static_cast<std::size_t>(std::min(blocks.extent(0), 4)));
+  forEach<3>(blocks, [&](const Index3& block) {
     if (const int id = patchOf({level, block}); id >= 0 && (ids.empty() || ids.back() != id)) ids.push_back(id);
   });
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   std::vector<Tile> found;
+  found.reserve(ids.size());
   for (const int id : ids) found.push_back(tile(id));
   return found;
 }

@@ -169,7 +169,9 @@ std::vector<Patch> Grid::patchesOverlapping(const Box& cells, int level) const {
   std::vector<Patch> found;
   const Box inside = cells.intersect(this->level(level).cells());
   if (inside.empty()) return found;
-  for (const Tile& tile : tiling_->overlapping(level, inside)) found.push_back(patchOf(tile));
+  const std::vector<Tile> tiles = tiling_->overlapping(level, inside);
+  found.reserve(tiles.size());
+  for (const Tile& tile : tiles) found.push_back(patchOf(tile));
   return found;
 }
 

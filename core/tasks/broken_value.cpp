@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/mpi.hpp"
+#include "core/data/bound_rows.hpp"
 
 namespace tushar::tasks {
 
@@ -35,11 +36,13 @@ bool keepsBound(Warehouse& warehouse, const Bounded& written, const Patch& patch
     return holds(label->bound, numbersOf(variable), static_cast<std::size_t>(owned) * components);
   }
   const Box box = ownBox(patch, *label);
+  if (box.empty()) return true;
+  const auto stride = static_cast<std::ptrdiff_t>(variable.stored.extent(0)) * label->components;
   bool kept = true;
-  grid::forEach<3>(box.rowStarts(), [&](const Index3& first) {
-    kept = kept && holds(label->bound, numbersOf(variable) + variable.stored.offset(first) * components,
-                         static_cast<std::size_t>(box.extent(0)) * components);
-  });
+  for (Index3 first = box.lower; first[2] < box.upper[2]; ++first[2])
+    kept = kept && holds(label->bound, {numbersOf(variable) + variable.stored.offset(first) * components,
+                                        static_cast<std::size_t>(box.extent(0)) * components,
+                                        static_cast<std::size_t>(box.extent(1)), stride});
   return kept;
 }
 

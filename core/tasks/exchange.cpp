@@ -4,6 +4,8 @@
 #include <cstring>
 #include <set>
 
+#include "core/tasks/copy_cells.hpp"
+
 namespace tushar::tasks {
 
 using data::Generation;
@@ -38,9 +40,19 @@ bool Exchange::movesNothing() const {
 void Exchange::send(std::span<const BoundGhostFill> fills, bool hasStopped) {
   fills_ = fills;
   if (movesNothing()) return;
+  findPlans();
   noteUnresolved();
   if (!hasStopped) settleNear();
   if (!warehouse_->ranks().isAlone()) threads_->alone([&] { post(hasStopped); }, trace::Kind::message, "send");
+}
+
+void Exchange::findPlans() {
+  plans_of_fills_.clear();
+  for (const BoundGhostFill& fill : fills_) {
+    GhostReach reach = reachOf(warehouse_->table(), fill);
+    reach.level = level_;
+    plans_of_fills_.push_back(&plans_.of(warehouse_->grid(), reach));
+  }
 }
 
 void Exchange::begin(bool hasStopped) {
@@ -190,15 +202,10 @@ void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, con
     return restrictTo(label, warehouse_->grid().dimension(), copy.box.shifted(Index3{} - copy.shift),
                       {from.values, from.stored}, {to.values, to.stored.shifted(Index3{} - copy.shift)});
   Bytes values;
-  if (!computeValues(*warehouse_, fill, copy, part_, values))
-    return forEachRowOf(copy.box, label.bytes, [&](const Index3& first, std::size_t length) {
-      std::memcpy(valueAt(to, first, label.bytes), valueAt(from, first - copy.shift, label.bytes), length);
-    });
-  const std::byte* next = values.data();
-  forEachRowOf(copy.box, label.bytes, [&](const Index3& first, std::size_t length) {
-    std::memcpy(valueAt(to, first, label.bytes), next, length);
-    next += length;
-  });
+  if (computeValues(*warehouse_, fill, copy, part_, values))
+    copyCells(copy.box, {}, label.bytes, {values.data(), copy.box}, to);
+  else
+    copyCells(copy.box, copy.shift, label.bytes, {from.values, from.stored}, to);
 }
 
 /// Fills ghosts in coarser cells, once these are complete. If there are messages, all ghosts that the patch gets from
@@ -207,23 +214,23 @@ void Exchange::fillFromCoarser(const BoundGhostFill& fill, std::size_t place, Re
   const GhostPlan& plan = planOf(fill);
   const data::Label& label = *warehouse_->table()[fill.variable].label;
   const Variable own = warehouse_->variable(fill.generation, fill.variable, warehouse_->grid().patches()[place].id());
-  std::vector<Bytes> coarse;
-  for (const CoarseGhosts& part : plan.coarse[place]) coarse.emplace_back(part.cells.size() * label.bytes);
+  const std::vector<CoarseGhosts>& parts = plan.coarse[place];
+  std::vector<std::size_t> first(parts.size() + 1, 0);
+  for (std::size_t k = 0; k < parts.size(); ++k) first[k + 1] = first[k] + parts[k].cells.size() * label.bytes;
+  thread_local Bytes coarse;  // of all parts, one after the other
+  if (coarse.size() < first.back()) coarse.resize(first.back());
   for (const GhostCopy& copy : plan.into[place]) {
     if (isHere(copy) && copy.coarse < 0) continue;  // is there already
-    const CellValues to = copy.coarse < 0
-                              ? valuesAt(fill, copy)
-                              : CellValues{coarse[copy.coarse].data(), plan.coarse[place][copy.coarse].cells};
+    const CellValues to = copy.coarse < 0 ? valuesAt(fill, copy)
+                                          : CellValues{coarse.data() + first[copy.coarse], parts[copy.coarse].cells};
     if (isHere(copy))
       copyGridTo(fill, copy, to);
     else
       isNear(fill) ? messages->takeNear(copy, label.bytes, to) : messages->takeGrid(copy, label.bytes, to);
   }
-  for (std::size_t k = 0; k < coarse.size(); ++k) {
-    const CoarseGhosts& part = plan.coarse[place][k];
-    prolong(label, warehouse_->grid().dimension(), {coarse[k].data(), part.cells}, part.ghosts,
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    prolong(label, warehouse_->grid().dimension(), {coarse.data() + first[k], parts[k].cells}, parts[k].ghosts,
             {own.values, own.stored});
-  }
 }
 
 void Exchange::fillFromElsewhere(const BoundGhostFill& fill, bool resolves, ReceivedMessages& messages) {

@@ -86,11 +86,9 @@ class Exchange {
   /// Calls `work(fill, patch, its index)` on several threads at once.
   template <class Work>
   void forEach(const Work& work);
-  const GhostPlan& planOf(const BoundGhostFill& fill) {
-    GhostReach reach = reachOf(warehouse_->table(), fill);
-    reach.level = level_;
-    return plans_.of(warehouse_->grid(), reach);
-  }
+  void findPlans();
+  /// The plan of one of the fills that are under way.
+  const GhostPlan& planOf(const BoundGhostFill& fill) const { return *plans_of_fills_[&fill - fills_.data()]; }
 
   data::Warehouse* warehouse_;
   Threads* threads_;
@@ -102,6 +100,7 @@ class Exchange {
   double part_ = 0;
   // The exchange that was sent:
   std::span<const BoundGhostFill> fills_;
+  std::vector<const GhostPlan*> plans_of_fills_;
   bool has_stopped_ = false;
   std::set<int> senders_;       ///< ranks whose messages are awaited
   std::vector<bool> resolves_;  ///< by fill: whether it determines which particles are ghosts

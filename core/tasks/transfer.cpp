@@ -1,7 +1,9 @@
 #include "core/tasks/transfer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <vector>
 
 #include "core/base/limiters.hpp"
 
@@ -36,23 +38,41 @@ class Cells {
   std::array<std::ptrdiff_t, 3> stride_{};
 };
 
-template <int D>
+/// The means of a row of `count` cells, from their first child. `Components`: 0 if it is not known at compile time.
+template <int D, int Components>
+void meansOfRow(const double* child, const std::array<std::ptrdiff_t, 3>& stride, int count, int components,
+                double* to) {
+  const std::ptrdiff_t x = stride[0], y = stride[1], z = stride[2];
+  const int numbers = Components > 0 ? Components : components;
+  for (int cell = 0; cell < count; ++cell, child += x)  // the second one along x
+    for (int k = 0; k < numbers; ++k, ++child) {
+      const auto pair = [&](std::ptrdiff_t beside) { return child[beside] + child[beside + x]; };
+      if constexpr (D == 1) *to++ = 0.5 * pair(0);
+      if constexpr (D == 2) *to++ = 0.25 * (pair(0) + pair(y));
+      if constexpr (D == 3) *to++ = 0.125 * ((pair(0) + pair(y)) + (pair(z) + pair(y + z)));
+    }
+}
+
+template <int D, int Components>
 void meansOf(const Box& box, const CellValues& from, const CellValues& means, int components) {
+  if (box.empty()) return;
   const Cells<const double> fine(from, components);
   const Cells<double> coarse(means, components);
-  const std::ptrdiff_t x = fine.stride(0), y = fine.stride(1), z = fine.stride(2);
-  grid::forEachRow<3>(box, [&](Index3 first, int count) {
-    double* to = coarse.at(first);
-    for (int d = 0; d < D; ++d) first[d] *= 2;
-    const double* child = fine.at(first);
-    for (int cell = 0; cell < count; ++cell, child += x)  // the second one along x
-      for (int k = 0; k < components; ++k, ++child) {
-        const auto pair = [&](std::ptrdiff_t beside) { return child[beside] + child[beside + x]; };
-        if constexpr (D == 1) *to++ = 0.5 * pair(0);
-        if constexpr (D == 2) *to++ = 0.25 * (pair(0) + pair(y));
-        if constexpr (D == 3) *to++ = 0.125 * ((pair(0) + pair(y)) + (pair(z) + pair(y + z)));
-      }
-  });
+  const std::array<std::ptrdiff_t, 3> stride{fine.stride(0), fine.stride(1), fine.stride(2)};
+  Index3 first = box.lower;
+  for (int d = 0; d < D; ++d) first[d] *= 2;
+  for (int z = 0; z < box.extent(2); ++z) {
+    const double* child = fine.at(first) + (D > 2 ? 2 : 1) * z * stride[2];
+    double* to = coarse.at(box.lower) + z * coarse.stride(2);
+    for (int y = 0; y < box.extent(1); ++y, child += (D > 1 ? 2 : 1) * stride[1], to += coarse.stride(1))
+      meansOfRow<D, Components>(child, stride, box.extent(0), components, to);
+  }
+}
+
+template <int D>
+void meansOf(const Box& box, const CellValues& from, const CellValues& means, int components) {
+  if (components == 1) return meansOf<D, 1>(box, from, means, components);
+  components == D ? meansOf<D, D>(box, from, means, components) : meansOf<D, 0>(box, from, means, components);
 }
 
 /// The children of a coarse cell, by one bit for each axis, that are in a box.
@@ -70,35 +90,118 @@ unsigned childrenIn(const Box& box, const Index3& first) {
   return inside;
 }
 
+/// A coarse cell, and the finer cells in it.
+template <int D>
+struct Family {
+  const double* parent;
+  std::array<std::ptrdiff_t, D> stride;  ///< to the neighbours of the parent; 0: there are none on one side
+  double* first;                         ///< of the children
+  unsigned inside;                       ///< children that are wanted
+};
+
+/// `beside`: the distance in memory of each child from the first.
+template <int D, bool AllInside>
+void interpolate(Family<D> family, const std::array<std::ptrdiff_t, 1 << D>& beside, int components) {
+  const auto& stride = family.stride;
+  for (int k = 0; k < components; ++k, ++family.parent, ++family.first) {
+    const double* middle = family.parent;
+    std::array<double, D> quarter{};
+    for (std::size_t d = 0; d < D; ++d)
+      quarter[d] = 0.25 * Mc::slope(*middle - middle[-stride[d]], middle[stride[d]] - *middle);
+    for (unsigned child = 0; child < beside.size(); ++child) {
+      if (!AllInside && !(family.inside >> child & 1)) continue;
+      double value = *middle;
+      for (unsigned d = 0; d < D; ++d) value += child >> d & 1 ? quarter[d] : -quarter[d];
+      family.first[beside[child]] = value;
+    }
+  }
+}
+
+/// A quarter of the slopes of numbers, whose neighbours are `stride` before and behind; 0: there are none on one side.
+void quarterSlopes(const double* middle, std::ptrdiff_t stride, std::ptrdiff_t count, double* quarter) {
+  if (stride == 0) return static_cast<void>(std::fill_n(quarter, count, 0.0));
+#pragma GCC ivdep
+  for (std::ptrdiff_t k = 0; k < count; ++k)
+    quarter[k] = 0.25 * Mc::slope(middle[k] - middle[k - stride], middle[k + stride] - middle[k]);
+}
+
+/// Coarse cells, and the finer cells in them.
+template <int D>
+class Interpolation {
+ public:
+  Interpolation(const CellValues& from, const Box& box, const CellValues& to, int components)
+      : coarse_(from, components), fine_(to, components), box_(box), components_(components) {
+    for (unsigned child = 0; child < beside_.size(); ++child)
+      for (int d = 0; d < D; ++d) beside_[child] += (child >> d & 1) * fine_.stride(d);
+  }
+
+  void run() {
+    constexpr int fewest = 4;  // cells of a row that pay off
+    grid::forEachRow<3>(box_.coarsened(D), [&](const Index3& first, int count) {
+      Index3 last = first;
+      last[0] += count - 1;
+      if (count >= fewest && insideOf(first) == all && insideOf(last) == all) return ofRow(first, last);
+      for (Index3 parent = first; parent[0] <= last[0]; ++parent[0]) ofCell(parent);
+    });
+  }
+
+ private:
+  static constexpr unsigned all = (1U << (1 << D)) - 1;
+
+  std::ptrdiff_t strideOf(const Index3& parent, int axis) const {
+    return coarse_.hasBoth(parent, axis) ? coarse_.stride(axis) : 0;
+  }
+  static Index3 firstChild(Index3 parent) {
+    for (int d = 0; d < D; ++d) parent[d] *= 2;
+    return parent;
+  }
+  unsigned insideOf(const Index3& parent) const { return childrenIn<D>(box_, firstChild(parent)); }
+
+  void ofCell(const Index3& parent) {
+    Family<D> family{coarse_.at(parent), {}, fine_.at(firstChild(parent)), insideOf(parent)};
+    for (int d = 0; d < D; ++d) family.stride[static_cast<std::size_t>(d)] = strideOf(parent, d);
+    family.inside == all ? interpolate<D, true>(family, beside_, components_)
+                         : interpolate<D, false>(family, beside_, components_);
+  }
+
+  /// All children of a row of cells, to the same bits.
+  void ofRow(const Index3& first, const Index3& last) {
+    const std::ptrdiff_t cell = components_, cells = last[0] - first[0] + 1, count = cells * cell;
+    quarters_.resize(static_cast<std::size_t>(count) * D);
+    const double* middle = coarse_.at(first);
+    std::array<const double*, D> quarter{};
+    for (int d = 0; d < D; ++d) {
+      double* slopes = quarters_.data() + d * count;
+      quarter[static_cast<std::size_t>(d)] = slopes;
+      if (d > 0) {
+        quarterSlopes(middle, strideOf(first, d), count, slopes);
+        continue;
+      }
+      quarterSlopes(middle, strideOf(first, 0), cell, slopes);
+      quarterSlopes(middle + cell, cell, count - 2 * cell, slopes + cell);
+      quarterSlopes(middle + count - cell, strideOf(last, 0), cell, slopes + count - cell);
+    }
+    double* child0 = fine_.at(firstChild(first));
+    for (unsigned child = 0; child < beside_.size(); ++child)
+      for (std::ptrdiff_t at = 0, to = beside_[child]; at < count; to += cell)
+        for (const std::ptrdiff_t end = at + cell; at < end; ++at, ++to) {
+          double value = middle[at];
+          for (unsigned d = 0; d < D; ++d) value += child >> d & 1 ? quarter[d][at] : -quarter[d][at];
+          child0[to] = value;
+        }
+  }
+
+  Cells<const double> coarse_;
+  Cells<double> fine_;
+  Box box_;
+  int components_;
+  std::array<std::ptrdiff_t, 1 << D> beside_{};  ///< the distance in memory of each child from the first
+  std::vector<double> quarters_;
+};
+
 template <int D>
 void interpolate(const CellValues& from, const Box& box, const CellValues& to, int components) {
-  const Cells<const double> coarse(from, components);
-  const Cells<double> fine(to, components);
-  std::array<std::ptrdiff_t, 1 << D> beside{};  // of each child, from the first
-  for (unsigned child = 0; child < beside.size(); ++child)
-    for (int d = 0; d < D; ++d) beside[child] += (child >> d & 1) * fine.stride(d);
-  grid::forEach<3>(box.coarsened(D), [&](const Index3& parent) {
-    Index3 first = parent;
-    std::array<std::ptrdiff_t, D> stride{};
-    for (int d = 0; d < D; ++d) {
-      first[d] *= 2;
-      stride[static_cast<std::size_t>(d)] = coarse.hasBoth(parent, d) ? coarse.stride(d) : 0;
-    }
-    const unsigned inside = childrenIn<D>(box, first);
-    const double* middle = coarse.at(parent);
-    double* child0 = fine.at(first);
-    for (int k = 0; k < components; ++k, ++middle, ++child0) {
-      std::array<double, D> quarter{};
-      for (std::size_t d = 0; d < D; ++d)
-        quarter[d] = 0.25 * Mc::slope(*middle - middle[-stride[d]], middle[stride[d]] - *middle);
-      for (unsigned child = 0; child < beside.size(); ++child) {
-        if (!(inside >> child & 1)) continue;
-        double value = *middle;
-        for (unsigned d = 0; d < D; ++d) value += child >> d & 1 ? quarter[d] : -quarter[d];
-        child0[beside[child]] = value;
-      }
-    }
-  });
+  Interpolation<D>(from, box, to, components).run();
 }
 
 void copyFirstChildren(const Label& label, int dimension, const Box& box, const CellValues& fine,

@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "core/base/error.hpp"
+#include "core/data/bound_rows.hpp"
 #include "tests/support/run.hpp"
 
 namespace tushar::tasks {
@@ -141,6 +142,22 @@ TEST(Bound, IsKeptByWhatItAllows) {
             << data::textOf(bound) << ' ' << value << " at " << place;
       }
     }
+}
+
+TEST(Bound, IsCheckedInRowsAndNotBetweenThem) {
+  constexpr std::size_t rows = 5, stride = 70;
+  for (const std::size_t count : {1u, 7u, 8u, 16u, 23u, 31u, 67u})
+    for (std::size_t place = 0; place < rows * stride; ++place) {
+      std::vector<double> many(rows * stride, 1.0);
+      many[place] = -1;
+      const bool isInRow = place % stride < count;
+      EXPECT_EQ(data::holds(Bound::positive, {many.data(), count, rows, stride}), !isInRow) << count << ' ' << place;
+      EXPECT_TRUE(data::holds(Bound::finite, {many.data(), count, rows, stride}));
+      many[place] = nan;
+      for (const Bound bound : {Bound::finite, Bound::nonNegative})
+        EXPECT_EQ(data::holds(bound, {many.data(), count, rows, stride}), !isInRow) << count << ' ' << place;
+    }
+  EXPECT_TRUE(data::holds(Bound::positive, data::NumberRows{nullptr, 4, 0, 0}));
 }
 
 TEST(Bound, IsKeptByNumbersWhoseSumOverflows) {

@@ -240,6 +240,22 @@ TEST(Scheduler, NeverAllocatesWhatNobodyReads) {
   EXPECT_EQ(allocations({}), 0u);
 }
 
+TEST(Scheduler, ValuesOnNewPatchesTakeTheMemoryOfThoseOnFormerOnes) {
+  test::Runner run(test::domain({{4096, 1, 1}}));
+  TaskList list;
+  list.perPatch("fill", fillCells<1>, computes(number));
+  list.perPatch("double", twice, requiresNew(number), computes(doubled));
+  TaskGraph graph = run.compile(list, {"c.doubled", "c.number"});
+  run.step(graph);
+  const std::size_t before = run.warehouse.allocations();
+
+  run.warehouse.startAnew(0);
+  run.step(graph);
+
+  EXPECT_GT(before, 0u);
+  EXPECT_EQ(run.warehouse.allocations(), before);
+}
+
 TEST(Scheduler, UsesAsManyThreadsAsTheCellsAreWorthAlsoWhenTheseBecomeMore) {
   grid::Domain domain = test::domain({{32, 1, 1}});
   domain.refinement.levels = 2;

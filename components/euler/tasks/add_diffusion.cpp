@@ -51,8 +51,7 @@ void addDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion
                   const DiffusionRims<D>& rims) {
   const Level& level = patch.level();
   const GhostRules<D> rules = diffusionRules<D>(level, gas, time);
-  std::size_t room = 1;
-  for (int d = 0; d < D; ++d) room *= std::min(patch.cells().extent(d), kBlock<D>[d]) + 2;
+  const std::size_t room = largestBlock<D>(patch.cells()).grown(1, D).size();
   Rows<D> w(room), flux(room);
   forEachBlock<D>(patch.cells(), [&](const Box& block) {
     w.hold(block.grown(1, D));

@@ -28,7 +28,7 @@ void advanceCells(const G& gas, const Level& level, const GhostRules<D>& rules, 
     ColumnStep<Flux, Shape, G> step(gas, level, rules, extents, dt, old, fresh, rims);
     forEachBlock<D>(cells, extents, [&](const Box& column) { step.run(column, finish); });
   } else {
-    Work<D, kGases<G>> work(cells, Shape::reach);
+    auto work = Work<D, kGases<G>>::unfilled(cells, Shape::reach);
     forEachBlock<D>(cells, [&](const Box& block) {
       advanceBlock<D, Flux, Shape>(gas, level, rules, block, dt, old, work, fresh, rims);
       finish(block);
@@ -41,7 +41,7 @@ template <int D, class Flux, class Shape, class Law>
 void advance(const Patch& patch, const Gas& gas, const OldState<D>& old, double time, double dt,
              const NewState<D>& fresh, const RimFluxes<D>& rims) {
   const Level& level = patch.level();
-  const GhostRules<D> rules = ghostRules<D>(level, gas, time);
+  const GhostRules<D> rules = ghostRules<D>(level, gas, time, patch.cells().grown(Shape::reach, D));
   const Law law = lawOf<Law>(gas);
   bool fine = true;
   advanceCells<D, Flux, Shape>(law, level, rules, patch.cells(), dt, old, fresh, rims,

@@ -20,10 +20,17 @@ struct Sloped {
 /// Work arrays for a block of cells and the cells around it.
 template <int D, int K = 1>
 struct Work {
-  /// Space for the blocks of a patch. Cells over edges of the grid stay 0; all else is written before it is read.
-  Work(const Box& cells, int reach) : Work(largestBlock<D>(cells).grown(reach, D).size(), reach > 1, {}) {}
+  /// Space for the blocks of a patch. The values of cells are 0 at first; all else is written before it is read.
+  Work(const Box& cells, int reach) : Work(Rows<D, K>(roomOf(cells, reach)), roomOf(cells, reach), reach > 1, {}) {}
+  /// The same for steps that write the values of all cells of a block.
+  static Work unfilled(const Box& cells, int reach) {
+    const std::size_t room = roomOf(cells, reach);
+    return {Rows<D, K>::unfilled(room), room, reach > 1, {}};
+  }
   /// Space for the planes, of up to `cells` cells, that a ColumnStep needs at a time.
-  static Work ofColumns(std::size_t cells, int reach) { return {cells, reach > 1, {2 * reach, 1, 2}}; }
+  static Work ofColumns(std::size_t cells, int reach) {
+    return {Rows<D, K>(cells, 2 * reach), cells, reach > 1, {1, 2}};
+  }
   void hold(const Box& box) {
     w.hold(box);
     flux.hold(box);
@@ -37,12 +44,13 @@ struct Work {
   std::vector<double> least;             ///< for a row: least density and p + p_inf at faces
 
  private:
-  /// How many planes it holds of cells, of faces, and of upper faces along the last axis; 0: all.
+  /// How many planes it holds of faces, and of upper faces along the last axis; 0: all.
   struct Planes {
-    int cells = 0, faces = 0, above = 0;
+    int faces = 0, above = 0;
   };
-  Work(std::size_t cells, bool hasSlopes, const Planes& planes)
-      : w(cells, planes.cells), flux(Rows<D, K>::unfilled(cells, planes.faces)) {
+  static std::size_t roomOf(const Box& cells, int reach) { return largestBlock<D>(cells).grown(reach, D).size(); }
+  Work(Rows<D, K> values, std::size_t cells, bool hasSlopes, const Planes& planes)
+      : w(std::move(values)), flux(Rows<D, K>::unfilled(cells, planes.faces)) {
     for (int d = 0; d < D && hasSlopes; ++d) {
       lower.push_back(Rows<D, K>::unfilled(cells, planes.faces));
       upper.push_back(Rows<D, K>::unfilled(cells, d == D - 1 ? planes.above : planes.faces));
@@ -80,13 +88,27 @@ void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, W
   halfStepRow<D, Axis>(gas, lower, upper, ratio, count, work.flux.at(first));
 }
 
+/// Whether loops may compute anything from states that do not belong together, and take no longer than for others.
+template <class G>
+inline constexpr bool takesAnyStates = std::is_same_v<G, StiffenedGas>;
+
+/// Calls `visit(first, count)` for the cells of a box in long stretches of memory if `Long`, else in rows. In between
+/// the rows, where stretches have cells outside the box, loops compute what nothing reads.
+template <int D, bool Long, class Visit>
+void forEachPart(const Box& box, const Box& held, Visit&& visit) {
+  if constexpr (Long && D > 1)
+    forEachStretch<D>(box, held, std::forward<Visit>(visit));
+  else
+    forEachRow<D>(box, std::forward<Visit>(visit));
+}
+
 /// Values at the faces of the cells of `box`, half a step later. The rows of fluxes hold the change on the way.
 template <int D, class G>
 void predict(const G&, const Level&, const Box&, double, Work<D, kGases<G>>&, Constant) {}
 template <int D, class Limited, class G>
 void predict(const G& gas, const Level& level, const Box& box, double dt, Work<D, kGases<G>>& work, Sloped<Limited>) {
   constexpr int gases = kGases<G>;
-  forEachRow<D>(box, [&](const Index<D>& first, int count) {
+  forEachPart<D, takesAnyStates<G>>(box, work.w.box(), [&](const Index<D>& first, int count) {
     const auto ratio = [&](int d) { return 0.5 * dt / level.spacing(d); };
     reconstruct<D, Limited, 0>(gas, first, count, ratio(0), work);
     if constexpr (D > 1) reconstruct<D, Limited, 1>(gas, first, count, ratio(1), work);
@@ -108,7 +130,8 @@ void computeFluxes(const G& gas, const Box& faces, Work<D, kGases<G>>& work, Row
   constexpr bool constant = Shape::reach == 1;
   auto& below = constant ? work.w : work.upper[Axis];
   auto& above = constant ? work.w : work.lower[Axis];
-  forEachRow<D>(faces, [&](const Index<D>& first, int count) {
+  constexpr bool isLong = takesAnyStates<G> && std::is_same_v<Flux, Hllc>;
+  forEachPart<D, isLong>(faces, flux.box(), [&](const Index<D>& first, int count) {
     fluxRow<D, Flux, Axis>(gas, below.at(first - Index<D>::unit(Axis)), above.at(first), count, flux.at(first));
   });
 }
@@ -150,7 +173,7 @@ void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>
 template <int D, int K>
 void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D, K>& flux) {
   if (rims.mass.empty()) return;
-  const auto at = [&](const Index<D>& face, std::size_t number) { return *flux.at(face)[number]; };
+  const auto at = [&](const Index<D>& face, std::size_t number) { return flux.number(face, number); };
   rims.mass.template forEachFaceIn<D>(faces, axis,
                                       [&](const Index<D>& face, double& through) { through += at(face, kDensity); });
   rims.momentum.template forEachFaceIn<D>(faces, axis, [&](const Index<D>& face, Vec<D>& through) {

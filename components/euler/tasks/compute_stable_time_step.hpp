@@ -59,8 +59,9 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, CellV
         rate[i] = sum * inverse + std::sqrt(stiffened.gamma * p * inverse) * widths;
       }
       if (bad != 0) refuseBroken<D, const double>(patch, gas, {density, momentum, totalEnergy}, nullptr);
-      for (int i = count; i < chunk; ++i) rate[i] = 0;
-      for (std::size_t i = 0; i < chunk; i += lanes)
+      const int end = (count + lanes - 1) / lanes * lanes;
+      for (int i = count; i < end; ++i) rate[i] = 0;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(end); i += lanes)
         for (std::size_t k = 0; k < lanes; ++k) greatest[k] = rate[i + k] > greatest[k] ? rate[i + k] : greatest[k];
     }
   });
