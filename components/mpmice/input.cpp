@@ -128,14 +128,13 @@ std::size_t placeOf(const std::string& name, const std::vector<std::string>& nam
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// Checks a body that burns in cracks, too.
-void checkCracks(const Element& body, bool areRigid, const ice::BurnModel& model, Diagnostics& diagnostics) {
+/// Checks a body that burns by DDT1: at its surface, or in its cracks, too.
+void checkDdt(const Element& body, bool areRigid, const ice::BurnModel& model, Diagnostics& diagnostics) {
   const auto given = body.child("constitutive_model");
   const std::string name = given ? given->attribute("type").value_or("") : "";
-  if (name != mpm::solid::ViscoScram::name)
-    diagnostics.error(
-        given.value_or(body),
-        fmt::format("found '{}', but the model DDT1 needs a body of visco_scram, which has cracks", name));
+  if (model.ddt()->burnsCracks && name != mpm::solid::ViscoScram::name)
+    diagnostics.error(given.value_or(body),
+                      fmt::format("found '{}', but useCrackModel needs a body of visco_scram, which has cracks", name));
   if (areRigid)
     diagnostics.error(model.where, "Models/Model/DDT1",
                       "is not available with rmpmice, whose bodies have no stress; use mpmice");
@@ -163,8 +162,7 @@ std::optional<Burning> burningOf(const ice::GasScene& scene, bool areRigid, cons
   if (burning.body < materials.size() && !materials[burning.body].child("specific_heat"))
     diagnostics.error(materials[burning.body],
                       "missing tag <specific_heat>: the body burns, and its heat is added to the gas");
-  if (burning.body < materials.size() && model.ddt())
-    checkCracks(materials[burning.body], areRigid, model, diagnostics);
+  if (burning.body < materials.size() && model.ddt()) checkDdt(materials[burning.body], areRigid, model, diagnostics);
   return burning;
 }
 

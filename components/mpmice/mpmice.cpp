@@ -108,8 +108,9 @@ void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials,
                         all<ParticlesAtStart>(), withoutMaterial(all<NewReactant>()));
   if (hasCracks()) {
     tasks.acrossMaterials("mpmice::measureLoad", measureLoad<D>, materials, with(settings_), with(state.components),
-                          all<StressedParticles>(&state), withoutMaterial(computes(c::bodyPressure)),
-                          withoutMaterial(computes(c::crackRadius)));
+                          all<StressedParticles>(keepsStress(materials[settings_.burning->body]),
+                                                 settings_.burning->model.ddt()->burnsCracks, &state),
+                          withoutMaterial(computes(c::bodyPressure)), withoutMaterial(computes(c::crackRadius)));
     tasks.perPatch("mpmice::findBurnModes", findBurnModes<D>, with(settings_), requiresOld(delT),
                    gasIn(readsOld, reach), all<Reactant>(1), all<Load>(1), all<Waited>(waitsForFlames()),
                    all<NewBurnModes>());

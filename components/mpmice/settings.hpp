@@ -18,6 +18,9 @@ struct Burning {
 };
 
 /// How the gas around bodies diffuses.
+/// The internal variable of constitutive models with cracks, in which a body may burn.
+inline constexpr std::string_view crackRadiusLabel = "p.crackRad";
+
 struct GasDiffusion {
   euler::VaryingDiffusion alone = {};         ///< of one gas; for several gases, only the eddies
   std::vector<euler::Diffusion> ofEach = {};  ///< of several gases: a cell has the mean weighted by volume fractions
