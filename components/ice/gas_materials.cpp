@@ -6,6 +6,7 @@
 
 #include "components/euler/labels.hpp"
 #include "components/ice/mixture/input.hpp"
+#include "components/ice/uintah_words.hpp"
 
 namespace tushar::ice {
 
@@ -59,7 +60,8 @@ void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagn
                         "the temperature already follows from Density and Pressure; keep two of the three");
       continue;
     }
-    const double fitting = *p / (gas.gasConstant() * *rho);
+    if (gas.isBarotropic()) continue;  // any temperature fits
+    const double fitting = gas.temperature(*rho, gas.energyOf(*rho, *p));
     if (std::abs(*t - fitting) <= 1e-3 * fitting) continue;
     if (std::abs(*t - fitting) <= 1e-2 * fitting)  // rounded, or changed a little in one of them
       diagnostics.note(
@@ -169,6 +171,9 @@ void readBinary(const GasMaterial& material, const Element& root, GasScene& scen
   scene.mixture = binary.gases(common);
   scene.diffusions = binary.diffusions();
   if (!scene.heating.perMass.empty()) scene.heating.perMass.assign(2, scene.heating.perMass.front());
+  if (scene.exchange)
+    diagnostics.note(scene.exchange->where, exchangePath,
+                     "does nothing: the two gases of BinaryProperties have one velocity and one temperature");
   constexpr double atOnce = 1e30;  // W/(m³ K)
   scene.exchange = Exchange{.where = binary.where, .momentum = {}, .heat = {atOnce}};
   checkMixture({material}, root, scene, scene.gas.gas.material, diagnostics);
