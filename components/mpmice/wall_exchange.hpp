@@ -40,7 +40,7 @@ class WallExchange {
       : level_(level),
         settings_(settings),
         gas_(settings.gas.gas),
-        rules_(euler::ghostRules<D>(level, settings.gas.gas)),
+        rules_(euler::ghostRulesOf<D>(level, settings.gas.gas, settings.gases)),
         cells_(cells),
         space_(level, settings, cells),
         step_(bodies),

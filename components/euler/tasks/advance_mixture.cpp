@@ -36,7 +36,7 @@ void advanceMixture(const Patch& patch, const std::vector<Settings>& gases, cons
   const Level& level = patch.level();
   RimFluxes<D> allRims = rims;
   allRims.gases = gasRims;
-  const GhostRules<D> rules = ghostRules<D>(level, gases.front().gas, time);
+  const GhostRules<D> rules = ghostRulesOf<D>(level, gases.front().gas, gases, time);
   const Mixture<K> mixture = mixtureOf<K>(gases);
   const auto before = viewsOf<const double, D>(old, oldGases);
   const auto after = viewsOf<double, D>(fresh, newGases);

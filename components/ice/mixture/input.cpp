@@ -86,14 +86,11 @@ void checkSide(const Element& face, const Element& condition, int solids, bool i
   const bool isGiven = var == nameOf(BoundaryKind::dirichlet);
   const bool saysWhat = label == euler::boundary::density.name || (isBinary && label == fractionLabel) ||
                         (label == euler::boundary::temperature.name && !isWall(face));
-  if (var == euler::boundary::waves.name)
-    diagnostics.error(condition.whereOf("var"), condition.path(),
-                      "LODI is not available with several gases: give Neumann, or a Pressure");
-  else if (isGiven && saysWhat)
+  if (isGiven && saysWhat)
     diagnostics.error(condition,
                       "Dirichlet is not available with several gases: the gas that flows in has the composition of the "
                       "adjacent cells; give a Velocity or a Pressure, or Neumann");
-  else if (var != nameOf(BoundaryKind::neumann) && !isBinary)
+  else if (var != nameOf(BoundaryKind::neumann) && var != euler::boundary::waves.name && !isBinary)
     checkMaterial(condition, solids, diagnostics);
 }
 
