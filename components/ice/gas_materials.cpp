@@ -92,7 +92,7 @@ void readMaterial(const GasMaterial& material, const Element& element, bool besi
   gas.gamma = material.gamma;
   gas.specificHeat = material.specificHeat;
   gas.pInfinity = material.state.pInfinity;
-  gas.law = material.state.law(material.specificHeat);
+  gas.law = material.law();
   const auto tags = element.children("geom_object");
   for (std::size_t k = 0; k < material.bodies.size(); ++k) {
     const GasBody& body = material.bodies[k];
@@ -180,6 +180,14 @@ void readBinary(const GasMaterial& material, const Element& root, GasScene& scen
 }
 
 }  // namespace
+
+std::shared_ptr<const euler::Gas::Law> GasMaterial::law() const {
+  if (!air) return state.law(specificHeat);
+  return std::make_shared<const euler::Gas::Law>(
+      euler::RealGas({.gasConstant = air->gasConstant.value_or((gamma - 1) * specificHeat),
+                      .specificHeat = specificHeat,
+                      .isAir = true}));
+}
 
 int materialOf(const Element& condition) {
   return input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);

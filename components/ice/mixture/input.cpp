@@ -25,6 +25,9 @@ void checkSubstance(const GasMaterial& material, const Element& element, Diagnos
   if (kind != EquationOfState::Kind::ideal && kind != EquationOfState::Kind::stiffened)
     diagnostics.error(*element.child("EOS"),
                       "is not available with a second gas: several gases must be of type ideal_gas or stiffened_gas");
+  if (material.air)
+    diagnostics.error(*element.child("SpecificHeatModel"),
+                      "is not available with a second gas: remove it, or keep one gas");
   if (material.varying.varies())
     diagnostics.error(*element.child("dynamicViscosityModels"),
                       "is not available with a second gas: give <dynamic_viscosity>, or keep one gas");
