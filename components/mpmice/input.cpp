@@ -211,9 +211,12 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const std::size_t before = diagnostics.size();
   const int solids = countSolids(root);
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
-  if (!scene.scalars.empty())
-    diagnostics.error(scene.scalars.front().where, "Models/Model",
-                      "is not available with bodies; remove it, or keep only the gas");
+  for (const ice::ScalarSettings& one : scene.scalars)
+    if (one.diffusivity > 0)
+      diagnostics.error(one.where, "Models/Model/PassiveScalar/scalar/constants/diffusivity",
+                        fmt::format("{:g} m^2/s is not available with bodies: there scalars are carried, but do not "
+                                    "diffuse; set it to 0",
+                                    one.diffusivity));
   if (!scene.massExchanges.empty())
     diagnostics.error(scene.massExchanges.front().where, "Models/Model",
                       "is not available with bodies; remove it, or keep only the gas");
@@ -222,6 +225,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};
   settings.diffusion = {scene.varying, scene.diffusions};
   settings.heating = scene.heating;
+  settings.scalars = scene.scalars;
   settings.gases = scene.mixture;
   if (scene.implicit)
     settings.implicit = {.diffusion = scene.varying.varies() ? euler::Diffusion() : scene.varying.uniform,
@@ -260,6 +264,7 @@ simulation::ComponentKind kind(bool areRigid) {
   kind.readFirst = {"MaterialProperties/MPM"};  // as in Uintah
   kind.boundaryLabels = {grid::symmetric, euler::boundary::density, euler::boundary::pressure,
                          mpm::boundary::velocity.evenOnPlanes(), mpm::boundary::temperature.evenOnPlanes()};
+  for (const char* name : ice::scalarsAtSides) kind.boundaryLabels.push_back(BoundaryLabel<double>(name));
   kind.conditionWords = ice::gasConditionWords(false);
   kind.takesPartsOfSides = true;
   kind.describe = [](std::ostream& out) {
