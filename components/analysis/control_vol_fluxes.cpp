@@ -21,7 +21,6 @@ using simulation::SaveRequest;
 namespace {
 
 constexpr std::string_view densityName = "c.density", velocityName = "c.velocity";
-constexpr BoundaryLabel<Vec3> velocityAtSide{"Velocity"};
 
 struct Boxes {
   std::vector<Extent> list;
@@ -52,15 +51,6 @@ const input::Schema<FluxSettings>& fluxSchema() {
     return tags.requiredSection("controlVolumes", &FluxSettings::boxes, boxes, "the boxes to sample");
   }();
   return schema;
-}
-
-/// The velocity along the axis, at a side of a cell that is also a side of the grid.
-template <int D>
-double velocityAtEnd(const Level& level, int d, int side, int material, const Vec<D>& inside) {
-  if (level.isSymmetry(d, side, material)) return 0;
-  const auto given = level.boundary(d, side, velocityAtSide, material);
-  if (given && given->isDirichlet()) return given->value[level.axis(d)];
-  return inside[d];
 }
 
 template <int D>

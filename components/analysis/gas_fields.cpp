@@ -30,6 +30,15 @@ std::optional<bool> isDerived(const Component& component, std::string_view label
   return computesInCells(derived, label) ? std::optional(true) : std::nullopt;
 }
 
+bool computesTotal(const Component& component, std::string_view label) {
+  TaskList derived;
+  component.scheduleDiagnostics(derived);
+  for (const tasks::Task& task : derived.tasks())
+    for (const tasks::Access& access : task.accesses)
+      if (access.writes() && access.label->name == label) return true;
+  return false;
+}
+
 int bodiesOf(const Component& component) {
   TaskList state;
   component.scheduleInitialize(state);

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/core.hpp"
 #include "core/input/document.hpp"
 #include "core/simulation/component.hpp"
 
@@ -14,6 +15,21 @@ namespace tushar::analysis {
 /// Whether diagnostics compute a cell variable without a material; false if it is part of the state, and none if there
 /// is no such variable.
 std::optional<bool> isDerived(const simulation::Component& component, std::string_view label);
+
+/// Whether diagnostics compute a total of this name.
+bool computesTotal(const simulation::Component& component, std::string_view label);
+
+/// The velocity along an axis at a side of a cell that is also a side of the grid: that given there, or that of the
+/// gas inside, m/s.
+template <int D>
+double velocityAtEnd(const Level& level, int axis, int side, int material, const Vec<D>& inside,
+                     int part = grid::restOfSide) {
+  constexpr BoundaryLabel<Vec3> velocity{"Velocity"};
+  if (level.isSymmetry(axis, side, material, part)) return 0;
+  const auto given = level.boundary(axis, side, velocity, material, part);
+  const bool isNumber = given && given->isDirichlet() && !given->formula;
+  return isNumber ? given->value[level.axis(axis)] : inside[axis];
+}
 
 /// The number of materials before the gas of a component, which is the index of the gas in the scene.
 int bodiesOf(const simulation::Component& component);

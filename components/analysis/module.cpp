@@ -1,5 +1,6 @@
 #include "components/analysis/control_vol_fluxes.hpp"
 #include "components/analysis/exact_solution.hpp"
+#include "components/analysis/first_law_thermo.hpp"
 #include "components/analysis/line_extract.hpp"
 #include "components/analysis/min_max.hpp"
 #include "components/analysis/particle_extract.hpp"
@@ -13,7 +14,7 @@ namespace tushar::modules {
 simulation::Catalogue analysis() {
   using namespace tushar::analysis;
   return {{},
-          {controlVolFluxesKind(), exactSolutionKind(), lineExtractKind(), minMaxKind(), particleExtractKind(),
+          {controlVolFluxesKind(), exactSolutionKind(), firstLawThermoKind(), lineExtractKind(), minMaxKind(), particleExtractKind(),
            planeAverageKind(), planeExtractKind(), sliceKind(), vorticityKind()}};
 }
 

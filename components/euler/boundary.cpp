@@ -185,14 +185,34 @@ Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, i
   return cell;
 }
 
-/// Weakens the incoming wave of a state at constant entropy, to let waves out; the wave decays over `cells` cells.
+/// The number of gases in a state of N numbers.
+template <int D, std::size_t N>
+inline constexpr int kGasesIn = N > D + 2 ? static_cast<int>(N - D - 2) / 2 : 1;
+
+/// c² [m²/s²] of a state, of one gas or of several.
+template <int D, std::size_t N>
+double soundSpeedSquaredIn(const GhostRule<D>& rule, const std::array<double, N>& w) {
+  if constexpr (constexpr int K = kGasesIn<D, N>; K == 1) {
+    return rule.gas->soundSpeedSquared(w[kDensity], w[kPressure<D>]);
+  } else {
+    Mixture<K> laws;
+    std::copy_n(rule.laws.softness.begin(), K, laws.softness.begin());
+    std::copy_n(rule.laws.stiffness.begin(), K, laws.stiffness.begin());
+    return lawIn<D, K>(laws, w).soundSpeedSquared(w[kDensity], w[kPressure<D>]);
+  }
+}
+
+/// Weakens the incoming wave of a state at constant entropy, to let waves out; the wave decays over `cells` cells. It
+/// compresses all gases of a cell by the same factor.
 template <int D, std::size_t N>
 void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
   const Relaxation& side = rule.relaxes;
   double& speed = w[kVelocity(side.axis)];
-  const double squared = rule.gas->soundSpeedSquared(w[kDensity], w[kPressure<D>]), sound = std::sqrt(squared);
+  const double squared = soundSpeedSquaredIn<D>(rule, w), sound = std::sqrt(squared);
   const double half = 0.5 * cells * side.loss(w[kPressure<D>], side.outwards * speed, sound);
   speed += side.outwards * half / (w[kDensity] * sound);
+  if constexpr (constexpr int K = kGasesIn<D, N>; K > 1)
+    for (int k = 0; k < K; ++k) w[kMass<D>(k)] -= w[kMass<D>(k)] / w[kDensity] * (half / squared);
   w[kDensity] -= half / squared;
   w[kPressure<D>] -= half;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/euler/labels.hpp"
+#include "components/euler/mixture.hpp"
 #include "components/euler/rows.hpp"
 
 namespace tushar::euler {
@@ -42,6 +43,7 @@ struct GhostRule {
   double temperature = 0;        ///< if above 0, the temperature of a gas with its own law, K
   const Gas* gas = nullptr;      ///< that gas
   Relaxation relaxes = {};       ///< relaxation at a side that lets waves out
+  Mixture<kMostGases> laws;      ///< of several gases, for that relaxation
 };
 
 /// The rules of a side: outside its parts, and for each part.
@@ -92,6 +94,26 @@ GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time = 0);
 /// The same, with rules only for the sides beyond which a box of cells reaches.
 template <int D>
 GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time, const Box& cells);
+
+/// The rules for several gases with these laws.
+template <int D, int K>
+GhostRules<D> withLaws(GhostRules<D> rules, const Mixture<K>& laws) {
+  Mixture<kMostGases> all;
+  std::copy(laws.softness.begin(), laws.softness.end(), all.softness.begin());
+  std::copy(laws.stiffness.begin(), laws.stiffness.end(), all.stiffness.begin());
+  for (auto& sides : rules)
+    for (SideRules<D>& side : sides) {
+      side.laws = all;
+      for (GhostRule<D>& part : side.parts) part.laws = all;
+      if (side.varying)
+        side.varying = [all, makeRule = std::move(side.varying)](int part, const Index<D>& cell) {
+          GhostRule<D> rule = makeRule(part, cell);
+          rule.laws = all;
+          return rule;
+        };
+    }
+  return rules;
+}
 
 /// Like ghostRules, for differences across the sides, of velocities and temperatures (which replace the densities):
 /// given values apply at the side itself, and the others are mirrored. Formulas count in the middle of each face.

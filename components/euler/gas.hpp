@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "components/euler/curved_gas.hpp"
+#include "components/euler/real_gas.hpp"
 
 namespace tushar::euler {
 
@@ -62,7 +63,7 @@ struct StiffenedGas {
 
 /// A gas: a stiffened gas unless it has its own law.
 struct Gas {
-  using Law = std::variant<CurvedGas, Water>;
+  using Law = std::variant<CurvedGas, Water, RealGas>;
 
   double gamma = 1.4;                        ///< ratio of specific heats, above 1
   double pInfinity = 0;                      ///< Pa

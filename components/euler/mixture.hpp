@@ -47,6 +47,9 @@ struct MixedGas {
   }
 };
 
+/// The largest number of gases.
+inline constexpr int kMostGases = 3;
+
 /// The laws of K gases.
 template <int K>
 struct Mixture {

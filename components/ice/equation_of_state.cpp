@@ -100,6 +100,23 @@ const Schema<euler::Water::Numbers>& waterSchema() {
   return schema;
 }
 
+/// The tags of TST.
+struct TstTags {
+  double a = 0, b = 0, u = 0, w = 0, gamma = 0;
+};
+const Schema<TstTags>& tstSchema() {
+  static const Schema<TstTags> schema =
+      Schema<TstTags>("EOS", "p = (Gamma - 1) c_v T / (v - b) - a / ((v + u b) (v + w b)), v = 1 / rho.")
+          .foreignAttribute("type", "TST")
+          .required("a", &TstTags::a, "Pa m^6/kg^2", "attraction of molecules; below 0 they repel each other")
+          .required("b", &TstTags::b, "m^3/kg", "volume of the molecules", input::nonNegative())
+          .required("u", &TstTags::u, "1", "u, more than -1", input::greaterThan(-1))
+          .required("w", &TstTags::w, "1", "w, more than -1", input::greaterThan(-1))
+          .required("Gamma", &TstTags::gamma, "1", "ratio of the specific heats of the thin gas",
+                    input::greaterThan(1));
+  return schema;
+}
+
 const std::vector<std::pair<std::string, Kind>>& kinds() {
   static const std::vector<std::pair<std::string, Kind>> list{{"ideal_gas", Kind::ideal},
                                                               {"stiffened_gas", Kind::stiffened},
@@ -107,7 +124,8 @@ const std::vector<std::pair<std::string, Kind>>& kinds() {
                                                               {"JWLC", Kind::jwlc},
                                                               {"Murnaghan", Kind::murnaghan},
                                                               {"Gruneisen", Kind::gruneisen},
-                                                              {"Thomsen_Hartka_water", Kind::water}};
+                                                              {"Thomsen_Hartka_water", Kind::water},
+                                                              {"TST", Kind::tst}};
   return list;
 }
 
@@ -120,6 +138,12 @@ std::shared_ptr<const euler::Gas::Law> EquationOfState::law(double specificHeat)
   if (kind == Kind::jwl) return curved(cold.omega);
   if (kind == Kind::gruneisen) return curved(perKelvin / (cold.density * specificHeat));
   if (kind == Kind::jwlc || kind == Kind::murnaghan) return curved(0);
+  if (kind == Kind::tst) {
+    euler::RealGas::Numbers numbers = real;
+    numbers.specificHeat = specificHeat;
+    numbers.gasConstant = (gammaOfThinGas - 1) * specificHeat;
+    return std::make_shared<const euler::Gas::Law>(euler::RealGas(numbers));
+  }
   if (kind == Kind::water) return std::make_shared<const euler::Gas::Law>(euler::Water(water));
   return nullptr;
 }
@@ -163,6 +187,11 @@ EquationOfState readEquationOfState(const Element& material, Diagnostics& diagno
                  .a = tags.a,
                  .pressureThere = tags.pressure - tags.b * tags.temperature};
     read.perKelvin = tags.b;
+  }
+  if (kind == Kind::tst) {
+    const TstTags tags = tstSchema().read(*given, diagnostics);
+    read.real = {.attraction = tags.a, .covolume = tags.b, .u = tags.u, .w = tags.w};
+    read.gammaOfThinGas = tags.gamma;
   }
   if (kind == Kind::water) read.water = waterSchema().read(*given, diagnostics);
   read.kind = kind;

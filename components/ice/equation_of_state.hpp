@@ -11,13 +11,15 @@ namespace tushar::ice {
 
 /// The `<EOS>` of a gas.
 struct EquationOfState {
-  enum class Kind { ideal, stiffened, jwl, jwlc, murnaghan, gruneisen, water };
+  enum class Kind { ideal, stiffened, jwl, jwlc, murnaghan, gruneisen, water, tst };
 
   Kind kind = Kind::ideal;
   double pInfinity = 0;        ///< Pa
   euler::ColdCurve cold = {};  ///< for JWL, JWLC, Murnaghan and Gruneisen
   double perKelvin = 0;        ///< for Gruneisen: B, Pa/K
   euler::Water::Numbers water = {};
+  euler::RealGas::Numbers real = {};  ///< for TST, except c_v
+  double gammaOfThinGas = 0;          ///< for TST
 
   /// Whether <gamma> counts.
   bool hasGamma() const { return kind == Kind::ideal || kind == Kind::stiffened; }

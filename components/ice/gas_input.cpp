@@ -128,7 +128,7 @@ std::string whyExplicit(const std::vector<GasMaterial>& materials, const GasScen
   if (!scene.burns.empty()) return "with a burning body";
   if (materials.size() > 1) return "with bodies in several gases";
   const GasMaterial& gas = materials.front();
-  return gas.state.law(gas.specificHeat) ? "with bodies in a gas that is neither ideal nor stiffened" : "";
+  return gas.law() ? "with bodies in a gas that is neither ideal nor stiffened" : "";
 }
 
 /// Takes the settings of implicit steps, or notes why steps are explicit.

@@ -6,6 +6,7 @@
 
 #include "components/euler/labels.hpp"
 #include "components/ice/mixture/input.hpp"
+#include "components/ice/uintah_words.hpp"
 
 namespace tushar::ice {
 
@@ -59,7 +60,8 @@ void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagn
                         "the temperature already follows from Density and Pressure; keep two of the three");
       continue;
     }
-    const double fitting = *p / (gas.gasConstant() * *rho);
+    if (gas.isBarotropic()) continue;  // any temperature fits
+    const double fitting = gas.temperature(*rho, gas.energyOf(*rho, *p));
     if (std::abs(*t - fitting) <= 1e-3 * fitting) continue;
     if (std::abs(*t - fitting) <= 1e-2 * fitting)  // rounded, or changed a little in one of them
       diagnostics.note(
@@ -90,7 +92,7 @@ void readMaterial(const GasMaterial& material, const Element& element, bool besi
   gas.gamma = material.gamma;
   gas.specificHeat = material.specificHeat;
   gas.pInfinity = material.state.pInfinity;
-  gas.law = material.state.law(material.specificHeat);
+  gas.law = material.law();
   const auto tags = element.children("geom_object");
   for (std::size_t k = 0; k < material.bodies.size(); ++k) {
     const GasBody& body = material.bodies[k];
@@ -169,12 +171,23 @@ void readBinary(const GasMaterial& material, const Element& root, GasScene& scen
   scene.mixture = binary.gases(common);
   scene.diffusions = binary.diffusions();
   if (!scene.heating.perMass.empty()) scene.heating.perMass.assign(2, scene.heating.perMass.front());
+  if (scene.exchange)
+    diagnostics.note(scene.exchange->where, exchangePath,
+                     "does nothing: the two gases of BinaryProperties have one velocity and one temperature");
   constexpr double atOnce = 1e30;  // W/(m³ K)
   scene.exchange = Exchange{.where = binary.where, .momentum = {}, .heat = {atOnce}};
   checkMixture({material}, root, scene, scene.gas.gas.material, diagnostics);
 }
 
 }  // namespace
+
+std::shared_ptr<const euler::Gas::Law> GasMaterial::law() const {
+  if (!air) return state.law(specificHeat);
+  return std::make_shared<const euler::Gas::Law>(
+      euler::RealGas({.gasConstant = air->gasConstant.value_or((gamma - 1) * specificHeat),
+                      .specificHeat = specificHeat,
+                      .isAir = true}));
+}
 
 int materialOf(const Element& condition) {
   return input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);

@@ -183,16 +183,32 @@ const Schema<GasBody>& bodySchema() {
   return schema;
 }
 
+const Schema<AirSection>& airSchema() {
+  static const Schema<AirSection> schema =
+      Schema<AirSection>("SpecificHeatModel", "A c_v that depends on the temperature.")
+          .location(&AirSection::where)
+          .requiredChoiceAttribute("type", &AirSection::type, {{"airNasa", "airNasa"}},
+                                   "that of 1 mol of O2 with 3.76 mol of N2 by polynomials of NASA, 200 to 3500 K")
+          .optional("gas_constant", &AirSection::gasConstant, "J/(kg K)",
+                    "R; (gamma - 1) specific_heat unless it is given", input::positive());
+  return schema;
+}
+
+void checkMaterial(const GasMaterial& read, const Element& element, Diagnostics& diagnostics) {
+  if (read.air && read.state.kind != EquationOfState::Kind::ideal)
+    diagnostics.error(*element.child("SpecificHeatModel"), "belongs to a gas of type ideal_gas");
+}
+
 const Schema<GasMaterial>& materialSchema() {
   static const Schema<GasMaterial> schema = [] {
     Schema<GasMaterial> tags("material", "A gas, and where it is at the start.");
     tags.attributeValue("name", &GasMaterial::name, "", "1", "its name")
         .ignoredAttribute("index", "gases are numbered in the order of the scene")
-        .custom(
-            "EOS", readState, {"EOS"},
-            "the equation of state, by its type: ideal_gas p = (gamma - 1) c_v rho T; stiffened_gas; for "
-            "explosives and liquids JWL, JWLC, Murnaghan, Gruneisen and Thomsen_Hartka_water, for which <gamma> has no "
-            "effect")
+        .custom("EOS", readState, {"EOS"},
+                "the equation of state, by its type: ideal_gas p = (gamma - 1) c_v rho T; stiffened_gas; for "
+                "explosives, liquids and dense gases JWL, JWLC, Murnaghan, Gruneisen, Thomsen_Hartka_water and TST, "
+                "for which "
+                "<gamma> has no effect")
         .forms({{.tags = {"EOS"}, .demands = {{"type", equationsOfState()}}, .atLeast = 1, .repeats = false}})
         .required("gamma", &GasMaterial::gamma, "1", "ratio of specific heats, more than 1", input::atLeast(1))
         .required("specific_heat", &GasMaterial::specificHeat, "J/(kg K)", "c_v", input::positive())
@@ -207,7 +223,7 @@ const Schema<GasMaterial>& materialSchema() {
         .ignored("isSurroundingMatl", "it has no effect")
         .ignored("tiny_rho", "it has no effect");
     input::refuseSwitch(tags, "includeFlowWork", "the total energy is conserved, including all work");
-    input::refuseTag(tags, "SpecificHeatModel", "c_v is the <specific_heat> at all temperatures");
+    tags.section("SpecificHeatModel", &GasMaterial::air, airSchema(), "a c_v that depends on the temperature");
     tags.custom(
             "dynamicViscosityModels",
             [](GasMaterial& material, const Element& element, Diagnostics& diagnostics) {
@@ -217,7 +233,7 @@ const Schema<GasMaterial>& materialSchema() {
             "viscosities instead of <dynamic_viscosity>; if several apply, the last one is used",
             describeViscosityModels)
         .forms({{.tags = {"dynamicViscosityModels"}, .repeats = false}});
-    return tags;
+    return tags.check(checkMaterial);
   }();
   return schema;
 }

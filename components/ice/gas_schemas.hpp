@@ -87,6 +87,13 @@ struct GasBody {
   std::optional<input::Expression> share;     ///< volume fraction
 };
 
+/// `MaterialProperties/ICE/material/SpecificHeatModel`: the c_v of air, which depends on the temperature.
+struct AirSection {
+  Location where;  ///< in the scene
+  std::string type;
+  std::optional<double> gasConstant;  ///< R, J/(kg K)
+};
+
 /// `MaterialProperties/ICE/material`.
 struct GasMaterial {
   std::string name;
@@ -96,7 +103,11 @@ struct GasMaterial {
   double viscosity = 0;     ///< Pa s
   double conductivity = 0;  ///< W/(m K)
   euler::VaryingDiffusion varying;
+  std::optional<AirSection> air;
   std::vector<GasBody> bodies;
+
+  /// The law of the gas; null for an ideal gas of constant c_v, and for a stiffened one.
+  std::shared_ptr<const euler::Gas::Law> law() const;
 };
 
 struct GasMaterials {

@@ -115,13 +115,7 @@ void Ice<D>::scheduleDiagnostics(TaskList& tasks) const {
 template <int D>
 std::vector<std::string> Ice<D>::foreignLabels() const {
   auto labels = uintahsLabels;
-  for (const auto& one : scalars_) {
-    const std::string name = one->names().first;
-    labels.push_back("mag_grad_" + name);
-    for (const char* end : {"_src", "_diffCoef", "_expDecayCoef", "RemovedScalar", "_X_FC_flux", "_Y_FC_flux",
-                            "_Z_FC_flux", "_X_FC_corr", "_Y_FC_corr", "_Z_FC_corr"})
-      labels.push_back(name + end);
-  }
+  for (const auto& one : scalars_) one->addForeignLabels(labels);
   return labels;
 }
 

@@ -40,25 +40,35 @@ class CarriedScalar {
   explicit CarriedScalar(ScalarSettings settings)
       : settings_(std::move(settings)),
         words_{"scalar-" + settings_.name, "c.scalar-" + settings_.name, "c.held-scalar-" + settings_.name,
-               "totalSum_scalar-" + settings_.name} {}
+               "totalSum_scalar-" + settings_.name, "c.unshared-scalar-" + settings_.name} {}
   CarriedScalar(const CarriedScalar&) = delete;
   CarriedScalar& operator=(const CarriedScalar&) = delete;
 
   const ScalarSettings& settings() const { return settings_; }
   const CellLabel<double>& value() const { return value_; }
   const CellLabel<double>& held() const { return held_; }
+  /// held() before small cells beside bodies are merged.
+  const CellLabel<double>& unshared() const { return unshared_; }
   const ReductionLabel<Sum>& total() const { return total_; }
   /// For conditions at sides of the grid.
   const BoundaryLabel<double>& atSides() const { return atSides_; }
   /// Uintah's name, and the one in Tushar.
   std::pair<std::string, std::string> names() const { return {words_[0], words_[1]}; }
+  /// Adds Uintah's variables of a scalar that no task computes here.
+  void addForeignLabels(std::vector<std::string>& labels) const {
+    labels.push_back("mag_grad_" + words_[0]);
+    for (const char* end : {"_src", "_diffCoef", "_expDecayCoef", "RemovedScalar", "_X_FC_flux", "_Y_FC_flux",
+                            "_Z_FC_flux", "_X_FC_corr", "_Y_FC_corr", "_Z_FC_corr"})
+      labels.push_back(words_[0] + end);
+  }
 
  private:
   ScalarSettings settings_;
-  std::array<std::string, 4> words_;
+  std::array<std::string, 5> words_;
   BoundaryLabel<double> atSides_{words_[0]};
   CellLabel<double> value_{words_[1], "1", "a quantity per mass that is transported with the gas"};
   CellLabel<double> held_{words_[2], "kg/m^3", "the scalar times density"};
+  CellLabel<double> unshared_{words_[4], "kg/m^3", "the scalar times density, before small cells are merged"};
   ReductionLabel<Sum> total_{words_[3], "kg", "amount of the scalar in all cells"};
 };
 

@@ -128,14 +128,13 @@ std::size_t placeOf(const std::string& name, const std::vector<std::string>& nam
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// Checks a body that burns in cracks, too.
-void checkCracks(const Element& body, bool areRigid, const ice::BurnModel& model, Diagnostics& diagnostics) {
+/// Checks a body that burns by DDT1: at its surface, or in its cracks, too.
+void checkDdt(const Element& body, bool areRigid, const ice::BurnModel& model, Diagnostics& diagnostics) {
   const auto given = body.child("constitutive_model");
   const std::string name = given ? given->attribute("type").value_or("") : "";
-  if (name != mpm::solid::ViscoScram::name)
-    diagnostics.error(
-        given.value_or(body),
-        fmt::format("found '{}', but the model DDT1 needs a body of visco_scram, which has cracks", name));
+  if (model.ddt()->burnsCracks && name != mpm::solid::ViscoScram::name)
+    diagnostics.error(given.value_or(body),
+                      fmt::format("found '{}', but useCrackModel needs a body of visco_scram, which has cracks", name));
   if (areRigid)
     diagnostics.error(model.where, "Models/Model/DDT1",
                       "is not available with rmpmice, whose bodies have no stress; use mpmice");
@@ -163,8 +162,7 @@ std::optional<Burning> burningOf(const ice::GasScene& scene, bool areRigid, cons
   if (burning.body < materials.size() && !materials[burning.body].child("specific_heat"))
     diagnostics.error(materials[burning.body],
                       "missing tag <specific_heat>: the body burns, and its heat is added to the gas");
-  if (burning.body < materials.size() && model.ddt())
-    checkCracks(materials[burning.body], areRigid, model, diagnostics);
+  if (burning.body < materials.size() && model.ddt()) checkDdt(materials[burning.body], areRigid, model, diagnostics);
   return burning;
 }
 
@@ -213,9 +211,12 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const std::size_t before = diagnostics.size();
   const int solids = countSolids(root);
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
-  if (!scene.scalars.empty())
-    diagnostics.error(scene.scalars.front().where, "Models/Model",
-                      "is not available with bodies; remove it, or keep only the gas");
+  for (const ice::ScalarSettings& one : scene.scalars)
+    if (one.diffusivity > 0)
+      diagnostics.error(one.where, "Models/Model/PassiveScalar/scalar/constants/diffusivity",
+                        fmt::format("{:g} m^2/s is not available with bodies: there scalars are carried, but do not "
+                                    "diffuse; set it to 0",
+                                    one.diffusivity));
   if (!scene.massExchanges.empty())
     diagnostics.error(scene.massExchanges.front().where, "Models/Model",
                       "is not available with bodies; remove it, or keep only the gas");
@@ -224,6 +225,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};
   settings.diffusion = {scene.varying, scene.diffusions};
   settings.heating = scene.heating;
+  settings.scalars = scene.scalars;
   settings.gases = scene.mixture;
   if (scene.implicit)
     settings.implicit = {.diffusion = scene.varying.varies() ? euler::Diffusion() : scene.varying.uniform,
@@ -262,6 +264,7 @@ simulation::ComponentKind kind(bool areRigid) {
   kind.readFirst = {"MaterialProperties/MPM"};  // as in Uintah
   kind.boundaryLabels = {grid::symmetric, euler::boundary::density, euler::boundary::pressure,
                          mpm::boundary::velocity.evenOnPlanes(), mpm::boundary::temperature.evenOnPlanes()};
+  for (const char* name : ice::scalarsAtSides) kind.boundaryLabels.push_back(BoundaryLabel<double>(name));
   kind.conditionWords = ice::gasConditionWords(false);
   kind.takesPartsOfSides = true;
   kind.describe = [](std::ostream& out) {

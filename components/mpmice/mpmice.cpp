@@ -1,5 +1,6 @@
 #include "components/mpmice/mpmice.hpp"
 
+#include "components/ice/tasks/carry_scalar.hpp"
 #include "components/mpmice/burn/burn_modes.hpp"
 #include "components/mpmice/burn/gas_of_burning.hpp"
 #include "components/mpmice/tasks/add_diffusion.hpp"
@@ -13,6 +14,7 @@
 #include "components/mpmice/tasks/initialize.hpp"
 #include "components/mpmice/tasks/measure_bodies.hpp"
 #include "components/mpmice/tasks/refine_gas.hpp"
+#include "components/mpmice/tasks/share_scalar.hpp"
 #include "components/mpmice/tasks/share_small_cells.hpp"
 #include "components/mpmice/uintah_words.hpp"
 
@@ -34,6 +36,8 @@ AdvanceGas<D> advanceBody(const euler::Method& method, std::size_t gases) {
 template <int D>
 GasAround<D>::GasAround(Settings settings) : settings_(std::move(settings)) {
   for (const euler::Settings& gas : settings_.gases) totals_.push_back(std::make_shared<const ice::GasTotal>(gas.name));
+  for (const ice::ScalarSettings& one : settings_.scalars)
+    scalars_.push_back(std::make_shared<const ice::CarriedScalar>(one));
 }
 
 template <int D>
@@ -62,6 +66,9 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
   else
     tasks.perPatch("mpmice::initializeGases", initializeGases<D>, with(settings_), requiresNew(c::freeVolume),
                    all<NewContent<D>>(settings_.gases.size()));
+  for (const auto& one : scalars_)
+    tasks.perPatch("ice::initializeScalar", ice::initializeScalar<D>, with(one.get()), requiresNew(c::density),
+                   computes(one->held()));
   if (settings_.implicit)
     tasks.perPatch("mpmice::guessPressure", guessPressure<D>, with(settings_), gasIn(readsNew, {}),
                    computes(c::pressureAtEnd));
@@ -108,8 +115,9 @@ void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials,
                         all<ParticlesAtStart>(), withoutMaterial(all<NewReactant>()));
   if (hasCracks()) {
     tasks.acrossMaterials("mpmice::measureLoad", measureLoad<D>, materials, with(settings_), with(state.components),
-                          all<StressedParticles>(&state), withoutMaterial(computes(c::bodyPressure)),
-                          withoutMaterial(computes(c::crackRadius)));
+                          all<StressedParticles>(keepsStress(materials[settings_.burning->body]),
+                                                 settings_.burning->model.ddt()->burnsCracks, &state),
+                          withoutMaterial(computes(c::bodyPressure)), withoutMaterial(computes(c::crackRadius)));
     tasks.perPatch("mpmice::findBurnModes", findBurnModes<D>, with(settings_), requiresOld(delT),
                    gasIn(readsOld, reach), all<Reactant>(1), all<Load>(1), all<Waited>(waitsForFlames()),
                    all<NewBurnModes>());
@@ -155,19 +163,21 @@ void GasAround<D>::scheduleBoxes(TaskList& tasks, const Materials& materials) co
 template <int D>
 void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) const {
   scheduleBoxes(tasks, materials);
+  const bool keepsMasses = !scalars_.empty();
   if (settings_.implicit)
     tasks.acrossMaterials("mpmice::advanceImplicitly", advanceImplicitly<D>, materials, with(settings_),
                           requiresOld(delT), withoutMaterial(all<GasInStep<D>>()),
                           withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 2),
-                          withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size())),
+                          withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size(), keepsMasses)),
                           withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
   else
     tasks.acrossMaterials("mpmice::advanceGas", advanceBody<D>(settings_.gas.method, settings_.gases.size()), materials,
                           with(settings_), requiresOld(delT),
                           withoutMaterial(gasIn(readsOld, {.state = 2, .mass = 2, .room = 3})),
                           withoutMaterial(all<BodiesInStep<D>>(isViscous())), requiresNew(g::record, 2),
-                          withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size())),
+                          withoutMaterial(all<UnsharedGas<D>>(settings_.gases.size(), keepsMasses)),
                           withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
+  carryScalars(tasks);
   if (settings_.diffusion.acts())
     tasks.perPatch("mpmice::addDiffusion", settings_.diffusion.varies() ? addVaryingDiffusion<D> : addDiffusion<D>,
                    with(settings_), gasIn(readsOld, {.state = 1, .mass = 3, .room = 3}), requiresOld(delT),
@@ -180,6 +190,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_),
                  all<Unshared<D>>(settings_.gases.size()), all<NewGas<D>>(settings_.gases.size()),
                  computes(total::mergedCells));
+  shareScalars(tasks);
   scheduleHeat(tasks, materials);
   if (!settings_.gravity.isZero(0) && !settings_.implicit)
     tasks.perPatch("mpmice::addGravity", addGravity<D>, with(settings_.gravity), requiresNew(c::freeVolume),
@@ -188,6 +199,26 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   if (burns())
     tasks.perMaterial("mpmice::removeBurnt", removeBurnt<D>, materials, requiresOld(p::mass), requiresNew(p::mass),
                       modifies(p::x<D>), when(keepsStrain(materials), modifies(p::strainEnergy)));
+}
+
+template <int D>
+void GasAround<D>::carryScalars(TaskList& tasks) const {
+  const bool hasSlopes = settings_.gas.method.reconstruction != euler::Reconstruction::firstOrder;
+  for (const auto& one : scalars_)
+    tasks.perPatch("ice::carryScalar", ice::carryScalar<D>, with(one.get()), with(settings_.gas.gas), with(hasSlopes),
+                   all<ice::ScalarBefore<D>>(one.get(), ice::RoomOfGas{&c::freeVolume, wholeFreeVolume}), startTime(),
+                   requiresOld(delT), computes(one->unshared()), keepsFlux(one->unshared()));
+}
+
+template <int D>
+void GasAround<D>::shareScalars(TaskList& tasks) const {
+  for (const auto& one : scalars_) {
+    tasks.perPatch("mpmice::shareScalar", shareScalar<D>, with(settings_), all<Unshared<D>>(std::size_t{0}),
+                   requiresNew(one->unshared(), 2), requiresNew(c::density), computes(one->held()));
+    if (!one->settings().interior.empty())
+      tasks.perPatch("ice::raiseScalar", ice::raiseScalar<D>, with(one.get()), requiresNew(c::density),
+                     modifies(one->held()));
+  }
 }
 
 /// Heat by exchange coefficients, and from outside.
@@ -313,6 +344,11 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   if (burns())
     tasks.perPatch("mpmice::sumBurnt", sumBurnt<D>, with(settings_), requiresOld(c::burntSinceStart),
                    computes(total::burntMass), computes(total::reactionHeat));
+  for (const auto& one : scalars_) {
+    tasks.perPatch("ice::computeScalar", ice::computeScalar<D>, requiresOld(c::density), requiresOld(one->held()),
+                   computes(one->value()));
+    tasks.perPatch("ice::sumScalar", ice::sumScalar<D>, requiresOld(one->held()), computes(one->total()));
+  }
   tasks.perPatch("mpmice::sumLeak", sumOverVolume<D>, requiresOld(c::leakSinceStart), computes(total::leak));
 }
 
@@ -321,6 +357,7 @@ std::vector<std::string> MpmIce<D>::foreignLabels() const {
   std::vector<std::string> labels = solids_->foreignLabels();
   labels.insert(labels.end(), ice::uintahsLabels.begin(), ice::uintahsLabels.end());
   labels.insert(labels.end(), uintahsLabels.begin(), uintahsLabels.end());
+  for (const auto& one : gas_->scalars()) one->addForeignLabels(labels);
   return labels;
 }
 
@@ -330,6 +367,7 @@ simulation::OtherNames MpmIce<D>::otherNames() const {
   const simulation::OtherNames ofSolids = solids_->otherNames();
   names.insert(names.end(), ice::uintahsNames.begin(), ice::uintahsNames.end());
   names.insert(names.end(), ofSolids.begin(), ofSolids.end());
+  for (const auto& one : gas_->scalars()) names.push_back(one->names());
   return names;
 }
 

@@ -19,6 +19,7 @@ class GasAround : public mpm::solid::Surroundings {
   explicit GasAround(Settings settings);
 
   std::vector<std::string> gasNames() const;
+  const ice::CarriedScalars& scalars() const { return scalars_; }
   bool exchangesHeat() const override { return hasHeat() || burns(); }
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
   void scheduleForces(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const override;
@@ -51,9 +52,13 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleBurning(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const;
   void scheduleBoxes(TaskList& tasks, const Materials& materials) const;
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
+  /// Advection of scalars with the gas, before small cells are merged, and after it.
+  void carryScalars(TaskList& tasks) const;
+  void shareScalars(TaskList& tasks) const;
 
   Settings settings_;
   std::vector<std::shared_ptr<const ice::GasTotal>> totals_;  ///< of each of several gases
+  ice::CarriedScalars scalars_;
 };
 
 /// Solids and a gas on one grid.

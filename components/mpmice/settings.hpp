@@ -6,6 +6,7 @@
 #include "components/ice/face_flow.hpp"
 #include "components/ice/heat_coefficients.hpp"
 #include "components/ice/heating.hpp"
+#include "components/ice/scalar.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpmice {
@@ -16,6 +17,9 @@ struct Burning {
   std::size_t body = 0;  ///< its index among the bodies
   std::size_t gas = 0;   ///< that of the gas among several
 };
+
+/// The internal variable of constitutive models with cracks, in which a body may burn.
+inline constexpr std::string_view crackRadiusLabel = "p.crackRad";
 
 /// How the gas around bodies diffuses.
 struct GasDiffusion {
@@ -48,6 +52,7 @@ struct Settings {
   ice::Heating heating = {};                      ///< of the gases
   std::vector<euler::Settings> gases = {};        ///< each of several gases that share cells; the first is `gas`
   std::optional<Burning> burning = {};            ///< a body that burns
+  std::vector<ice::ScalarSettings> scalars = {};  ///< scalars that are transported with the gas
 };
 
 /// The offset of thresholds for free volumes from round fractions. Such fractions occur when bodies are aligned with

@@ -40,7 +40,7 @@ class WallExchange {
       : level_(level),
         settings_(settings),
         gas_(settings.gas.gas),
-        rules_(euler::ghostRules<D>(level, settings.gas.gas)),
+        rules_(euler::ghostRulesOf<D>(level, settings.gas.gas, settings.gases)),
         cells_(cells),
         space_(level, settings, cells),
         step_(bodies),
@@ -60,8 +60,9 @@ class WallExchange {
   }
 
   /// Adds to the content of a cell the effect of the walls at its faces, and the gas that flows in behind moving walls.
-  /// Returns what the gas gives to the walls.
-  Given<D> addTo(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
+  /// Returns what the gas gives to the walls. Adds the mass of that gas to the masses through faces.
+  Given<D> addTo(const Index<D>& cell, const euler::MixtureViews<D, double>& held,
+                 const euler::FaceMasses<D>& masses) const {
     Given<D> given;
     fillRoom(cell, held);
     if (step_.walls.friction && !(*step_.walls.friction)[cell].isZero(0)) drag(cell, held, given);
@@ -74,7 +75,7 @@ class WallExchange {
         if (!(wall > 0) && !flows) continue;
         const Vec<D> after = nodes_.velocityAt(face, d, mpm::solid::lane::velocity);
         if (wall > 0) push(cell, d, side, wall, after, held, given);
-        if (flows) flow(cell, d, side, after[d], held);
+        if (flows) flow(cell, d, side, after[d], held, masses);
       }
     }
     return given;
@@ -145,8 +146,8 @@ class WallExchange {
   }
 
   /// Gas follows a receding wall and is displaced by an approaching one, together with its mass, momentum and energy.
-  void flow(const Index<D>& cell, int axis, int side, double wallVelocity,
-            const euler::MixtureViews<D, double>& held) const {
+  void flow(const Index<D>& cell, int axis, int side, double wallVelocity, const euler::MixtureViews<D, double>& held,
+            const euler::FaceMasses<D>& masses) const {
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
     const double up = followingUp(above, axis, wallVelocity);
     if (up == 0) return;
@@ -154,6 +155,9 @@ class WallExchange {
     if (isClosedPore(receiver)) return;
     const std::optional<Gift> gas = givenBy(donor, receiver);
     if (!gas) return;
+    if (masses.below)
+      (side == 0 ? *masses.below : *masses.above)[cell][axis] +=
+          up * gas->share * gas->of.u[euler::kDensity] * level_.spacing(axis) / dt_;
     const double volume = (side == 0 ? up : -up) * gas->share;
     held.density[cell] += volume * gas->of.u[euler::kDensity];
     for (int d = 0; d < D; ++d) held.momentum[cell][d] += volume * gas->of.u[euler::kVelocity(d)];

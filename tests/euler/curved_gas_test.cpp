@@ -35,6 +35,24 @@ Gas murnaghan() { return gasOf(CurvedGas(murnaghanCurve(), 0, 716)); }
 Gas gruneisen() { return gasOf(CurvedGas(linearCurve(), 7.027e5 / (1823.3 * 716), 716)); }
 Water::Numbers waterNumbers() { return {.volume = 1.00008e-3}; }
 Gas water() { return gasOf(Water(waterNumbers())); }
+/// Air of Uintah's BwSmall.ups.
+Gas air() {
+  const double gasConstant = 288.186;
+  return gasOf(RealGas({.gasConstant = gasConstant, .specificHeat = 722, .isAir = true}));
+}
+/// The products of Uintah's SteadyBurn_2dRT.ups, and a gas whose molecules attract each other.
+Gas tst() {
+  return gasOf(RealGas({.gasConstant = 0.63 * 514.96,
+                        .specificHeat = 514.96,
+                        .attraction = -260.1385968,
+                        .covolume = 7.955153678e-4,
+                        .u = -0.5,
+                        .w = 3}));
+}
+Gas attracted() {
+  return gasOf(RealGas(
+      {.gasConstant = 300, .specificHeat = 750, .attraction = 100, .covolume = 1e-3, .u = 2.414214, .w = -0.414214}));
+}
 /// JWL without its exponentials.
 Gas idealByLaw() { return gasOf(CurvedGas({.density = 1}, 0.4, 716)); }
 
@@ -49,6 +67,9 @@ std::vector<Case> allLaws() {
           {"Murnaghan", murnaghan(), {1000, 1159, 1161, 1800}},
           {"Gruneisen", gruneisen(), {1700, 1823, 2000}},
           {"water", water(), {990, 1000, 1010}},
+          {"air", air(), {1e-3, 1, 40}},
+          {"TST", tst(), {1e-3, 1, 300, 900}},
+          {"attracted", attracted(), {1e-3, 1, 100, 200}},
           {"ideal", idealByLaw(), {1e-3, 1, 10}}};
 }
 
@@ -170,12 +191,36 @@ TEST(GasLaws, ConvergeToExactShockTubes) {
   for (const auto& [name, gas, left, hot, right, cold] :
        {Tube{"JWL", jwl(), 1835, 3000, 200, 300}, Tube{"JWLC", jwlc(), 1400, 300, 100, 300},
         Tube{"Murnaghan", murnaghan(), 1400, 300, 1170, 300}, Tube{"Gruneisen", gruneisen(), 2100, 500, 1800, 300},
-        Tube{"water", water(), 1010, 300, 1000, 310}}) {
+        Tube{"water", water(), 1010, 300, 1000, 310}, Tube{"air", air(), 1, 3000, 1, 250},
+        Tube{"TST", tst(), 400, 1000, 100, 300}}) {
     const TubeState high = stateAt(gas, left, hot), low = stateAt(gas, right, cold);
     const double coarse = tubeError(gas, high, low, 100), fine = tubeError(gas, high, low, 400);
     EXPECT_LT(fine, 0.006) << name;
     EXPECT_LT(fine, 0.4 * coarse) << name;  // a shock alone would give a quarter, a contact .4
   }
+}
+
+TEST(HeatOfAir, IsThatOfTables) {
+  // c_p/R of N2 and O2 at 298.15 K and 1000 K: 3.503, 3.533 and 3.933, 4.194 (M. W. Chase, NIST-JANAF tables, 1998).
+  EXPECT_NEAR(HeatOfAir::specificHeat(298.15), (3.533 + 3.76 * 3.503) / 4.76 - 1, 5e-3);
+  EXPECT_NEAR(HeatOfAir::specificHeat(1000), (4.194 + 3.76 * 3.933) / 4.76 - 1, 8e-3);
+  EXPECT_EQ(HeatOfAir::specificHeat(150), HeatOfAir::specificHeat(200));
+  EXPECT_EQ(HeatOfAir::specificHeat(5000), HeatOfAir::specificHeat(3500));
+}
+
+TEST(HeatOfAir, HasTheEnergyAndTheEntropyThatFollow) {
+  for (const double t : {1.0, 199.9, 200.0, 300.0, 999.9, 1000.0, 1000.1, 2500.0, 3500.0, 6000.0}) {
+    const double step = 1e-3 * t, heat = HeatOfAir::specificHeat(t);
+    EXPECT_NEAR((HeatOfAir::energy(t + step) - HeatOfAir::energy(t - step)) / (2 * step) / heat, 1, 1e-4) << t;
+    EXPECT_NEAR((HeatOfAir::entropy(t + step) - HeatOfAir::entropy(t - step)) / (2 * step) * t / heat, 1, 1e-4) << t;
+    EXPECT_NEAR(HeatOfAir::temperature(HeatOfAir::energy(t)) / t, 1, 1e-14) << t;
+  }
+}
+
+TEST(GasLaws, OfRealGasesHaveThePressuresOfUintahsScenes) {
+  EXPECT_NEAR(air().lastAt(0.11719839492715756, 300) / 10132.5, 1, 1e-5);
+  EXPECT_NEAR(tst().lastAt(1.037341706242494, 300) / 101325, 1, 1e-5);
+  EXPECT_FALSE(std::get<RealGas>(*tst().law).canBe(1300, 1e12)) << "there is no room for so many molecules";
 }
 
 TEST(GasLaws, ConserveAndStayPositive) {

@@ -48,6 +48,18 @@ const std::string unlike = "<rho_A>1</rho_A><rho_B>0.5</rho_B><cv_A>2</cv_A><cv_
 
 }  // namespace
 
+TEST(BinaryProperties, HaveNoExchangeOfTheirOwn) {
+  const std::string plain = binary(unlike, region("0.5", "1", "1"), "");
+  const std::string given = changedScene(plain, "</ICE>\n  </MaterialProperties>",
+                                         "</ICE><exchange_properties><exchange_coefficients><momentum>[]</momentum>"
+                                         "<heat>[]</heat></exchange_coefficients></exchange_properties>"
+                                         "</MaterialProperties>");
+  const simulation::Problem problem = scene::readScene(given, {}, catalogue());
+  EXPECT_TRUE(std::any_of(problem.notes.begin(), problem.notes.end(), [](const InputProblem& note) {
+    return note.sentence.find("have one velocity and one temperature") != std::string::npos;
+  }));
+}
+
 TEST(BinaryProperties, AreThoseOfTheMixture) {
   // f = .25: c_v = 3.5, R = 1.25, 1 / rho = .75 / 1 + .25 / .5.
   const std::vector<std::string> start{"Time/max_Timesteps=1"};

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
+
 #include "tests/support/scenes.hpp"
 
 // Conditions, forces and viscosities in words of Uintah's ICE.
@@ -66,6 +69,44 @@ TEST(IceConditions, WavesLeaveByAllSides) {
   EXPECT_LT(errorOf(pulse), 2e-5);
   EXPECT_EQ(fingerprintOf(pulse, {"Grid/Level/Box/patches=[4,2,1]"}), fingerprintOf(pulse));
   EXPECT_EQ(problemOf(withSide(condition("Pressure", "LODI"))), "needs a <LODI> in <BoundaryConditions>");
+}
+
+namespace {
+
+/// The ring of sound in two gases of one law or of two, whose shares vary: a tenth to a half of the first.
+std::string pulseOfTwo(const std::string& gamma, const std::string& specificHeat, const std::string& tags = "") {
+  std::stringstream text;
+  text << std::ifstream(pulse).rdbuf();
+  const std::string whole = text.str(), end = "</geom_object>\n      </material>";
+  const std::size_t at = whole.find("<material name"), to = whole.find(end) + end.size();
+  std::string other = whole.substr(at, to - at);
+  const auto change = [&](std::string& of, const std::string& from, const std::string& by) {
+    of.replace(of.find(from), from.size(), by);
+  };
+  std::string first = other;
+  change(first, "<density>", "<volumeFraction>0.3 + 0.4*x*y</volumeFraction><density>");
+  change(other, "<density>", "<volumeFraction>0.7 - 0.4*x*y</volumeFraction><density>");
+  change(other, "name=\"gas\"", "name=\"other\"");
+  change(other, "label=\"all\"", "label=\"all of it\"");
+  change(other, "<gamma>1.4<", "<gamma>" + gamma + "<");
+  change(other, "<specific_heat>2.5<", "<specific_heat>" + specificHeat + "<");
+  const std::string scene = changedScene(pulse, whole.substr(at, to - at), first + other);
+  return tags.empty() ? scene
+                      : changedScene(scene, "<ICE><advection type=\"SecondOrder\"/></ICE>",
+                                     "<ICE><advection type=\"SecondOrder\"/>" + tags + "</ICE>");
+}
+
+}  // namespace
+
+TEST(IceConditions, WavesLeaveInSeveralGases) {
+  const std::string twice = pulseOfTwo("1.4", "2.5");
+  EXPECT_NEAR(errorOf(twice) / errorOf(pulse), 1, 1e-3);
+  EXPECT_EQ(fingerprintOf(twice, {"Grid/Level/Box/patches=[4,2,1]"}), fingerprintOf(twice));
+  EXPECT_LT(errorOf(pulseOfTwo("1.6", "1.6666666666666667")), 2e-4);  // it starts with differences of density
+  EXPECT_LT(errorOf(pulseOfTwo("1.4", "2.5",
+                               "<TimeStepControl><knob_for_speedSound>1</knob_for_speedSound></TimeStepControl>"
+                               "<ImplicitSolver/>")),
+            1e-4);
 }
 
 TEST(IceConditions, DoNotContradictOneAnother) {

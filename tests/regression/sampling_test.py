@@ -136,6 +136,29 @@ class Sampling(ModuleTest):
         np.testing.assert_allclose(state["c.vorticity"][:], expected, atol=1e-13)
         self.assertGreater(np.abs(expected[..., 2]).max(), .5)
 
+    def test_the_energy_of_a_gas_and_what_leaves_with_it(self):
+        """A gas of 1 kg/m³, 1 Pa, c_v 2.5 J/(kg K) that goes through the grid at .5 m/s: E + p = 3.625 J/m³."""
+        text = (ROOT / "ups/ice/sod.ups").read_text()
+        text = text[:text.index("  <DataAnalysis>")] + text[text.index("</DataAnalysis>") + len("</DataAnalysis>"):]
+        for side in "x-", "x+":
+            text = text.replace(f'<Face side="{side}"><BCType id="all" label="Symmetric" var="symmetry"/></Face>', "")
+        start, end = text.index("        <geom_object>"), text.rindex("</geom_object>") + len("</geom_object>")
+        text = (text[:start] + '<geom_object><box label="all"><min>[-9,-9,-9]</min><max>[9,9,9]</max></box>'
+                "<density>1</density><temperature>1</temperature><velocity>[0.5,0,0]</velocity></geom_object>" +
+                text[end:])
+        sides = '<Face side="x+" extents="entireFace"/><Face side="x-" extents="entireFace"/>'
+        for tags, flow in ((sides, 0), ('<Face side="x+"/>', .5 * 3.625), ('<Face side="x-"/>', -.5 * 3.625)):
+            times = "<samplingFrequency>1e9</samplingFrequency><timeStart>0</timeStart><timeStop>9</timeStop>"
+            module_of = f'<Module name="firstLawThermo">{times}<controlVolume>{tags}</controlVolume></Module>'
+            path = self.folder / "uniform.ups"
+            path.write_text(text)
+            archive = self.run_in(f"law{flow}", self.scene(module_of, path), "--set", "Time/max_Timesteps=3")
+            rows = numbers((archive / "1stLawThermo.dat").read_text())
+            self.assertEqual(len(rows), 3)
+            for row in rows:
+                np.testing.assert_allclose(row[1:4], [2.5, 0, 2.5], rtol=1e-13)
+                self.assertAlmostEqual(row[4], flow, delta=1e-13)
+
     def test_the_mass_in_boxes_is_that_of_their_cells(self):
         boxes = "".join(f'<box label="{name}"><min>{low}</min><max>{high}</max></box>' for name, low, high in (
             ("all", "[-5,-5,-1.25]", "[5,5,1.25]"), ("part", "[-5,0,-1.25]", "[0,5,1.25]")))

@@ -36,7 +36,8 @@ void advanceMixture(const Patch& patch, const std::vector<Settings>& gases, cons
   const Level& level = patch.level();
   RimFluxes<D> allRims = rims;
   allRims.gases = gasRims;
-  const GhostRules<D> rules = ghostRules<D>(level, gases.front().gas, time, patch.cells().grown(Shape::reach, D));
+  const GhostRules<D> rules =
+      withLawsOf<D>(ghostRules<D>(level, gases.front().gas, time, patch.cells().grown(Shape::reach, D)), gases);
   const Mixture<K> mixture = mixtureOf<K>(gases);
   const auto before = viewsOf<const double, D>(old, oldGases);
   const auto after = viewsOf<double, D>(fresh, newGases);

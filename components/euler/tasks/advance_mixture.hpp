@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/euler/boundary.hpp"
 #include "components/euler/tasks/advance.hpp"
 
 namespace tushar::euler {
@@ -47,6 +48,18 @@ template <int D, class Held, class T>
 void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Held>& held,
                          const StateViews<D, T>& state);
 
+/// The rules with the laws of these gases; `gases` may be empty, for one gas.
+template <int D>
+GhostRules<D> withLawsOf(GhostRules<D> rules, const std::vector<Settings>& gases) {
+  if (gases.size() == 2) return withLaws<D>(std::move(rules), mixtureOf<2>(gases));
+  return gases.size() == 3 ? withLaws<D>(std::move(rules), mixtureOf<3>(gases)) : rules;
+}
+/// Like ghostRules, for several gases, of which the first has the conditions; `gases` may be empty, for one gas.
+template <int D>
+GhostRules<D> ghostRulesOf(const Level& level, const Gas& first, const std::vector<Settings>& gases, double time = 0) {
+  return withLawsOf<D>(ghostRules<D>(level, first, time), gases);
+}
+
 /// The views of the state of all gases together, and of each.
 template <class T, int D, class Held>
 MixtureViews<D, T> viewsOf(const StateViews<D, T>& all, const std::vector<Held>& held) {
@@ -68,9 +81,6 @@ using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>&
                                 const std::vector<OldGas>& oldGases, double time, double dt, const NewState<D>& fresh,
                                 const std::vector<NewGas>& newGases, const RimFluxes<D>& rims,
                                 const std::vector<GasRims>& gasRims);
-
-/// The largest number of gases.
-inline constexpr int kMostGases = 3;
 
 /// The body for a method and a number of gases: HLLC's flux, van Leer's slopes or none.
 template <int D>

@@ -69,7 +69,7 @@ void solveMixedPressure(const RankPatches& patches, const mpi::Communicator& ran
                         const std::vector<CellView<const double>>& guess, const std::vector<PressureViews>& fresh,
                         const SolveTotals& totals) {
   const Level& level = patches.front()->level();
-  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, gas.gas, time);
+  const euler::GhostRules<D> rules = euler::withLaws<D>(euler::ghostRules<D>(level, gas.gas, time), lawsOfShares);
   std::vector<FaceFlow<D, 2>> flows;
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const Box cells = patches[p]->cells();
@@ -97,7 +97,7 @@ void advanceMixtureImplicitly(const Patch& patch, const Gases& gases, const IceS
                               double dt, CellView<const double> change, const euler::NewState<D>& fresh,
                               const std::vector<euler::NewGas>& newGases) {
   const Level& level = patch.level();
-  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, gases.front().gas, time);
+  const euler::GhostRules<D> rules = euler::ghostRulesOf<D>(level, gases.front().gas, gases, time);
   const auto old = euler::viewsOf<const double, D>(before, oldGases);
   const auto after = euler::viewsOf<double, D>(fresh, newGases);
   double most = 0;
@@ -119,7 +119,7 @@ void limitImplicitMixture(const Patch& patch, const Gases& gases, double cfl, co
                           CellView<const double> pressure, Minimum& dt) {
   const Level& level = patch.level();
   euler::refuseBrokenMixture<D, euler::OldGas, const double>(patch, gases, held, before);
-  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, gases.front().gas, time);
+  const euler::GhostRules<D> rules = euler::ghostRulesOf<D>(level, gases.front().gas, gases, time);
   const Box cells = patch.cells().grown(1, D);
   double greatest = 0;
   withLaws(gases, [&]<int K>(const euler::Mixture<K>& laws) {

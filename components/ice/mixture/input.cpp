@@ -25,6 +25,9 @@ void checkSubstance(const GasMaterial& material, const Element& element, Diagnos
   if (kind != EquationOfState::Kind::ideal && kind != EquationOfState::Kind::stiffened)
     diagnostics.error(*element.child("EOS"),
                       "is not available with a second gas: several gases must be of type ideal_gas or stiffened_gas");
+  if (material.air)
+    diagnostics.error(*element.child("SpecificHeatModel"),
+                      "is not available with a second gas: remove it, or keep one gas");
   if (material.varying.varies())
     diagnostics.error(*element.child("dynamicViscosityModels"),
                       "is not available with a second gas: give <dynamic_viscosity>, or keep one gas");
@@ -86,14 +89,11 @@ void checkSide(const Element& face, const Element& condition, int solids, bool i
   const bool isGiven = var == nameOf(BoundaryKind::dirichlet);
   const bool saysWhat = label == euler::boundary::density.name || (isBinary && label == fractionLabel) ||
                         (label == euler::boundary::temperature.name && !isWall(face));
-  if (var == euler::boundary::waves.name)
-    diagnostics.error(condition.whereOf("var"), condition.path(),
-                      "LODI is not available with several gases: give Neumann, or a Pressure");
-  else if (isGiven && saysWhat)
+  if (isGiven && saysWhat)
     diagnostics.error(condition,
                       "Dirichlet is not available with several gases: the gas that flows in has the composition of the "
                       "adjacent cells; give a Velocity or a Pressure, or Neumann");
-  else if (var != nameOf(BoundaryKind::neumann) && !isBinary)
+  else if (var != nameOf(BoundaryKind::neumann) && var != euler::boundary::waves.name && !isBinary)
     checkMaterial(condition, solids, diagnostics);
 }
 

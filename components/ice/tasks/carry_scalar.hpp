@@ -14,6 +14,8 @@ void initializeScalar(const Patch& patch, const CarriedScalar* scalar, CellView<
                       CellView<double> held) {
   const auto& regions = scalar->settings().start;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    held[cell] = 0;
+    if (!(density[cell] > 0)) return;  // a body fills it
     const Vec3 point = patch.level().template expandPoint<D>(patch.level().template cellCentre<D>(cell));
     const auto region =
         std::find_if(regions.rbegin(), regions.rend(), [&](const ScalarRegion& one) { return one.shape->owns(point); });
@@ -26,19 +28,41 @@ void initializeScalar(const Patch& patch, const CarriedScalar* scalar, CellView<
   });
 }
 
-/// Variables of a scalar f and of its carrier gas that a step reads.
+/// The room that bodies leave the gas: the share of a cell, and that from which on the cell counts as free of bodies.
+struct RoomOfGas {
+  const CellLabel<double>* free = nullptr;  ///< null where there are no bodies
+  double whole = 1;
+};
+
+/// Variables of a scalar f and of its carrier gas that a step reads; all contents are per volume of the cell.
 template <int D>
 struct ScalarBefore {
   CellView<const double> density, held;
   CellView<const Vec<D>> below, above;
+  std::optional<CellView<const double>> free = {};
+  double whole = 1;
 
-  static ScalarBefore from(auto& take, const CarriedScalar* scalar) {
-    return {.density = take(requiresOld(euler::c::density, 2)),
-            .held = take(requiresOld(scalar->held(), 2)),
-            .below = take(requiresNew(euler::c::massFlux<D>[0], 1)),
-            .above = take(requiresNew(euler::c::massFlux<D>[1], 1))};
+  static ScalarBefore from(auto& take, const CarriedScalar* scalar, const RoomOfGas& room = {}) {
+    ScalarBefore before{.density = take(requiresOld(euler::c::density, 2)),
+                        .held = take(requiresOld(scalar->held(), 2)),
+                        .below = take(requiresNew(euler::c::massFlux<D>[0], 1)),
+                        .above = take(requiresNew(euler::c::massFlux<D>[1], 1)),
+                        .whole = room.whole};
+    if (room.free) before.free = take(requiresOld(*room.free, 2));
+    return before;
   }
-  double value(const Index<D>& cell) const { return held[cell] / density[cell]; }
+  bool hasGas(const Index<D>& cell) const { return density[cell] > 0; }
+  double value(const Index<D>& cell) const { return hasGas(cell) ? held[cell] / density[cell] : 0; }
+  /// Whether a cell has no slopes, because there is a body in it or beside it.
+  bool isFlat(const Index<D>& cell) const {
+    if (!free) return false;
+    const auto isPlain = [&](const Index<D>& at) {
+      return !free->box().contains(at) || ((*free)[at] >= whole && hasGas(at));
+    };
+    bool plain = isPlain(cell);
+    for (int d = 0; d < D && plain; ++d) plain = isPlain(cell - Index<D>::unit(d)) && isPlain(cell + Index<D>::unit(d));
+    return !plain;
+  }
 };
 
 /// A scalar at the faces of cells.
@@ -71,7 +95,7 @@ class ScalarAtFaces {
     const double f = before_.value(cell);
     Faces change{};
     double least = 0, most = 0;
-    if (hasSlopes_) {
+    if (hasSlopes_ && !before_.isFlat(cell)) {
       const Box known = level_.clipCells(box_.grown(1, D));
       double ahead = 0;
       std::array<double, D> slopes{};
@@ -122,7 +146,8 @@ class ScalarAtFaces {
   std::vector<Faces> values_;
 };
 
-/// The flux of a scalar through the faces of cells, kg/(m² s).
+/// The flux of a scalar through the faces of cells, kg/(m² s). Where a body has left a donor no gas, what flows out of
+/// it is like the gas of the receiver or, without any there, like that around the donor.
 template <int D>
 class ScalarFlux {
  public:
@@ -137,7 +162,7 @@ class ScalarFlux {
     const bool leaves = side == 0 ? mass < 0 : mass > 0;
     const double diffusivity = scalar_.settings().diffusivity, perWidth = level_.inverseSpacing(axis);
     if (faces_.has(next)) {
-      const double f = leaves ? faces_.at(cell, axis, side) : faces_.at(next, axis, 1 - side);
+      const double f = carriedFrom(leaves ? cell : next, leaves ? next : cell, axis, leaves ? side : 1 - side);
       if (diffusivity == 0) return mass * f;
       const Index<D>&below = side == 0 ? next : cell, &above = side == 0 ? cell : next;
       const double rho = 0.5 * (before_.density[below] + before_.density[above]);
@@ -151,6 +176,20 @@ class ScalarFlux {
   }
 
  private:
+  /// f of what flows out of a donor through its lower (0) or upper (1) face.
+  double carriedFrom(const Index<D>& donor, const Index<D>& receiver, int axis, int side) const {
+    if (before_.hasGas(donor)) return faces_.at(donor, axis, side);
+    if (before_.hasGas(receiver)) return faces_.at(receiver, axis, 1 - side);
+    double held = 0, mass = 0;
+    for (int d = 0; d < D; ++d)
+      for (const Index<D>& at : {donor - Index<D>::unit(d), donor + Index<D>::unit(d)}) {
+        if (!before_.density.box().contains(at) || !before_.hasGas(at) || !((*before_.free)[at] > 0)) continue;
+        const double inverse = 1 / (*before_.free)[at];
+        held += inverse * before_.held[at];
+        mass += inverse * before_.density[at];
+      }
+    return mass > 0 ? held / mass : 0;
+  }
   euler::Place placeOf(const Index<D>& cell, int axis, int side) const {
     Index<D> beyond = cell;
     if (side == 1)
@@ -204,7 +243,7 @@ void raiseScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const
     const input::Box3 bounds = region.shape->bounds();
     forEach<D>(level.cellsNear(bounds.min, bounds.max), [&](const Index<D>& cell) {
       const Vec3 point = level.expandPoint<D>(level.cellCentre<D>(cell));
-      if (!patch.cells().contains(cell) || !region.shape->owns(point)) return;
+      if (!patch.cells().contains(cell) || !(density[cell] > 0) || !region.shape->owns(point)) return;
       const double before = held[cell] / density[cell];
       const double after = std::min(before + region.value(point), region.most);
       if (after > before) held[cell] = density[cell] * after;
@@ -224,7 +263,8 @@ void limitScalarDiffusion(const Patch& patch, double diffusivity, double cfl, Ce
 template <int D>
 void computeScalar(const Patch& patch, CellView<const double> density, CellView<const double> held,
                    CellView<double> value) {
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) { value[cell] = held[cell] / density[cell]; });
+  forEach<D>(patch.cells(),
+             [&](const Index<D>& cell) { value[cell] = density[cell] > 0 ? held[cell] / density[cell] : 0; });
 }
 
 /// The amount of a scalar on the patch [kg].

@@ -5,36 +5,50 @@
 
 namespace tushar::mpmice {
 
-/// The particles of a body at the start of a step, with their stress and internal variables.
+/// The particles of a body at the start of a step, with their stress and, for cracks, their internal variables.
 struct StressedParticles {
   ParticleView<const double> mass;
-  ParticleView<const mpm::solid::Matrix3> deformation, stress;
-  ParticleView<const double> state;
+  ParticleView<const mpm::solid::Matrix3> deformation;
+  std::optional<ParticleView<const mpm::solid::Matrix3>> stress;  ///< if it does not follow from the deformation
+  std::optional<ParticleView<const double>> state;
 
-  static StressedParticles from(auto& take, const ParticleLabel<double>* state) {
+  static StressedParticles from(auto& take, bool keepsStress, bool burnsCracks, const ParticleLabel<double>* state) {
     return {.mass = take(requiresOld(p::mass)),
             .deformation = take(requiresOld(p::deformationMeasure)),
-            .stress = take(requiresOld(p::stress)),
-            .state = take(requiresOld(*state))};
+            .stress = take(when(keepsStress, requiresOld(p::stress))),
+            .state = take(when(burnsCracks, requiresOld(*state)))};
   }
 };
 
-/// Finds the mean pressure, Pa, of the body that burns in each cell, and its widest cracks, m; 0 where it is not.
+/// Whether the solids store the stress of a body, which does not follow from its deformation.
+inline bool keepsStress(const mpm::solid::Material& material) {
+  return material.isDamageable() || !material.model->dependsOnDeformationOnly();
+}
+
+/// Finds the mean pressure, Pa, of the body that burns in each cell, and its widest cracks, m; 0 where it is not, or
+/// cracks do not burn.
 template <int D>
 void measureLoad(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                  int stateSize, const std::vector<StressedParticles>& bodies, CellView<double> pressure,
                  CellView<double> radius) {
   const StressedParticles& body = bodies[settings.burning->body];
   const mpm::solid::Material& material = materials[settings.burning->body];
-  const int crack = offsetOf(*material.model, "p.crackRad");
+  const int crack = offsetOf(*material.model, crackRadiusLabel);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     double volume = 0, sum = 0;
     radius[cell] = 0;
     for (const int p : body.mass.template in<D>(cell)) {
-      const double own = body.mass[p] / material.undeformedDensity() * body.deformation[p].determinant();
+      const double undeformed = body.mass[p] / material.undeformedDensity();
+      const double own = undeformed * body.deformation[p].determinant();
       volume += own;
-      sum -= own * body.stress[p].trace() / 3;
-      radius[cell] = std::max(radius[cell], (&body.state[0])[p * stateSize + crack]);
+      if (body.stress) {
+        sum -= own * (*body.stress)[p].trace() / 3;
+      } else {
+        mpm::solid::Matrix3 kirchhoff;
+        material.model->kirchhoffStress(&body.deformation[p], 1, &kirchhoff);
+        sum -= undeformed * kirchhoff.trace() / 3;
+      }
+      if (body.state) radius[cell] = std::max(radius[cell], (&(*body.state)[0])[p * stateSize + crack]);
     }
     pressure[cell] = volume > 0 ? sum / volume : 0;
   });

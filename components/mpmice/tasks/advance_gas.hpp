@@ -10,13 +10,14 @@ struct UnsharedGas {
   euler::MixtureViews<D, double> held;  ///< of several gases the volumes, in place of the shares
   euler::RimFluxes<D> rims = {};        ///< fluxes through the rim of the level
 
-  static UnsharedGas from(auto& take, std::size_t gases) {
+  static UnsharedGas from(auto& take, std::size_t gases, bool keepsMasses) {
     const auto ofEach = [&](const auto& labels) {
       return viewsOfGases(take, gases, [&](std::size_t k) { return computes(labels[k]); });
     };
     euler::RimFluxes<D> rims{.mass = take(keepsFlux(c::unsharedDensity)),
                              .momentum = take(keepsFlux(c::unsharedMomentum<D>)),
-                             .energy = take(keepsFlux(c::unsharedEnergy))};
+                             .energy = take(keepsFlux(c::unsharedEnergy)),
+                             .masses = euler::FaceMasses<D>::from(take, keepsMasses)};
     for (std::size_t k = 0; k < gases; ++k)
       rims.gases.push_back({take(keepsFlux(c::unsharedMass[k])), take(keepsFlux(c::unsharedVolume[k]))});
     return {.held = {{take(computes(c::unsharedDensity)), take(computes(c::unsharedMomentum<D>)),
@@ -103,6 +104,7 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
   euler::computeFluxes<D, Flux, Shape, Axis>(gas, faces, work, work.flux);
   closeFaces<D>(level, exchange.space(), near, faces, Axis, work.flux);
   euler::keepAtRim<D>(fresh.rims, faces, Axis, work.flux);
+  fresh.rims.masses.keep(block, Axis, work.flux);
   euler::addFluxes<D, Axis>(ratio, block, old, work.flux, fresh.held);
   if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, work.flux, *flow);
 }
@@ -110,9 +112,9 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
 /// Adds the forces of walls near a block, and their power.
 template <int D>
 void addWalls(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, double perStep,
-              const euler::MixtureViews<D, double>& fresh, const OfferedExchange<D>& offered, Sum& power) {
+              const UnsharedGas<D>& fresh, const OfferedExchange<D>& offered, Sum& power) {
   near.forEachIn(block, [&](const Index<D>& cell) {
-    const Given<D> given = exchange.addTo(cell, fresh);
+    const Given<D> given = exchange.addTo(cell, fresh.held, fresh.rims.masses);
     if (given.work != 0) power.add(given.work * perStep);
     if (offered.impulse) (*offered.impulse)[cell] = given.impulse;
     if (offered.work) (*offered.work)[cell] = given.work;
@@ -160,7 +162,7 @@ bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells
   sweep.template operator()<0>();
   if constexpr (D > 1) sweep.template operator()<1>();
   if constexpr (D > 2) sweep.template operator()<2>();
-  addWalls<D>(exchange, near, block, perStep, fresh.held, offered, power);
+  addWalls<D>(exchange, near, block, perStep, fresh, offered, power);
   bool fine = true;
   forEach<D>(block, [&](const Index<D>& cell) { fine &= near(cell) || canBeIn<D>(gas, cell, fresh.held); });
   return fine;

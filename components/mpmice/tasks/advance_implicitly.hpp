@@ -25,16 +25,17 @@ struct GasInStep {
 /// greatest part of a cell that flows through a face.
 template <int D, int Axis>
 double sweepImplicitly(const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level, const Box& block,
-                       double dt, const GasInCells<D>& cells, ice::ImplicitStep<D>& step,
-                       const euler::StateViews<D, double>& fresh, const std::optional<CellView<Vec<D>>>& flow) {
+                       double dt, const GasInCells<D>& cells, ice::ImplicitStep<D>& step, const UnsharedGas<D>& fresh,
+                       const std::optional<CellView<Vec<D>>>& flow) {
   Box faces = block;
   ++faces.upper[Axis];
   const double most =
       step.computeFluxes(faces, Axis, [&](const Index<D>& face) { return exchange.openShareOf(near, face, Axis); });
   const double ratio = dt / level.spacing(Axis);
-  euler::addFluxes<D, Axis>(ratio, block, cells.held, step.flux(), fresh);
+  euler::addFluxes<D, Axis>(ratio, block, cells.held, step.flux(), fresh.held);
+  fresh.rims.masses.keep(block, Axis, step.flux());
   if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, step.flux(), *flow);
-  step.addGravity(block, Axis, fresh, [&](const Index<D>& cell) { return !near(cell); });
+  step.addGravity(block, Axis, fresh.held, [&](const Index<D>& cell) { return !near(cell); });
   return most;
 }
 
@@ -58,8 +59,8 @@ void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Materia
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     step.hold(block, before.alone.state, before.change);
     const auto sweep = [&]<int Axis>() {
-      most = std::max(
-          most, sweepImplicitly<D, Axis>(exchange, near, level, block, dt, cells, step, fresh.held, offered.massFlow));
+      most = std::max(most,
+                      sweepImplicitly<D, Axis>(exchange, near, level, block, dt, cells, step, fresh, offered.massFlow));
     };
     sweep.template operator()<0>();
     if constexpr (D > 1) sweep.template operator()<1>();
@@ -68,7 +69,7 @@ void advanceImplicitly(const Patch& patch, const std::vector<mpm::solid::Materia
       if (!gravity.isZero(0) && !cells.isEmpty(cell))
         euler::fall<D>(gravity, cells.held.density[cell], dt, fresh.held.momentum[cell], fresh.held.totalEnergy[cell]);
     });
-    addWalls<D>(exchange, near, block, level.cellVolume() / dt, fresh.held, offered, power);
+    addWalls<D>(exchange, near, block, level.cellVolume() / dt, fresh, offered, power);
   });
   refuseFarGas<D>(patch, settings, near, cells, fresh.held);
   ice::refuseCrossing(most, dt);

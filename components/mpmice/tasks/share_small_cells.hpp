@@ -61,6 +61,21 @@ class SmallCells {
     });
   }
 
+  /// Calls `visit(member)` for the cells that share their content through a target, the target first; returns whether
+  /// a cell, which has this target, shares with others.
+  template <class Visit>
+  bool forEachInPool(const Index<D>& cell, const Index<D>& centre, Visit&& visit) const {
+    visit(centre);
+    bool shares = !(centre == cell);
+    if (isTarget(centre))
+      forEachAround(centre, [&](const Index<D>& at) {
+        if (!gives(at, centre)) return;
+        visit(at);
+        shares = true;
+      });
+    return shares;
+  }
+
  private:
   Index<D> choiceOf(const Index<D>& cell) const {
     if (!isSmall(cell)) return cell;
@@ -155,14 +170,7 @@ template <int D>
 void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D>& cell, const Index<D>& centre,
              const euler::MixtureViews<D, double>& fresh) {
   Pool<D> pool;
-  pool.add(state, centre);
-  bool shares = !(centre == cell);
-  if (small.isTarget(centre))
-    small.forEachAround(centre, [&](const Index<D>& at) {
-      if (!small.gives(at, centre)) return;
-      pool.add(state, at);
-      shares = true;
-    });
+  const bool shares = small.forEachInPool(cell, centre, [&](const Index<D>& at) { pool.add(state, at); });
   if (shares || state.free[cell] < 1) pool.setShares(cell, fresh);
   if (!shares || !(pool.volume > 0)) return;
   const double part = state.free[cell] / pool.volume;
