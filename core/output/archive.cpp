@@ -121,13 +121,14 @@ void Archive::flush() {
   if (state_->vtkhdf_pace.isBehind()) state_->writeVtkHdfFiles();
 }
 
-/// Does not write the lists: a run that continues from here uses the list of the checkpoint, and adds the later outputs
+/// Does not write the lists: a run that continues from a checkpoint uses the list in it, and adds the later outputs
 /// again.
-ArchivePoint Archive::sync(int step, double time) {
+void Archive::sync() const {
   state_->globals.sync();
   syncToDisk(state_->folder);
-  return {step, time, state_->index.text()};
 }
+
+ArchivePoint Archive::pointAt(int step, double time) const { return {step, time, state_->index.text()}; }
 
 const fs::path& Archive::folder() const { return state_->folder; }
 

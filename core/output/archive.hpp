@@ -71,10 +71,11 @@ class Archive {
   void keepUp();
   /// Writes index.xml and the XDMF file if they are out of date.
   void flush();
-  /// Waits until the lines of globals are on the disk. Returns the extent of the archive then: kept in a checkpoint, it
-  /// replaces lists that are out of date, or that a power cut destroys. Outputs may go with it, except for those of the
-  /// last seconds only.
-  ArchivePoint sync(int step, double time);
+  /// Waits until the lines of globals are on the disk.
+  void sync() const;
+  /// The extent of the archive after a step: kept in a checkpoint, it replaces lists that are out of date, or that a
+  /// power cut destroys. Outputs may go with it, except for those of the last seconds only.
+  ArchivePoint pointAt(int step, double time) const;
 
   /// The folder of this run, such as `sod.uda.001`.
   const std::filesystem::path& folder() const;

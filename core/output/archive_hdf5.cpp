@@ -116,8 +116,8 @@ Result Hdf5File::checked(Result result, const std::string& what) const {
                               failure_.error ? std::generic_category().message(failure_.error) : hdf5Reason()));
 }
 
-Hdf5File::Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression)
-    : path_(std::move(path)), double_as_float_(doubleAsFloat), compression_(compression) {
+Hdf5File::Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression, bool describes)
+    : path_(std::move(path)), double_as_float_(doubleAsFloat), compression_(compression), describes_(describes) {
   const Silence silence;
   const Handle access(diskAccess(failure_), H5Pclose);
   file_ = checked(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "the file");
@@ -162,8 +162,7 @@ void Hdf5File::dataset(const std::string& name, const Array& array, const std::v
         array.source ? writePieces<Number>(data, array, full, name) : writeValues(data, values, name);
       },
       array.values);
-  attribute(name, "unit", array.unit);
-  attribute(name, "description", array.description);
+  describe(name, array);
 }
 
 std::uint64_t Hdf5File::room(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape) {
@@ -177,12 +176,17 @@ std::uint64_t Hdf5File::room(const std::string& name, const Array& array, const 
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
   }
   const Handle data(makeDataset(name, array, full, double_as_float_, creation), H5Dclose);
-  attribute(name, "unit", array.unit);
-  attribute(name, "description", array.description);
+  describe(name, array);
   if (compression_ > 0 || array.entries() == 0) return 0;
   const haddr_t offset = H5Dget_offset(data);
   checked(offset == HADDR_UNDEF ? -1 : 0, name + " in");
   return offset;
+}
+
+void Hdf5File::describe(const std::string& dataset, const Array& array) {
+  if (!describes_) return;
+  attribute(dataset, "unit", array.unit);
+  attribute(dataset, "description", array.description);
 }
 
 void Hdf5File::chunk(const std::string& name, const std::vector<unsigned long long>& corner, std::uint32_t skipped,

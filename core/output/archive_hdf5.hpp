@@ -33,8 +33,8 @@ enum class Precision { asAsked, full };
 class Hdf5File {
  public:
   /// Creates the file, replacing an existing one. Real numbers are kept in 4 bytes if `doubleAsFloat`, and all are
-  /// packed by gzip at level `compression` if that is above 0.
-  Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression);
+  /// packed by gzip at level `compression` if that is above 0. Datasets have attributes only if `describes`.
+  Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression, bool describes = true);
   /// Closes the file if close() was not called; errors are then lost.
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
@@ -91,11 +91,13 @@ class Hdf5File {
   void writeValues(Id data, const std::vector<Number>& values, const std::string& what);
   template <class Number>
   void writePieces(Id data, const Array& array, const Shape& shape, const std::string& what);
+  void describe(const std::string& dataset, const Array& array);
   void writeAttribute(const std::string& object, const char* name, Id space, Id type, const void* data);
 
   std::filesystem::path path_;
   bool double_as_float_;
   int compression_;
+  bool describes_;
   DiskFailure failure_;
   Id file_ = -1;
   std::size_t shown_ = 0;         ///< number of parts in virtual datasets since the file was opened

@@ -115,7 +115,7 @@ std::uint64_t sumOfFile(const std::filesystem::path& file, std::span<const ByteR
                                       static_cast<std::uint64_t>(share.several));
   };
   std::ifstream in(file, std::ios::binary);
-  std::vector<char> piece(std::size_t{1} << 20);
+  std::vector<char> piece(std::min<std::uint64_t>(size, std::uint64_t{1} << 20));
   ByteSum sum;
   for (const ByteRange& range : between(ranges, cut(share.one), cut(share.one + 1))) {
     in.seekg(static_cast<std::streamoff>(range.first));

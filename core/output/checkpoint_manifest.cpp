@@ -91,16 +91,16 @@ std::vector<ByteRange> outside(const std::vector<ByteRange>& ranges, std::uint64
   return others;
 }
 
-/// Writes a file to the disk; returns its lines for the manifest.
-std::string linesOnDisk(const fs::path& file, std::uint64_t size, const std::vector<ByteRange>& ranges,
-                        const Writers& writers) {
+/// The lines of a file for the manifest; waits until it is on the disk, if asked.
+std::string linesOfFile(const fs::path& file, std::uint64_t size, const std::vector<ByteRange>& ranges,
+                        const Writers& writers, bool waitsForDisk) {
   std::vector<std::uint64_t> sums(ranges.size() + 1);
   mpi::together(writers.ranks(), [&] {
     if (writers.mine() < 0) return;
     const ShareOf share{writers.mine(), writers.count()};
     for (std::size_t k = 0; k < ranges.size(); ++k) sums[k] = sumOfFile(file, {&ranges[k], 1}, share);
     sums.back() = sumOfFile(file, outside(ranges, size), share);
-    syncToDisk(file);
+    if (waitsForDisk) syncToDisk(file);
   });
   sums = sumsOfRanks(writers.ranks(), sums);
   const std::string name = file.filename().string();
@@ -244,16 +244,20 @@ std::string damageOutside(const fs::path& file, const Line& line, const std::vec
 
 }  // namespace
 
-void writeManifest(const fs::path& folder, const Writers& writers, const std::vector<FilePart>& parts) {
+void writeManifest(const fs::path& folder, const Writers& writers, const std::vector<FilePart>& parts,
+                   bool waitsForDisk) {
   std::string lines = fmt::format("{}{}\n", formatWord, manifestFormat);
   for (const auto& [name, size] : listedIn(folder, writers.ranks())) {
     std::vector<ByteRange> ranges;
     for (const FilePart& part : parts)
       if (part.file == name && part.bytes.size() >= leastOfPart) ranges.push_back(part.bytes);
     std::sort(ranges.begin(), ranges.end(), [](const ByteRange& a, const ByteRange& b) { return a.first < b.first; });
-    lines += linesOnDisk(folder / name, size, ranges, writers);
+    lines += linesOfFile(folder / name, size, ranges, writers, waitsForDisk);
   }
-  writers.ranks().onFirst([&] { replaceFileOnDisk(folder / manifestName, lines + lastLine(lines)); });
+  writers.ranks().onFirst([&] {
+    const std::string all = lines + lastLine(lines);
+    waitsForDisk ? replaceFileOnDisk(folder / manifestName, all) : replaceFile(folder / manifestName, all);
+  });
 }
 
 Inspection inspect(const fs::path& folder, const mpi::Communicator& ranks) {

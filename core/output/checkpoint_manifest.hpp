@@ -24,10 +24,11 @@ inline constexpr int manifestFormat = 3;
 
 /// Writes the file `manifest` into a folder. Its lines are `format 3`; the sum, the size and the name of each file; and
 /// `sum first-last name` for each part of 64 kB and more, whose bytes the sum of its file leaves out. The last line is
-/// the XXH64 of those before. The writers share the bytes among themselves. Everything is then on the disk. Collective;
-/// all have the same parts. FileError on a rank that cannot, FailedElsewhere on the others.
+/// the XXH64 of those before. The writers share the bytes among themselves. Everything is then on the disk, unless
+/// `waitsForDisk` is false. Collective; all have the same parts. FileError on a rank that cannot, FailedElsewhere on
+/// the others.
 void writeManifest(const std::filesystem::path& folder, const Writers& writers = {},
-                   const std::vector<FilePart>& parts = {});
+                   const std::vector<FilePart>& parts = {}, bool waitsForDisk = true);
 
 /// The result of inspecting a folder with a manifest.
 struct Inspection {

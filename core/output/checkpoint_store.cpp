@@ -38,7 +38,8 @@ int CheckpointStore::latest() const {
   return all.empty() ? -1 : all.back();
 }
 
-void CheckpointStore::write(int step, const std::function<std::vector<FilePart>(const fs::path&)>& fill) const {
+void CheckpointStore::write(int step, const std::function<std::vector<FilePart>(const fs::path&)>& fill,
+                            const Pace& pace) const {
   const mpi::Communicator& ranks = writers_.ranks();
   const fs::path temporary = temporaryOf(folder(step));
   try {
@@ -48,20 +49,32 @@ void CheckpointStore::write(int step, const std::function<std::vector<FilePart>(
       makeFolder(temporary);
     });
     const std::vector<FilePart> parts = fill(temporary);
-    writeManifest(temporary, writers_, parts);
+    writeManifest(temporary, writers_, parts, pace.waitsForDisk);
     ranks.onFirst([&] { moveInto(temporary, folder(step)); });
   } catch (...) {
     if (ranks.isFirst()) removeLeftovers();
     throw;
   }
-  ranks.onFirst([&] { makeLatest(step); });
+  ranks.onFirst([&] {
+    if (pace.waitsForDisk) syncToDisk(folder_);
+    setLatest(step, pace.waitsForDisk);
+    removeOldest(pace.waitsForDisk ? -1 : pace.lastOnDisk);
+  });
 }
 
-void CheckpointStore::makeLatest(int step) const {
+void CheckpointStore::bringToDisk(int step) const {
+  for (const auto& entry : fs::directory_iterator(folder(step))) syncToDisk(entry.path());
+  syncToDisk(folder(step));
   syncToDisk(folder_);
   setLatest(step);
+  removeOldest(-1);
+}
+
+/// Removes the oldest of those that are more than the cycle, except one.
+void CheckpointStore::removeOldest(int except) const {
   const std::vector<int> all = steps();
-  for (std::size_t k = 0; k + static_cast<std::size_t>(cycle_) < all.size(); ++k) remove(all[k]);
+  for (std::size_t k = 0; k + static_cast<std::size_t>(cycle_) < all.size(); ++k)
+    if (all[k] != except) remove(all[k]);
 }
 
 void CheckpointStore::goBackTo(int step) const {
@@ -70,7 +83,10 @@ void CheckpointStore::goBackTo(int step) const {
     if (other > step) remove(other);
 }
 
-void CheckpointStore::setLatest(int step) const { replaceFileOnDisk(folder_ / latestName, stepName(step) + "\n"); }
+void CheckpointStore::setLatest(int step, bool waitsForDisk) const {
+  const std::string name = stepName(step) + "\n";
+  waitsForDisk ? replaceFileOnDisk(folder_ / latestName, name) : replaceFile(folder_ / latestName, name);
+}
 
 /// Removes a checkpoint. Renames its folder first, so that a partly removed one is not taken for a checkpoint.
 void CheckpointStore::remove(int step) const {

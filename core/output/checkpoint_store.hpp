@@ -18,9 +18,16 @@ namespace tushar::output {
 ///
 /// A checkpoint is written under a temporary name, brought to the disk, and then renamed; only then LATEST is replaced
 /// (by a rename, too), and only then the oldest is removed. So a run that is killed, or finds the disk full, leaves the
-/// checkpoints before as they were.
+/// checkpoints before as they were. Where checkpoints follow one another so fast that the disk would set the pace, some
+/// do not wait for it. Then the last one on the disk is kept besides, for the power may fail before others are.
 class CheckpointStore {
  public:
+  /// How a checkpoint is written.
+  struct Pace {
+    bool waitsForDisk = true;  ///< whether it is on the disk when write() returns
+    int lastOnDisk = -1;       ///< the step of another one that is not to be removed, unless the new one is on the disk
+  };
+
   /// `cycle` is the number of checkpoints to keep, at least 1. Nothing is made before the first write().
   explicit CheckpointStore(const std::filesystem::path& archive, int cycle, const Writers& writers = {});
 
@@ -28,7 +35,14 @@ class CheckpointStore {
   /// while they are read. All ranks of the writers call it. Throws FileError on a rank that cannot, FailedElsewhere on
   /// the others, or what `fill` throws, which must throw on all ranks if on any; no trace of the checkpoint is left
   /// then.
-  void write(int step, const std::function<std::vector<FilePart>(const std::filesystem::path& folder)>& fill) const;
+  void write(int step, const std::function<std::vector<FilePart>(const std::filesystem::path& folder)>& fill,
+             const Pace& pace) const;
+  void write(int step, const std::function<std::vector<FilePart>(const std::filesystem::path& folder)>& fill) const {
+    write(step, fill, Pace{});
+  }
+  /// Waits until a checkpoint is on the disk that write() did not bring there; removes those that are too many then. On
+  /// rank 0.
+  void bringToDisk(int step) const;
   /// Makes the checkpoint of a step the latest, and removes those after it.
   void goBackTo(int step) const;
 
@@ -40,8 +54,8 @@ class CheckpointStore {
   int latest() const;
 
  private:
-  void makeLatest(int step) const;
-  void setLatest(int step) const;
+  void setLatest(int step, bool waitsForDisk = true) const;
+  void removeOldest(int except) const;
   void remove(int step) const;
   void removeLeftovers() const;
 

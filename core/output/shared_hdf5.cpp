@@ -41,7 +41,7 @@ struct Begun {
 
 void begin(Begun& begun, const std::filesystem::path& path, const Storage& how,
            const std::function<void(Hdf5File&)>& header, const std::vector<Dataset>& datasets) {
-  begun.file = std::make_shared<Hdf5File>(path, how.doubleAsFloat, how.compression);
+  begun.file = std::make_shared<Hdf5File>(path, how.doubleAsFloat, how.compression, how.describes);
   header(*begun.file);
   for (const Dataset& dataset : datasets) {
     if (dataset.array.source)

@@ -27,6 +27,7 @@ struct Dataset {
 struct Storage {
   bool doubleAsFloat = false;  ///< keep 4 of the 8 bytes of each real number
   int compression = 0;         ///< gzip level, 0 (none) to 9
+  bool describes = true;       ///< give each dataset the attributes unit and description
 };
 
 /// An HDF5 file that ranks write together: rank 0 creates it, calls `header` for contents that only it has, and writes

@@ -102,7 +102,8 @@ void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTa
 std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTarget& target) {
   const collect::StoredState state(run.warehouse, stateNames(run));
   const std::vector<output::ByteRange> places = output::writeTogether(
-      run.writers, target.path, {}, [&](output::Hdf5File& file) { writeHeader(file, run, target); }, state.datasets());
+      run.writers, target.path, {.describes = false}, [&](output::Hdf5File& file) { writeHeader(file, run, target); },
+      state.datasets());
   std::vector<output::FilePart> parts;
   for (const output::ByteRange& place : places) parts.push_back({target.path.filename().string(), place});
   return parts;

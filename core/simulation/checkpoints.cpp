@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
+
 #include "core/base/memory.hpp"
 #include "core/base/trace.hpp"
-#include "core/output/checkpoint_store.hpp"
 #include "core/simulation/checkpoint_file.hpp"
 
 namespace tushar::simulation {
@@ -37,7 +39,7 @@ void Checkpoints::resume() {
   }
   run_.clock.agree(run_.ranks);
   if (control_) control_->note(run_.time.time(), run_.clock.elapsed());
-  last_ = run_.time.step();
+  last_ = on_disk_ = run_.time.step();
 }
 
 bool Checkpoints::isDue() const {
@@ -52,6 +54,7 @@ void Checkpoints::writeLast() {
   const bool isCutShort = !run_.time.done();
   if (outputs_.folder().empty() || !(control_ || isCutShort)) return;
   write();
+  settle();
   if (isCutShort)
     run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} sus --restart {} continues from here", run_.time.step(),
                                    run_.time.time(), outputs_.folder()));
@@ -65,16 +68,37 @@ void Checkpoints::write() {
   const PeakGrowth growth(memory_);
   const tasks::LostParticles lost = run_.lostParticles();
   output::ArchivePoint point;
-  run_.ranks.onFirst([&] { point = outputs_.sync(); });
-  const int cycle = run_.problem.archive.checkpoint.value_or(CheckpointSettings{}).cycle;
-  output::CheckpointStore(outputs_.folder(), cycle, run_.writers)
-      .write(run_.time.step(), [&](const std::filesystem::path& folder) {
-        return writeCheckpoint(run_, {folder / stateFile, point, lost});
-      });
+  const bool waitsForDisk = run_.ranks.broadcast(started >= next_wait_ ? 1 : 0) == 1;
+  run_.ranks.onFirst([&] { point = outputs_.sync(waitsForDisk); });
+  const auto fill = [&](const std::filesystem::path& folder) {
+    return writeCheckpoint(run_, {folder / stateFile, point, lost});
+  };
+  store().write(run_.time.step(), fill, {.waitsForDisk = waitsForDisk, .lastOnDisk = on_disk_});
   run_.clock.agree(run_.ranks);
   last_ = run_.time.step();
+  if (waitsForDisk) noteOnDisk(started);
   if (control_) control_->note(run_.time.time(), run_.clock.elapsed());
   seconds_ += secondsSince(started);
+}
+
+output::CheckpointStore Checkpoints::store() const {
+  const int cycle = run_.problem.archive.checkpoint.value_or(CheckpointSettings{}).cycle;
+  return output::CheckpointStore(outputs_.folder(), cycle, run_.writers);
+}
+
+void Checkpoints::settle() {
+  if (last_ == on_disk_) return;
+  const auto started = Clock::now();
+  run_.ranks.onFirst([&] { store().bringToDisk(last_); });
+  noteOnDisk(started);
+  seconds_ += secondsSince(started);
+}
+
+void Checkpoints::noteOnDisk(Clock::time_point started) {
+  constexpr std::chrono::seconds least(1), most(30);
+  const auto now = Clock::now();
+  on_disk_ = last_;
+  next_wait_ = now + std::clamp<Clock::duration>(5 * (now - started), least, most);
 }
 
 }  // namespace tushar::simulation

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "core/output/checkpoint_store.hpp"
 #include "core/simulation/checkpoint_control.hpp"
 #include "core/simulation/outputs.hpp"
 #include "core/simulation/run_state.hpp"
@@ -27,8 +28,10 @@ class Checkpoints {
   void writeLast();
   /// Whether a checkpoint is due after the last step.
   bool isDue() const;
-  /// Writes a checkpoint, unless this step has one.
+  /// Writes a checkpoint, unless this step has one. Of several within seconds only the first waits for the disk.
   void write();
+  /// Waits until the last checkpoint is on the disk.
+  void settle();
 
   /// Wall time spent writing, s.
   double seconds() const { return seconds_; }
@@ -38,11 +41,16 @@ class Checkpoints {
  private:
   /// Reads the checkpoint; returns false if it is damaged, so that the previous one must be read.
   bool read();
+  output::CheckpointStore store() const;
+  /// Notes that the last checkpoint is on the disk, which has taken since `started`.
+  void noteOnDisk(Clock::time_point started);
 
   RunState& run_;
   Outputs& outputs_;
   std::optional<CheckpointControl> control_;  ///< empty if the scene has none
   int last_ = -1;                             ///< step of the last checkpoint that was written or read
+  int on_disk_ = -1;                          ///< step of the last one that is known to be on the disk
+  Clock::time_point next_wait_;               ///< when the next one is to wait for the disk
   double seconds_ = 0, memory_ = 0;
   std::function<void(const std::string&)> warn_;
 };

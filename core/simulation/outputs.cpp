@@ -210,9 +210,10 @@ void Outputs::flushAnalyses() {
   for (const auto& analysis : run_.problem.analyses) analysis->flush();
 }
 
-output::ArchivePoint Outputs::sync() {
+output::ArchivePoint Outputs::sync(bool waitsForDisk) {
   flushAnalyses();
-  return archive_->sync(run_.time.step(), run_.time.time());
+  if (waitsForDisk) archive_->sync();
+  return archive_->pointAt(run_.time.step(), run_.time.time());
 }
 
 }  // namespace tushar::simulation

@@ -47,7 +47,7 @@ class Outputs {
   /// The same; also updates the lists of the archive and the files of analysis modules.
   void flush();
   /// The same for a checkpoint; returns the current extent of the archive.
-  output::ArchivePoint sync();
+  output::ArchivePoint sync(bool waitsForDisk);
 
   /// Skips the output times up to the current time.
   void passMilestones() { times_.pass(run_.time.time()); }

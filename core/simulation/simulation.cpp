@@ -112,6 +112,7 @@ void Simulation::saveNow() {
     return run_.progress.line("nothing is saved: the scene has no outputs, saved totals or checkpoints");
   outputs_.save();
   checkpoints_.write();
+  checkpoints_.settle();
   run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} saved on request; sus --restart {} continues from here",
                                  run_.time.step(), run_.time.time(), outputs_.folder()));
 }

@@ -41,7 +41,7 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
 ArchivePoint runToStep7(const fs::path& filebase) {
   Archive archive(filebase, "<scene/>", options);
   advance(archive, 0, 4);
-  const ArchivePoint point = archive.sync(4, 0.1 * 4);
+  const ArchivePoint point = archive.pointAt(4, 0.1 * 4);
   advance(archive, 5, 7);
   return point;
 }
@@ -104,7 +104,7 @@ TEST(ArchiveResume, KeepsAnOutputOfTheStepThatWasMadeAfterThePoint) {
   {
     Archive archive(here / "sod.uda", "<scene/>", options);
     advance(archive, 0, 3);
-    point = archive.sync(3, 0.3);
+    point = archive.pointAt(3, 0.3);
     archive.write(snapshot3d(3, 0.3));
   }
   const Archive archive(here / "sod.uda.000", "sod.uda", point, "<scene/>", options);

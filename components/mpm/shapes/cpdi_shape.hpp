@@ -75,21 +75,23 @@ struct ConvectedShape {
     /// Calls `visit(node, S, gradient)` for every node of the cells around, in the same order for every particle.
     template <class Visit>
     void forEachNode(Visit&& visit) const {
-      std::array<double, around> value{};
-      std::array<Vec<D>, around> gradient;
-      gradient.fill(Vec<D>::Zero());
-      for (int c = 0; c < corners; ++c)
-        for (int k = 0; k < corners; ++k) {
-          const std::size_t node = numberOf(c, k);
-          value[node] += share * weights[k][c];
-          for (int d = 0; d < D; ++d) gradient[node][d] += weights[k][c] * slope[d][c];
-        }
+      std::array<Quad, around> sums{};  // the gradient, and the value in the last lane
+      for (int c = 0; c < corners; ++c) {
+        Vec<D> slopes;
+        for (int d = 0; d < D; ++d) slopes[d] = slope[d][c];
+        const Quad each = quadOf<D>(slopes, share);
+        Quad* const cell = sums.data() + numberOf(c);
+        for (int k = 0; k < corners; ++k) cell[offsetOf(k)] += weights[k][c] * each;
+      }
       Box offsets{{}, Index3::filled(1)};
       for (int d = 0; d < D; ++d) offsets.upper[d] = nodes;
-      std::size_t next = 0;
+      const Quad* next = sums.data();
       forEach<D>(offsets, [&](const Index<D>& node) {
-        if (value[next] != 0) visit(first + node, value[next], gradient[next]);
-        ++next;
+        const Quad& sum = *next++;
+        if (sum[3] == 0) return;
+        Vec<D> gradient;
+        for (int d = 0; d < D; ++d) gradient[d] = sum[d];
+        visit(first + node, sum[3], gradient);
       });
     }
 
@@ -104,12 +106,17 @@ struct ConvectedShape {
    private:
     static constexpr std::size_t around = D == 1 ? nodes : D == 2 ? nodes * nodes : nodes * nodes * nodes;
 
-    /// The index of node k of the cell that contains corner c, among the nodes of all cells near the particle.
-    std::size_t numberOf(int c, int k) const {
+    /// The index of the lowest node of the cell that contains corner c, among the nodes of all cells near the particle.
+    std::size_t numberOf(int c) const {
       std::size_t number = 0;
-      for (int d = D - 1; d >= 0; --d)
-        number = number * nodes + static_cast<std::size_t>(static_cast<int>(cellOf[d][c]) + ((k >> d) & 1));
+      for (int d = D - 1; d >= 0; --d) number = number * nodes + static_cast<std::size_t>(cellOf[d][c]);
       return number;
+    }
+    /// From there to node k of the cell.
+    static constexpr std::size_t offsetOf(int k) {
+      std::size_t offset = 0;
+      for (int d = D - 1; d >= 0; --d) offset = offset * nodes + ((k >> d) & 1);
+      return offset;
     }
     /// Component d of the product `edges` sigma_c, bitwise equal to Eigen's, which sums the last component in another
     /// order.

@@ -3,6 +3,7 @@
 #include "components/mpm/labels.hpp"
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
 #include "components/mpm/solid/transfer/node_record.hpp"
+#include "components/mpm/solid/transfer/surface_record.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -77,14 +78,9 @@ inline constexpr NodeLabel<Vec<D>> surroundingForce{"g.surroundingForce", "N",
                                                     "force exerted on the body by its surroundings, such as a gas"};
 inline constexpr NodeLabel<NodeRecord> workRecord{"g.workRecord", "SI units",
                                                   "mean velocity of a step, and work per mass", Counts::nearParticles};
-template <int D>
-inline constexpr NodeLabel<Vec<D>> massGradient{"g.massGradient", "kg/m",
-                                                "gradient of the mass, pointing out of the body"};
-template <int D>
-inline constexpr NodeLabel<Vec<D>> massPosition{"g.massPosition", "kg m", "mass of particles times their position"};
-inline constexpr NodeLabel<Matrix3> surfaceStress{"g.surfaceStress", "Pa", "stress gathered from particles"};
-inline constexpr NodeLabel<double> surfaceVolume{
-    "g.surfaceVolume", "m^3", "volume of particles, including their mirror images beyond symmetry planes"};
+inline constexpr NodeLabel<SurfaceRecord> surfaceRecord{"g.surfaceRecord", "SI units",
+                                                        "what friction needs of a body at nodes where it meets others",
+                                                        Counts::nearParticles};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> separatingNormal{
     "g.normAlphaToBeta", "1",

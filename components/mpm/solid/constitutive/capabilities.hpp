@@ -59,8 +59,9 @@ struct PlaceAndTime {
 
 // Stress and its tangent.
 
-/// J sigma, Pa, and the wave speed, m/s, of several particles at once, with the same arithmetic as for one: templates
-/// for a Real that is double or Lanes. Offer it where explicit steps spend their time in the stress.
+/// J sigma, Pa, the wave speed, m/s, and the strain energy, J/m^3, of several particles at once, with the same
+/// arithmetic as for one: templates for a Real that is double or Lanes. Offer it where explicit steps spend their time
+/// in the stress.
 struct Vectorized {
   struct Name {
     int kirchhoffStress;
@@ -83,6 +84,11 @@ struct Vectorized {
         !isNamed || hasSpeed,
         "capability::Vectorized needs the public member `template <class Real> Real waveSpeed(double initialDensity, "
         "const TensorOf<Real>& f) const`");
+    constexpr bool hasEnergy = requires { Member<M, Lanes, const TensorOf<Lanes>&>{&M::strainEnergyDensity}; };
+    static_assert(
+        !isNamed || hasEnergy,
+        "capability::Vectorized needs the public member `template <class Real> Real strainEnergyDensity(const "
+        "TensorOf<Real>& f) const`");
     return true;
   }
 };

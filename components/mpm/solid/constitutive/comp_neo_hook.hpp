@@ -87,7 +87,11 @@ struct CompNeoHook {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
-    const StrainInvariants strain(d.deformationGradient);
+    return strainEnergyDensity(d.deformationGradient);
+  }
+  template <class Real>
+  Real strainEnergyDensity(const TensorOf<Real>& f) const {
+    const StrainInvariantsOf<Real> strain(f);
     return bulkModulus * strain.dilatation() + shearModulus / 2 * strain.isochoricFirst();
   }
 };

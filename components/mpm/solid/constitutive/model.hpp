@@ -37,7 +37,7 @@ struct StressPoints {
   double* temperatureChange = nullptr;    ///< K; null if not wanted
   double* strainEnergyDensity = nullptr;  ///< J/m^3 of the volume at the start of the run; null if not wanted
 
-  bool wantsWaveSpeedOnly() const { return !stress && !bulkSpeed && !temperatureChange && !strainEnergyDensity; }
+  bool wantsWaveSpeedAndEnergyOnly() const { return !stress && !bulkSpeed && !temperatureChange; }
 };
 
 /// A constitutive model with one virtual call per group of particles.
@@ -188,7 +188,7 @@ class ModelOf : public Model {
 
   void updateStress(double initialDensity, const StressPoints& points) const override {
     if constexpr (providesCapability<M, capability::Vectorized>)
-      if (points.wantsWaveSpeedOnly()) return findWaveSpeeds(initialDensity, points);
+      if (points.wantsWaveSpeedAndEnergyOnly()) return findWaveSpeeds(initialDensity, points);
     for (int k = 0; k < points.count; ++k) {
       const Deformation d = deformation(points, k);
       double* const numbers = points.state + k * points.stateStride;
@@ -250,11 +250,16 @@ class ModelOf : public Model {
   static constexpr bool hasState = !std::is_empty_v<State>;
   static constexpr bool fromDeformation = providesCapability<M, capability::DependsOnDeformationOnly>;
 
+  static void storeFew(const Lanes& values, int count, double* to) {
+    for (int lane = 0; lane < std::min(count, Lanes::count); ++lane) to[lane] = values[lane];
+  }
+  /// And the energies, if wanted.
   void findWaveSpeeds(double initialDensity, const StressPoints& points) const {
     for (int k = 0; k < points.count; k += Lanes::count) {
       const int count = points.count - k;
-      const Lanes speed = model_.waveSpeed(initialDensity, lanesOf(points.deformationGradient + k, count));
-      for (int lane = 0; lane < std::min(count, Lanes::count); ++lane) points.waveSpeed[k + lane] = speed[lane];
+      const TensorOf<Lanes> f = lanesOf(points.deformationGradient + k, count);
+      storeFew(model_.waveSpeed(initialDensity, f), count, points.waveSpeed + k);
+      if (points.strainEnergyDensity) storeFew(model_.strainEnergyDensity(f), count, points.strainEnergyDensity + k);
     }
   }
   void finish(double initialDensity, const StressPoints& points, int k, const Deformation& d, const Matrix3& before,

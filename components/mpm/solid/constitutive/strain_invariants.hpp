@@ -1,44 +1,52 @@
 #pragma once
 
-#include <Eigen/LU>
-
 #include <cmath>
+#include <type_traits>
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
 #include "components/mpm/solid/constitutive/cube_root.hpp"
+#include "components/mpm/solid/constitutive/tensor_lanes.hpp"
 
 namespace tushar::mpm::solid {
 
 /// Invariants of b = F Fᵀ minus those of I. An energy W of small strains e, written with them, has a relative error of
 /// 1e-16/e only, whatever the rotation: the terms linear in e, which cancel, are eliminated analytically. With G = b -
 /// I, g = (tr²G - tr G²)/2, r = J^(2/3) and d = r - 1: J² - 1 = tr G + g + det G = 3 d + 3 d² + d³.
-struct StrainInvariants {
-  double second;  ///< g
-  double third;   ///< det G
-  double volume;  ///< J² - 1
-  double root;    ///< r
+template <class Real>
+struct StrainInvariantsOf {
+  Real second;  ///< g
+  Real third;   ///< det G
+  Real volume;  ///< J² - 1
+  Real root;    ///< r
 
-  explicit StrainInvariants(const Matrix3& f) {
-    Matrix3 strain = f * f.transpose();
-    strain.diagonal().array() -= 1;
-    const double trace = strain.trace();
-    second = 0.5 * (trace * trace - strain.squaredNorm());
-    third = strain.determinant();
+  explicit StrainInvariantsOf(const TensorOf<Real>& f) {
+    using std::sqrt;
+    TensorOf<Real> strain = leftCauchyGreen(f);
+    for (int i = 0; i < 3; ++i) strain(i, i) -= 1;
+    const Real trace = solid::trace(strain);
+    second = 0.5 * (trace * trace - squaredNorm(strain));
+    third = solid::determinant(strain);
     volume = trace + second + third;
-    root = 1 / inverseCubeRootSquared(std::sqrt(1 + volume));
+    root = 1 / inverseCubeRootSquared(Real(sqrt(1 + volume)));
   }
 
   /// tr(b) / r - 3
-  double isochoricFirst() const { return (distance() * distance() * (root + 2) - second - third) / root; }
+  Real isochoricFirst() const { return (distance() * distance() * (root + 2) - second - third) / root; }
   /// I2(b) / r² - 3
-  double isochoricSecond() const {
+  Real isochoricSecond() const {
     return (distance() * distance() * (2 * root + 1) - second - 2 * third) / (root * root);
   }
   /// ((J² - 1)/2 - ln J) / 2
-  double dilatation() const { return (volume - std::log1p(volume)) / 4; }
+  Real dilatation() const {
+    if constexpr (std::is_same_v<Real, Lanes>)
+      return (volume - Lanes::of([&](int lane) { return std::log1p(volume[lane]); })) / 4;
+    else
+      return (volume - std::log1p(volume)) / 4;
+  }
 
  private:
-  double distance() const { return volume / (root * root + root + 1); }  ///< d
+  Real distance() const { return volume / (root * root + root + 1); }  ///< d
 };
+using StrainInvariants = StrainInvariantsOf<double>;
 
 }  // namespace tushar::mpm::solid

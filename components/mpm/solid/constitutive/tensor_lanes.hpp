@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
 #include "core/base/lanes.hpp"
@@ -21,6 +22,22 @@ template <class Real>
   for (int i = 0; i < 3; ++i)
     for (int k = i; k < 3; ++k) b(i, k) = b(k, i) = f(i, 0) * f(k, 0) + f(i, 1) * f(k, 1) + f(i, 2) * f(k, 2);
   return b;
+}
+
+template <class Real>
+[[gnu::always_inline]] inline Real trace(const TensorOf<Real>& t) {
+  return t(0, 0) + (t(1, 1) + t(2, 2));
+}
+
+/// sum_ij t_ij², bitwise equal to Eigen's of one tensor.
+template <class Real>
+[[gnu::always_inline]] inline Real squaredNorm(const TensorOf<Real>& t) {
+  std::array<Real, 9> square;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) square[3 * i + k] = t(i, k) * t(i, k);
+  const Real even = (square[0] + square[2]) + (square[4] + square[6]);
+  const Real odd = (square[1] + square[3]) + (square[5] + square[7]);
+  return even + odd + square[8];
 }
 
 /// The next Lanes::count of `count` consecutive tensors; missing ones repeat the last.

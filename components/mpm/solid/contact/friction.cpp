@@ -1,5 +1,7 @@
 #include "components/mpm/solid/contact/friction.hpp"
 
+#include <utility>
+
 #include "components/mpm/solid/transfer/extent.hpp"
 
 namespace tushar::mpm::solid {
@@ -20,26 +22,39 @@ struct Gathering {
   std::size_t steepest = 0;        ///< that body
 };
 
-/// Whether more than one of these bodies has mass at a node.
-template <int D>
-bool meet(const std::vector<std::size_t>& bodies, const Records& records, const Index<D>& node) {
-  int count = 0;
-  for (const std::size_t m : bodies) count += records[m][node][lane::mass] > 0;
-  return count > 1;
+/// Calls `visit(node)` once for each node of a box at which more than one of these bodies has mass.
+template <int D, class Visit>
+void forEachMeeting(const Box& nodes, const std::vector<std::size_t>& bodies, const RowsOfNodes& rows,
+                    const Records& records, Visit&& visit) {
+  const auto has = [&](std::size_t k, const Index<D>& node) { return records[bodies[k]][node][lane::mass] > 0; };
+  for (std::size_t k = 0; k + 1 < bodies.size(); ++k)
+    rows[bodies[k]]->forEachRow(nodes, [&](const Index3& first, int end) {
+      Index<D> node;
+      for (int d = 0; d < D; ++d) node[d] = first[d];
+      for (; node[0] < end; ++node[0]) {
+        if (!has(k, node)) continue;
+        bool isFirst = true, areMore = false;
+        for (std::size_t j = 0; j < k; ++j) isFirst = isFirst && !has(j, node);
+        for (std::size_t j = k + 1; j < bodies.size(); ++j) areMore = areMore || has(j, node);
+        if (isFirst && areMore) visit(std::as_const(node));
+      }
+    });
 }
 
 template <int D>
-Gathering<D> gatherBodies(const std::vector<std::size_t>& bodies, const Records& records, const Surfaces<D>& surfaces,
+Gathering<D> gatherBodies(const std::vector<std::size_t>& bodies, const Records& records, const Surfaces& surfaces,
                           const Index<D>& node) {
   Gathering<D> all;
   for (const std::size_t m : bodies) {
     const NodeRecord& record = records[m][node];
     all.momentum += record[lane::mass] * lanes<D>(record, lane::velocity);
-    all.position += surfaces[m].position[node];
+    const SurfaceRecord& surface = surfaces[m][node];
+    all.position += surface.massPosition<D>();
     all.mass += record[lane::mass];
-    all.volume += surfaces[m].volume[node];
-    if (surfaces[m].massGradient[node].squaredNorm() <= all.normal.squaredNorm()) continue;
-    all.normal = surfaces[m].massGradient[node];
+    all.volume += surface.volume();
+    const Vec<D> gradient = surface.massGradient<D>();
+    if (gradient.squaredNorm() <= all.normal.squaredNorm()) continue;
+    all.normal = gradient;
     all.steepest = m;
   }
   if (all.normal.squaredNorm() > 0) all.normal.normalize();
@@ -52,28 +67,34 @@ bool isThere(const Contact& contact, const Records& records, double totalMass, s
   return contact.concerns(static_cast<int>(m)) && records[m][node][lane::mass] >= leastShare * totalMass;
 }
 
-/// Whether a stress is compressive along a normal.
+/// Whether the stress of a surface is compressive along a normal.
 template <int D>
-bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) {
+bool isPressed(const Level& level, const SurfaceRecord& surface, const Vec<D>& normal) {
   double traction = 0;
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j)
-      traction += normal[i] * stress(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) * normal[j];
+      traction += normal[i] * surface.stress(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) * normal[j];
   return traction < -leastTraction;
+}
+
+template <int D>
+Vec<D> gradientOf(const Surfaces& surfaces, std::size_t m, const Index<D>& node) {
+  const SurfaceRecord& surface = surfaces[m][node];
+  return surface.massGradient<D>();
 }
 
 /// The normal out of a body at a node, shared with the others there or its own; 0 if its mass has no gradient.
 template <int D>
-Vec<D> normalOf(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
+Vec<D> normalOf(const Level& level, const Contact& contact, const Records& records, const Surfaces& surfaces,
                 std::size_t m, const Index<D>& node) {
   Vec<D> others = Vec<D>::Zero();
   double mass = 0;
   for (std::size_t n = 0; n < records.size() && contact.oneNormal; ++n) {
     if (n == m) continue;
-    others += records[n][node][lane::mass] * surfaces[n].massGradient[node];
+    others += records[n][node][lane::mass] * gradientOf<D>(surfaces, n, node);
     mass += records[n][node][lane::mass];
   }
-  Vec<D> normal = 0.5 * (surfaces[m].massGradient[node] - (mass > 0 ? Vec<D>(others / mass) : others));
+  Vec<D> normal = 0.5 * (gradientOf<D>(surfaces, m, node) - (mass > 0 ? Vec<D>(others / mass) : others));
   for (int d = 0; d < D && contact.normalsInCells; ++d) normal[d] *= level.spacing(d);
   const double size = normal.norm();
   return size > leastGradient ? Vec<D>(normal / size) : normal;
@@ -81,10 +102,10 @@ Vec<D> normalOf(const Level& level, const Contact& contact, const Records& recor
 
 /// Whether the stresses of all bodies at a node are compressive along its normal.
 template <int D>
-bool arePressed(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
+bool arePressed(const Level& level, const Contact& contact, const Records& records, const Surfaces& surfaces,
                 const Gathering<D>& all, const Index<D>& node) {
   for (std::size_t m = 0; m < records.size(); ++m)
-    if (isThere<D>(contact, records, all.mass, m, node) && !isPressed<D>(level, surfaces[m].stress[node], all.normal))
+    if (isThere<D>(contact, records, all.mass, m, node) && !isPressed<D>(level, surfaces[m][node], all.normal))
       return false;
   return true;
 }
@@ -117,15 +138,15 @@ FrictionImpulse<D> frictionImpulse(const Touch<D>& touch, double mu) {
 }
 
 template <int D>
-void applyFriction(const Patch& patch, const Contact& contact, double dt, const Records& records,
-                   const Surfaces<D>& surfaces, const FrictionHeats& heat) {
+void applyFriction(const Patch& patch, const Contact& contact, double dt, const RowsOfNodes& rows,
+                   const Records& records, const Surfaces& surfaces, const FrictionHeats& heat) {
   const Level& level = patch.level();
   const double reach = contact.separationFactor * std::cbrt(level.cellVolume());
   const double leastVolume = contact.volumeConstraint * level.cellVolume();
   const Box nodes = records.front().box();
   const std::vector<std::size_t> bodies = contact.bodies(records.size());
-  forEach<D>(contact.keepsMomentum ? nodes : nodes.intersect(level.nodesOfCells()), [&](const Index<D>& node) {
-    if (!meet<D>(bodies, records, node)) return;
+  const Box counted = contact.keepsMomentum ? nodes : nodes.intersect(level.nodesOfCells());
+  forEachMeeting<D>(counted, bodies, rows, records, [&](const Index<D>& node) {
     const Gathering<D> all = gatherBodies<D>(bodies, records, surfaces, node);
     if (all.normal.isZero() || all.volume <= leastVolume) return;
     const bool together = contact.keepsMomentum && arePressed<D>(level, contact, records, surfaces, all, node);
@@ -133,13 +154,14 @@ void applyFriction(const Patch& patch, const Contact& contact, double dt, const 
       NodeRecord& record = records[m][node];
       const double mass = record[lane::mass], others = all.mass - mass;
       if (!isThere<D>(contact, records, all.mass, m, node) || others < leastShare * all.mass) continue;
-      if (separation<D>(all, surfaces[m].position[node], mass) >= reach) continue;
+      const SurfaceRecord& surface = surfaces[m][node];
+      if (separation<D>(all, surface.massPosition<D>(), mass) >= reach) continue;
       const Vec<D> v = lanes<D>(record, lane::velocity);
       Touch<D> touch{normalOf<D>(level, contact, records, surfaces, m, node), v - all.momentum / all.mass, together};
       if (contact.keepsMomentum)
         touch.normal = m == all.steepest ? all.normal : Vec<D>(-all.normal);
       else if (!contact.onlyOnApproach)
-        touch.isPressed = isPressed<D>(level, surfaces[m].stress[node], touch.normal);
+        touch.isPressed = isPressed<D>(level, surface, touch.normal);
       const FrictionImpulse<D> impulse = frictionImpulse<D>(touch, contact.friction);
       const double share = strainLimit<D>(level, impulse.change, dt, mass / others);
       setLanes<D>(record, lane::velocity, v + share * impulse.change);
@@ -151,11 +173,11 @@ void applyFriction(const Patch& patch, const Contact& contact, double dt, const 
 template FrictionImpulse<1> frictionImpulse<1>(const Touch<1>&, double);
 template FrictionImpulse<2> frictionImpulse<2>(const Touch<2>&, double);
 template FrictionImpulse<3> frictionImpulse<3>(const Touch<3>&, double);
-template void applyFriction<1>(const Patch&, const Contact&, double, const Records&, const Surfaces<1>&,
-                               const FrictionHeats&);
-template void applyFriction<2>(const Patch&, const Contact&, double, const Records&, const Surfaces<2>&,
-                               const FrictionHeats&);
-template void applyFriction<3>(const Patch&, const Contact&, double, const Records&, const Surfaces<3>&,
-                               const FrictionHeats&);
+template void applyFriction<1>(const Patch&, const Contact&, double, const RowsOfNodes&, const Records&,
+                               const Surfaces&, const FrictionHeats&);
+template void applyFriction<2>(const Patch&, const Contact&, double, const RowsOfNodes&, const Records&,
+                               const Surfaces&, const FrictionHeats&);
+template void applyFriction<3>(const Patch&, const Contact&, double, const RowsOfNodes&, const Records&,
+                               const Surfaces&, const FrictionHeats&);
 
 }  // namespace tushar::mpm::solid

@@ -25,25 +25,11 @@ struct FrictionImpulse {
 template <int D>
 FrictionImpulse<D> frictionImpulse(const Touch<D>& touch, double mu);
 
-/// The surface of a body at the nodes.
-template <int D>
-struct ContactSurface {
-  NodeView<const Vec<D>> massGradient;  ///< sum_p m_p grad S_i: out of the body, kg/m; axisymmetric kg/m^4
-  NodeView<const Vec<D>> position;      ///< sum_p S_i m_p x_p, kg m
-  NodeView<const Matrix3> stress;       ///< sum_p S_i sigma_p, Pa
-  NodeView<const double> volume;        ///< sum_p S_i V_p, including images beyond symmetry planes, m^3
-
-  static ContactSurface from(auto& take) {
-    return {.massGradient = take(requiresNew(g::massGradient<D>)),
-            .position = take(requiresNew(g::massPosition<D>)),
-            .stress = take(requiresNew(g::surfaceStress)),
-            .volume = take(requiresNew(g::surfaceVolume))};
-  }
-};
 /// The surfaces of all materials, and the frictional heat (J) at their nodes, if the scene computes it.
-template <int D>
-using Surfaces = std::vector<ContactSurface<D>>;
+using Surfaces = std::vector<NodeView<const SurfaceRecord>>;
 using FrictionHeats = std::vector<std::optional<NodeView<double>>>;
+/// The rows of nodes that the particles of each material touch.
+using RowsOfNodes = std::vector<const data::TouchedRows*>;
 
 /// Applies the impulses of friction to all participating materials, where their volumes and distance satisfy the
 /// conditions of the contact. A change that would strain a cell by more than a half is cut down to that. Adds the heat
@@ -54,7 +40,7 @@ using FrictionHeats = std::vector<std::optional<NodeView<double>>>;
 /// or where one of two is pressed alone, the sum of momenta changes. Of contacts that keep momentum all have the normal
 /// of the one whose mass changes most, or its opposite, and are pressed where the stresses of all press.
 template <int D>
-void applyFriction(const Patch& patch, const Contact& contact, double dt, const Records& records,
-                   const Surfaces<D>& surfaces, const FrictionHeats& heat);
+void applyFriction(const Patch& patch, const Contact& contact, double dt, const RowsOfNodes& rows,
+                   const Records& records, const Surfaces& surfaces, const FrictionHeats& heat);
 
 }  // namespace tushar::mpm::solid

@@ -11,7 +11,6 @@ namespace tushar::mpm::solid {
 template <int D>
 void SolidMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
   if (isLoaded()) scheduleApplyExternalLoads(tasks);
-  if (hasFriction()) scheduleComputeSurface(tasks);
   switch (problem_.method.stressUpdate) {
     case StressUpdate::last:
       scheduleMomentum(tasks, readsOld);
@@ -67,13 +66,17 @@ void SolidMpm<D>::scheduleInterpolateParticlesToGrid(TaskList& tasks, Reads stre
                       requiresOld(p::mass, reach), requiresOld(p::velocityGradient, reach), modifies(g::record));
   if (hasPlanes()) scheduleSeparateBodies(tasks);
   if (!problem_.contacts.empty()) scheduleContact(tasks, "mpm::exMomInterpolated", Moment::start, g::record);
+  if (problem_.method.stressUpdate != StressUpdate::first) scheduleComputeSurface(tasks, g::record);
   if (hasFriction()) scheduleFriction(tasks, "mpm::frictionInterpolated", Moment::start, g::record);
 }
 
+/// At nodes where bodies meet, by the masses in `record`; once in a step.
 template <int D>
-void SolidMpm<D>::scheduleComputeSurface(TaskList& tasks) const {
-  tasks.perMaterial("mpm::computeSurface", bodies_->computeSurface, problem_.materials,
-                    with(problem_.method.commonSize), all<SurfaceSources<D>>(shapes_.reach, keeps()));
+void SolidMpm<D>::scheduleComputeSurface(TaskList& tasks, const NodeLabel<NodeRecord>& record) const {
+  if (!hasFriction()) return;
+  tasks.acrossMaterials("mpm::computeSurface", bodies_->computeSurface, problem_.materials,
+                        with(problem_.method.commonSize), requiresNew(record),
+                        all<SurfaceSources<D>>(shapes_.reach, keeps()));
 }
 
 template <int D>
@@ -165,6 +168,7 @@ void SolidMpm<D>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) con
       all<MomentumSources<D>>(reach, keepsSizes(), moving(p::velocity<D>, reach), shapedBy(readsOld, reach)),
       computesOwn(g::stressRecord));
   if (!problem_.contacts.empty()) scheduleContact(tasks, "mpm::exMomOfStresses", Moment::end, g::stressRecord);
+  if (problem_.method.stressUpdate == StressUpdate::first) scheduleComputeSurface(tasks, g::stressRecord);
   if (hasFriction()) scheduleFriction(tasks, "mpm::frictionOfStresses", Moment::end, g::stressRecord);
   tasks.perMaterial("mpm::setGridBoundaryConditionsOfStresses", setGridBoundaryConditions<D>, problem_.materials,
                     with(shapes_.ghostNodes), requiresOld(p::x<D>, reach), modifies(g::stressRecord));

@@ -38,7 +38,7 @@ class SolidMpm : public SolidsOf<D> {
   void scheduleMeasureWork(TaskList& tasks, Reads shaped) const;
   void scheduleComputeStressTensor(TaskList& tasks, const NodeLabel<NodeRecord>& record) const;
   void scheduleUpdateInCells(TaskList& tasks) const;
-  void scheduleComputeSurface(TaskList& tasks) const;
+  void scheduleComputeSurface(TaskList& tasks, const NodeLabel<NodeRecord>& record) const;
   void scheduleIntegrateAcceleration(TaskList& tasks) const;
   void schedulePrescribedMotion(TaskList& tasks, const NodeLabel<NodeRecord>& record) const;
   void scheduleSeparateBodies(TaskList& tasks) const;

@@ -80,8 +80,8 @@ template <int D>
 void SolidsOf<D>::scheduleFriction(TaskList& tasks, const std::string& name, Moment moment,
                                    const NodeLabel<NodeRecord>& record, bool heats) const {
   tasks.acrossMaterials(name, exchangeByFriction<D>, problem_.materials, with(problem_.contacts), with(moment),
-                        requiresOld(delT), all<ContactSurface<D>>(), modifies(record),
-                        when(heats, computes(g::frictionHeat)));
+                        with(shapes_.ghostNodes), requiresOld(p::x<D>, shapes_.reach), requiresOld(delT),
+                        requiresNew(g::surfaceRecord), modifies(record), when(heats, computes(g::frictionHeat)));
 }
 
 template <int D>

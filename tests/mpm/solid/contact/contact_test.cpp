@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <initializer_list>
+#include <utility>
 
 #include "components/mpm/shapes/tensor_shape.hpp"
 #include "components/mpm/solid/constitutive/all.hpp"
@@ -44,14 +46,10 @@ struct TwoBodies {
     for (auto* all : {&records[0], &records[1]}) all->assign(nodes.size(), NodeRecord{});
     for (int m : {0, 1}) {
       const auto k = static_cast<std::size_t>(m);
-      massGradient[k].assign(nodes.size(), Vec<2>::Zero());
-      position[k].assign(nodes.size(), Vec<2>::Zero());
-      stress[k].assign(nodes.size(), Matrix3::Zero());
-      volume[k].assign(nodes.size(), 0.0);
+      surfaces[k].assign(nodes.size(), SurfaceRecord{});
       at(records[k])[lane::mass] = 1;
-      at(massGradient[k]) = Vec<2>(0, m == 0 ? -2 : 1);
-      at(position[k]) = Vec<2>(1, m == 0 ? 1.25 : 0.75);
-      at(volume[k]) = 0.3;
+      setGradient(m, {0, m == 0 ? -2 : 1});
+      set(m, {{3, 0.3}, {4, 1}, {5, m == 0 ? 1.25 : 0.75}});  // its volume and its position
     }
     contact.type = Contact::Type::friction;
     contact.separationFactor = 1;
@@ -60,6 +58,13 @@ struct TwoBodies {
   T& at(std::vector<T>& field) const {
     return field[nodes.offset(Index3{{1, 1, 0}})];
   }
+  /// Sets numbers of a surface, each as its place and value.
+  void set(int body, const std::initializer_list<std::pair<int, double>>& numbers) {
+    for (const auto& [place, value] : numbers) at(surfaces[body]).numbers()[place] = value;
+  }
+  void setGradient(int body, const Vec<2>& gradient) { set(body, {{0, gradient[0]}, {1, gradient[1]}}); }
+  /// Presses along y.
+  void press(int body) { set(body, {{7 + 3 + 1, -1}}); }
   void move(int body, const Vec<2>& v) { setLanes<2>(at(records[body]), lane::velocity, v); }
   Vec<2> velocity(int body) { return lanes<2>(at(records[body]), lane::velocity); }
   Records views() {
@@ -69,16 +74,14 @@ struct TwoBodies {
   }
   void slide() {
     Records views;
-    Surfaces<2> surfaces;
+    Surfaces sides;
     for (const std::size_t m : {std::size_t{0}, std::size_t{1}}) {
       views.emplace_back(records[m].data(), nodes);
-      surfaces.push_back({.massGradient = {massGradient[m].data(), nodes},
-                          .position = {position[m].data(), nodes},
-                          .stress = {stress[m].data(), nodes},
-                          .volume = {volume[m].data(), nodes}});
+      sides.emplace_back(surfaces[m].data(), nodes);
     }
-    const FrictionHeats noHeat(surfaces.size());
-    applyFriction<2>(grid.patches().front(), contact, 1e-3, views, surfaces, noHeat);
+    const FrictionHeats noHeat(sides.size());
+    const data::TouchedRows all = data::TouchedRows::all(nodes);
+    applyFriction<2>(grid.patches().front(), contact, 1e-3, {&all, &all}, views, sides, noHeat);
   }
 
   Grid grid;
@@ -86,9 +89,7 @@ struct TwoBodies {
   Box nodes = level.nodes();
   Contact contact;
   std::array<std::vector<NodeRecord>, 2> records;
-  std::array<std::vector<Vec<2>>, 2> massGradient, position;
-  std::array<std::vector<Matrix3>, 2> stress;
-  std::array<std::vector<double>, 2> volume;
+  std::array<std::vector<SurfaceRecord>, 2> surfaces;
 };
 
 TEST(SingleVelocity, ActsAtTheStartOfAStepUnlessItActsOnce) {
@@ -126,7 +127,7 @@ TEST(Friction, LetsBodiesNeitherPassNorLoseMomentum) {
 TEST(Friction, TakesTheNormalOfTheBodyWhoseMassChangesMostToKeepMomentum) {
   TwoBodies bodies;
   bodies.contact.keepsMomentum = true;
-  bodies.at(bodies.massGradient[1]) = Vec<2>(0.5, 0.5);  // the corner of the other
+  bodies.setGradient(1, {0.5, 0.5});  // the corner of the other
   bodies.move(0, {1, -1});
   bodies.slide();
   EXPECT_LT((bodies.velocity(0) - Vec<2>(1, -0.5)).norm(), roundOff) << "without friction nothing changes along it";
@@ -134,7 +135,7 @@ TEST(Friction, TakesTheNormalOfTheBodyWhoseMassChangesMostToKeepMomentum) {
 
 TEST(Friction, TakesHalfTheDifferenceOfMassGradientsForANormal) {
   TwoBodies bodies;
-  bodies.at(bodies.massGradient[1]) = Vec<2>(2, 2);  // of (0, -2) and this: (-1, -2)
+  bodies.setGradient(1, {2, 2});  // of (0, -2) and this: (-1, -2)
   bodies.move(0, {0, -1});
   bodies.slide();
   EXPECT_LT((bodies.velocity(0) - Vec<2>(0.2, -0.6)).norm(), roundOff);
@@ -144,7 +145,7 @@ TEST(Friction, TakesHalfTheDifferenceOfMassGradientsForANormal) {
 TEST(Friction, TakesTheOwnNormalOfEachBodyIfItSaysSo) {
   TwoBodies bodies;
   bodies.contact.oneNormal = false;
-  bodies.at(bodies.massGradient[1]) = Vec<2>(2, 2);  // beside (0, -2): the bodies slide along different planes
+  bodies.setGradient(1, {2, 2});  // beside (0, -2): the bodies slide along different planes
   bodies.move(0, {0, -1});
   bodies.slide();
   EXPECT_LT((bodies.velocity(0) - Vec<2>(0, -0.5)).norm(), roundOff);
@@ -156,8 +157,8 @@ TEST(Friction, TakesNormalsPerCellIfItSaysSo) {
   domain.upper = {2, 6, 0};  // cells of 1 by 3 m
   TwoBodies bodies(domain);
   bodies.contact.normalsInCells = true;
-  bodies.at(bodies.massGradient[0]) = Vec<2>(-3, -1);
-  bodies.at(bodies.massGradient[1]) = Vec<2>(3, 1);
+  bodies.setGradient(0, {-3, -1});
+  bodies.setGradient(1, {3, 1});
   bodies.move(0, {-1, -1});
   bodies.slide();
   EXPECT_LT((bodies.velocity(0) - Vec<2>(-0.5, -0.5)).norm(), roundOff) << "straight through";
@@ -168,7 +169,7 @@ TEST(Friction, HoldsABodyThatIsPressedAloneUnlessItKeepsMomentum) {
     TwoBodies bodies;
     bodies.contact.keepsMomentum = keepsMomentum;
     bodies.move(0, {0, 1});
-    bodies.at(bodies.stress[0])(1, 1) = -1;
+    bodies.press(0);
     bodies.slide();
     EXPECT_LT((bodies.velocity(0) - Vec<2>(0, keepsMomentum ? 1 : 0.5)).norm(), roundOff);
     EXPECT_LT(bodies.velocity(1).norm(), roundOff);
@@ -180,7 +181,7 @@ TEST(Friction, LetsBodiesPartUnlessTheyArePressed) {
   bodies.move(0, {0, 1});
   bodies.slide();
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, 1));
-  for (const int m : {0, 1}) bodies.at(bodies.stress[m])(1, 1) = -1;
+  for (const int m : {0, 1}) bodies.press(m);
   bodies.slide();
   EXPECT_LT((bodies.velocity(0) - Vec<2>(0, 0.5)).norm(), roundOff);
 }
@@ -188,7 +189,7 @@ TEST(Friction, LetsBodiesPartUnlessTheyArePressed) {
 TEST(Friction, LetsPressedBodiesPartWhereOnlyApproachCounts) {
   TwoBodies bodies;
   bodies.contact.onlyOnApproach = true;
-  for (const int m : {0, 1}) bodies.at(bodies.stress[m])(1, 1) = -1;
+  for (const int m : {0, 1}) bodies.press(m);
   bodies.move(0, {0, 1});
   bodies.slide();
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, 1));
@@ -223,23 +224,28 @@ TEST(Surface, PointsOutOfTheBody) {
   Material material;
   material.density = 2;
   material.model = std::make_shared<ModelOf<IdealGas>>(IdealGas{});
-  std::vector<Vec<2>> gradient(level.nodes().size()), position(level.nodes().size());
-  std::vector<Matrix3> nodalStress(level.nodes().size());
-  std::vector<double> volume(level.nodes().size());
   const Box nodes = level.nodes(), cells = level.cells();
-  computeSurface<LinearShape<2>>(grid.patches().front(), material, Vec3::Ones(),
-                                 {.x = {x.data(), set, cells},
-                                  .size = {},
-                                  .mass = {mass.data(), set, cells},
-                                  .deformation = {deformation.data(), set, cells},
-                                  .particleStress = ParticleView<const Matrix3>{stress.data(), set, cells},
-                                  .massGradient = {gradient.data(), nodes},
-                                  .position = {position.data(), nodes},
-                                  .stress = {nodalStress.data(), nodes},
-                                  .volume = {volume.data(), nodes}});
+  std::vector<SurfaceRecord> surface(nodes.size()), other(nodes.size());
+  std::vector<NodeRecord> record(nodes.size());
   const std::size_t corner = nodes.offset(Index3{{1, 1, 0}});
-  EXPECT_LT((gradient[corner] - Vec<2>(3 * 0.25, 3 * 0.5)).norm(), roundOff);
-  EXPECT_NEAR(volume[corner], 1.5 * 0.5 * 0.25, roundOff);
+  record[corner][lane::mass] = 1;
+  const auto of = [&](std::vector<SurfaceRecord>& to, const data::ParticleSet& particles) {
+    return SurfaceSources<2>{.x = {x.data(), particles, cells},
+                             .size = {},
+                             .mass = {mass.data(), particles, cells},
+                             .deformation = {deformation.data(), particles, cells},
+                             .particleStress = ParticleView<const Matrix3>{stress.data(), particles, cells},
+                             .surface = {to.data(), nodes}};
+  };
+  computeSurface<LinearShape<2>>(grid.patches().front(), {material, material}, Vec3::Ones(),
+                                 {{record.data(), nodes}, {record.data(), nodes}}, {of(surface, set), of(other, set)});
+  for (const SurfaceRecord& sum : {surface[corner], other[corner]}) {
+    EXPECT_LT((sum.massGradient<2>() - Vec<2>(3 * 0.25, 3 * 0.5)).norm(), roundOff);
+    EXPECT_LT((sum.massPosition<2>() - 3 * 0.5 * 0.25 * Vec<2>(0.5, 0.25)).norm(), roundOff);
+    EXPECT_NEAR(sum.volume(), 1.5 * 0.5 * 0.25, roundOff);
+    for (const int i : {0, 1, 2})
+      for (const int j : {0, 1, 2}) EXPECT_NEAR(sum.stress(i, j), i == j ? 0.5 * 0.25 : 0, roundOff);
+  }
 }
 
 TEST(Specified, MovesTheOthersAlongItsDirectionsOnly) {

@@ -2,14 +2,18 @@
 
 #include <Eigen/LU>
 
+#include <cstdint>
+#include <vector>
+
 #include "components/mpm/solid/contact/friction.hpp"
 #include "components/mpm/solid/explicit/keeps.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
+#include "components/mpm/solid/transfer/node_windows.hpp"
 #include "components/mpm/solid/transfer/stress_source.hpp"
 
 namespace tushar::mpm::solid {
 
-/// The variables that computeSurface reads and writes.
+/// The variables of a material that computeSurface reads and writes.
 template <int D>
 struct SurfaceSources {
   ParticleView<const Vec<D>> x;
@@ -17,9 +21,7 @@ struct SurfaceSources {
   ParticleView<const double> mass;
   ParticleView<const Matrix3> deformation;
   OptionalView<const Matrix3> particleStress;  ///< if the stress is not a function of F alone
-  NodeView<Vec<D>> massGradient, position;
-  NodeView<Matrix3> stress;
-  NodeView<double> volume;
+  NodeView<SurfaceRecord> surface;
 
   static SurfaceSources from(auto& take, int reach, const Keeps& keeps) {
     return {.x = take(requiresOld(p::x<D>, reach)),
@@ -27,65 +29,119 @@ struct SurfaceSources {
             .mass = take(requiresOld(p::mass, reach)),
             .deformation = take(requiresOld(p::deformationMeasure, reach)),
             .particleStress = take(when(keeps.stress, requiresOld(p::stress, reach))),
-            .massGradient = take(computes(g::massGradient<D>)),
-            .position = take(computes(g::massPosition<D>)),
-            .stress = take(computes(g::surfaceStress)),
-            .volume = take(computes(g::surfaceVolume))};
+            .surface = take(computes(g::surfaceRecord))};
   }
+};
+
+/// The nodes of a patch at which more than one body has mass.
+template <int D>
+class MeetingPlaces {
+ public:
+  explicit MeetingPlaces(const Box& nodes) : box_(nodes), bodies_(nodes.size(), 0) {}
+
+  /// Counts a body at the nodes of its rows where it has mass.
+  void add(const data::TouchedRows& rows, const NodeView<const NodeRecord>& record) {
+    rows.forEachRow(box_, [&](Index3 node, int end) {
+      const NodeRecord* at = record.values() + record.stored().offset(node);
+      std::uint8_t* count = bodies_.data() + box_.offset(node);
+      for (; node[0] < end; ++node[0], ++at, ++count)
+        *count = static_cast<std::uint8_t>(*count + ((*at)[lane::mass] > 0));
+    });
+  }
+  /// Whether bodies meet at a node of a cell, or of the `layers` around it.
+  bool areNear(const Index<D>& cell, int layers) const {
+    Box near;
+    for (int d = 0; d < 3; ++d) {
+      near.lower[d] = d < D ? std::max(cell[d] - layers, box_.lower[d]) : box_.lower[d];
+      near.upper[d] = d < D ? std::min(cell[d] + 2 + layers, box_.upper[d]) : box_.upper[d];
+    }
+    bool any = false;
+    if (!near.empty())
+      forEach<3>(near.rowStarts(), [&](const Index3& row) {
+        const std::uint8_t* count = bodies_.data() + box_.offset(row);
+        for (int k = 0; k < near.extent(0); ++k) any |= count[k] > 1;
+      });
+    return any;
+  }
+  /// Calls `visit(node)` for each, where the node has three indices.
+  template <class Visit>
+  void forEachPlace(Visit&& visit) const {
+    const std::uint8_t* count = bodies_.data();
+    forEach<3>(box_, [&](const Index3& node) {
+      if (*count++ > 1) visit(node);
+    });
+  }
+
+ private:
+  Box box_;
+  std::vector<std::uint8_t> bodies_;  ///< number of bodies at each node
 };
 
 /// A body continues beyond a symmetry plane: no gradient points through the plane, and the volume counts twice.
 template <int D>
-void mirrorSurface(const Patch& patch, const Material& material, NodeView<Vec<D>> massGradient,
-                   NodeView<double> volume) {
+void mirrorSurface(const Patch& patch, const Material& material, NodeView<SurfaceRecord> surface) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1})
       if (patch.isAtBoundary(d, side) && patch.level().isSymmetry(d, side, material.index))
         forEach<D>(patch.faceNodes(d, side), [&](const Index<D>& node) {
-          massGradient[node][d] = 0;
-          volume[node] *= 2;
+          surface[node].numbers()[d] = 0;
+          surface[node].numbers()[3] *= 2;
         });
 }
 
-/// The surface of a body for friction (see ContactSurface) at every node of the patch. Where axisymmetric, the gradient
-/// is that of the density, as in Uintah: mass grows with the radius, and would tilt the normal.
+/// Adds the particles of a material around places where bodies meet. Where axisymmetric, the gradient is that of the
+/// density, as in Uintah: mass grows with the radius, and would tilt the normal.
 template <class Shape, int D = Shape::dimension>
-void computeSurface(const Patch& patch, const Material& material, const Vec3& commonSize, const SurfaceSources<D>& u) {
-  u.massGradient.fill(Vec<D>::Zero());
-  u.position.fill(Vec<D>::Zero());
-  u.stress.fill(Matrix3::Zero());
-  u.volume.fill(0.0);
-  const Box& box = u.position.box();
+void addSurface(const Patch& patch, const Material& material, const Vec3& commonSize, const MeetingPlaces<D>& places,
+                const SurfaceSources<D>& u) {
+  const Box& box = u.surface.box();
   const Extents<Shape> extents(patch.level(), commonSize, u.size, u.deformation);
   const double density = material.undeformedDensity();
-  forEachStencil<Shape>(patch, u.x.cells(), u.x, extents, [&](int p, const auto& stencil) {
+  const auto add = [&](int p, const auto& stencil) {
     const double mass = u.mass[p], v = mass / density * u.deformation[p].determinant();
-    const double weight = Shape::axisymmetric ? mass / v : mass;
     Matrix3 sigma = Matrix3::Zero();
     if (u.particleStress)
       sigma = (*u.particleStress)[p];
     else
       cauchyStress(material, &u.deformation[p], 1, &sigma);
+    const SurfaceShare<D> share(u.x[p], mass, v, Shape::axisymmetric ? mass / v : mass, sigma);
     forEachNodeWithin(stencil, box, [&](const Index<D>& node, double s, const Vec<D>& gradient) {
-      u.massGradient[node] += weight * gradient;
-      u.position[node] += s * mass * u.x[p];
-      u.stress[node] += s * sigma;
-      u.volume[node] += s * v;
+      share.addTo(u.surface[node], s, gradient);
     });
+  };
+  u.x.template forEachOccupied<D>(u.x.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
+    if (!places.areNear(cell, Shape::ghostNodes)) return;
+    const CellFrame<D> frame(patch.level(), cell);
+    for (const int p : range) add(p, typename Shape::Stencil(frame, cell, u.x[p], extents[p]));
   });
-  mirrorSurface<D>(patch, material, u.massGradient, u.volume);
+  mirrorSurface<D>(patch, material, u.surface);
+}
+
+/// The surfaces of bodies for friction, at the nodes of the patch where several have mass; undefined at others.
+template <class Shape, int D = Shape::dimension>
+void computeSurface(const Patch& patch, const std::vector<Material>& materials, const Vec3& commonSize,
+                    const std::vector<NodeView<const NodeRecord>>& records, const std::vector<SurfaceSources<D>>& of) {
+  MeetingPlaces<D> places(of.front().surface.box());
+  for (std::size_t m = 0; m < of.size(); ++m) places.add(touchedRows<D>(of[m].x, Shape::ghostNodes), records[m]);
+  for (std::size_t m = 0; m < of.size(); ++m) {
+    places.forEachPlace(
+        [&](const Index3& node) { of[m].surface.values()[of[m].surface.stored().offset(node)] = SurfaceRecord{}; });
+    addSurface<Shape>(patch, materials[m], commonSize, places, of[m]);
+  }
 }
 
 /// Applies friction between materials in contact, and computes its heat, J, if the scene needs it.
 template <int D>
 void exchangeByFriction(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
-                        Moment moment, double dt, const Surfaces<D>& surfaces, const Records& records,
-                        const FrictionHeats& heat) {
+                        Moment moment, int ghostNodes, const std::vector<ParticleView<const Vec<D>>>& x, double dt,
+                        const Surfaces& surfaces, const Records& records, const FrictionHeats& heat) {
+  RowsOfNodes rows;
+  for (const auto& ofMaterial : x) rows.push_back(&touchedRows<D>(ofMaterial, ghostNodes));
   for (const auto& ofMaterial : heat)
     if (ofMaterial) ofMaterial->fill(0.0);
   for (const Contact& contact : contacts)
     if (contact.type == Contact::Type::friction && (contact.actsTwice || moment == Moment::end))
-      applyFriction<D>(patch, contact, dt, records, surfaces, heat);
+      applyFriction<D>(patch, contact, dt, rows, records, surfaces, heat);
 }
 
 }  // namespace tushar::mpm::solid
