@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/euler/gas.hpp"
+#include "core/base/lanes.hpp"
 #include "core/core.hpp"
 
 namespace tushar::euler {
@@ -112,6 +113,8 @@ class Rows {
   explicit Rows(std::size_t cells, int planes = 0) : Rows(cells, planes, Values(room(cells, planes), 0.0)) {}
   static Rows unfilled(std::size_t cells, int planes = 0) { return {cells, planes, Values(room(cells, planes))}; }
 
+  /// Number of cells for which there is space.
+  std::size_t room() const { return cells_; }
   /// Sets the box of cells that the rows contain.
   void hold(const Box& box) {
     box_ = box;
@@ -160,6 +163,13 @@ class Rows {
 
 /// Most cells of a stretch: what a step computes of them fits into the first-level cache.
 inline constexpr int kStretch = 128;
+
+/// Whether rows, in rows that hold the box `held`, are computed faster by themselves than in stretches: if they fill
+/// whole vector registers, but take more of them together with what lies between them.
+inline bool fillRegisters(const Box& box, const Box& held) {
+  constexpr int lanes = Lanes::count;
+  return box.extent(0) % lanes == 0 && held.extent(0) - box.extent(0) >= lanes;
+}
 
 /// Calls `visit(first, count)` for stretches of memory that hold the cells of a box, in rows that hold the box `held`.
 /// Short rows follow each other in one stretch, with the cells between them, so that loops are long.

@@ -8,19 +8,21 @@ namespace tushar::tasks {
 namespace {
 
 /// Rows of bytes in memory: their first byte, and the distances between the starts of rows, and of planes of rows.
+template <class Byte>
 struct Rows {
-  std::byte* first;
+  Byte* first;
   std::ptrdiff_t toRow, toPlane;
 };
 
-Rows rowsOf(const CellValues& values, const Index3& first, std::size_t bytes) {
-  const auto row = static_cast<std::ptrdiff_t>(values.stored.extent(0) * bytes);
-  return {values.values + values.stored.offset(first) * bytes, row, row * values.stored.extent(1)};
+template <class Byte>
+Rows<Byte> rowsOf(Byte* values, const grid::Box& stored, const Index3& first, std::size_t bytes) {
+  const auto row = static_cast<std::ptrdiff_t>(stored.extent(0) * bytes);
+  return {values + stored.offset(first) * bytes, row, row * stored.extent(1)};
 }
 
 /// Copies rows of `Length` bytes; 0: of `length` bytes.
 template <std::size_t Length>
-void copyRows(const grid::Box& box, const Rows& from, const Rows& to, std::size_t length) {
+void copyRows(const grid::Box& box, const Rows<const std::byte>& from, const Rows<std::byte>& to, std::size_t length) {
   for (std::ptrdiff_t z = 0; z < box.extent(2); ++z) {
     const std::byte* source = from.first + z * from.toPlane;
     std::byte* target = to.first + z * to.toPlane;
@@ -31,10 +33,11 @@ void copyRows(const grid::Box& box, const Rows& from, const Rows& to, std::size_
 
 }  // namespace
 
-void copyCells(const grid::Box& box, const Index3& shift, std::size_t bytes, const CellValues& from,
+void copyCells(const grid::Box& box, const Index3& shift, std::size_t bytes, const KnownValues& from,
                const CellValues& to) {
   if (box.empty()) return;
-  const Rows source = rowsOf(from, box.lower - shift, bytes), target = rowsOf(to, box.lower, bytes);
+  const auto source = rowsOf(from.values, from.stored, box.lower - shift, bytes);
+  const auto target = rowsOf(to.values, to.stored, box.lower, bytes);
   const std::size_t length = static_cast<std::size_t>(box.extent(0)) * bytes;
   switch (length) {  // beside a patch rows are short: a call for each would take longer than the copy
     case 8:

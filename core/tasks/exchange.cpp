@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/tasks/copy_cells.hpp"
+#include "core/tasks/rim_fluxes.hpp"
 
 namespace tushar::tasks {
 
@@ -123,8 +124,9 @@ void Exchange::fillFromHere() {
   forEach([&](const BoundGhostFill& fill, const Patch& patch, std::size_t place) {
     if (fill.particles && copies) fillCopies(fill, patch, nullptr);
     if (fill.particles) return;
+    const FilledValues values(*warehouse_, fill);
     for (const GhostCopy& copy : planOf(fill).into[place])
-      if (isHere(copy) && copy.coarse < 0) copyGrid(fill, copy);
+      if (isHere(copy) && copy.coarse < 0) copyGrid(fill, copy, values);
     if (planOf(fill).isLocal[place]) fillFromCoarser(fill, place, nullptr);
   });
 }
@@ -169,9 +171,9 @@ void Exchange::post(bool hasStopped) {
   }
 }
 
-void Exchange::copyGrid(const BoundGhostFill& fill, const GhostCopy& copy) {
+void Exchange::copyGrid(const BoundGhostFill& fill, const GhostCopy& copy, const FilledValues& values) {
   if (isNear(fill)) return copyNear(fill, copy);
-  copyGridTo(fill, copy, valuesAt(fill, copy));
+  copyGridTo(fill, copy, values, targetOf(values, copy));
 }
 
 void Exchange::copyNear(const BoundGhostFill& fill, const GhostCopy& copy) {
@@ -187,50 +189,56 @@ void Exchange::copyNear(const BoundGhostFill& fill, const GhostCopy& copy) {
 }
 
 /// The destination of a copy: the patch, or the faces of its rim, for the values behind them.
-CellValues Exchange::valuesAt(const BoundGhostFill& fill, const GhostCopy& copy) {
-  const Variable to = warehouse_->variable(fill.generation, fill.variable, copy.to);
-  if (copy.rim < 0) return {to.values, to.stored};
+CellValues Exchange::targetOf(const FilledValues& values, const GhostCopy& copy) const {
+  const CellValues to = values.on(copy.to);
+  if (copy.rim < 0) return to;
   const grid::RimPiece& piece = warehouse_->grid().rims(copy.to)[copy.rim];
-  const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
-  return {to.values + (piece.first + piece.cells.size()) * bytes, piece.cells};
+  return {to.values + (piece.first + piece.cells.size()) * values.label.bytes, piece.cells};
 }
 
-void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, const CellValues& to) {
-  const data::Label& label = *warehouse_->table()[fill.variable].label;
-  const Variable from = warehouse_->variable(fill.generation, fill.variable, copy.from);
+void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, const FilledValues& values,
+                          const CellValues& to) {
+  const data::Label& label = values.label;
+  const CellValues from = values.on(copy.from);
   if (copy.isMean && copy.rim < 0)
-    return restrictTo(label, warehouse_->grid().dimension(), copy.box.shifted(Index3{} - copy.shift),
-                      {from.values, from.stored}, {to.values, to.stored.shifted(Index3{} - copy.shift)});
-  Bytes values;
-  if (computeValues(*warehouse_, fill, copy, part_, values))
-    copyCells(copy.box, {}, label.bytes, {values.data(), copy.box}, to);
+    return restrictTo(label, warehouse_->grid().dimension(), copy.box.shifted(Index3{} - copy.shift), from,
+                      {to.values, to.stored.shifted(Index3{} - copy.shift)});
+  if (copy.isMean)  // the cells of a copy are those of its piece
+    return meanFluxes(warehouse_->grid(), copy, label.components, reinterpret_cast<const double*>(from.values),
+                      reinterpret_cast<double*>(to.values));
+  Bytes computed;
+  if (part_ != 0 && computeValues(*warehouse_, fill, copy, part_, computed))
+    copyCells(copy.box, {}, label.bytes, {computed.data(), copy.box}, to);
   else
-    copyCells(copy.box, copy.shift, label.bytes, {from.values, from.stored}, to);
+    copyCells(copy.box, copy.shift, label.bytes, from, to);
 }
 
 /// Fills ghosts in coarser cells, once these are complete. If there are messages, all ghosts that the patch gets from
 /// other ranks.
 void Exchange::fillFromCoarser(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages) {
   const GhostPlan& plan = planOf(fill);
-  const data::Label& label = *warehouse_->table()[fill.variable].label;
-  const Variable own = warehouse_->variable(fill.generation, fill.variable, warehouse_->grid().patches()[place].id());
   const std::vector<CoarseGhosts>& parts = plan.coarse[place];
-  std::vector<std::size_t> first(parts.size() + 1, 0);
-  for (std::size_t k = 0; k < parts.size(); ++k) first[k + 1] = first[k] + parts[k].cells.size() * label.bytes;
-  thread_local Bytes coarse;  // of all parts, one after the other
+  if (parts.empty() && !messages) return;
+  const FilledValues values(*warehouse_, fill);
+  const std::size_t bytes = values.label.bytes;
+  thread_local std::vector<std::size_t> first;  // of each part in `coarse`
+  thread_local Bytes coarse;
+  first.assign(1, 0);
+  for (const CoarseGhosts& part : parts) first.push_back(first.back() + part.cells.size() * bytes);
   if (coarse.size() < first.back()) coarse.resize(first.back());
   for (const GhostCopy& copy : plan.into[place]) {
     if (isHere(copy) && copy.coarse < 0) continue;  // is there already
-    const CellValues to = copy.coarse < 0 ? valuesAt(fill, copy)
+    const CellValues to = copy.coarse < 0 ? targetOf(values, copy)
                                           : CellValues{coarse.data() + first[copy.coarse], parts[copy.coarse].cells};
     if (isHere(copy))
-      copyGridTo(fill, copy, to);
+      copyGridTo(fill, copy, values, to);
     else
-      isNear(fill) ? messages->takeNear(copy, label.bytes, to) : messages->takeGrid(copy, label.bytes, to);
+      isNear(fill) ? messages->takeNear(copy, bytes, to) : messages->takeGrid(copy, bytes, to);
   }
+  const CellValues own = values.on(warehouse_->grid().patches()[place].id());
   for (std::size_t k = 0; k < parts.size(); ++k)
-    prolong(label, warehouse_->grid().dimension(), {coarse.data() + first[k], parts[k].cells}, parts[k].ghosts,
-            {own.values, own.stored});
+    prolong(values.label, warehouse_->grid().dimension(), {coarse.data() + first[k], parts[k].cells}, parts[k].ghosts,
+            own);
 }
 
 void Exchange::fillFromElsewhere(const BoundGhostFill& fill, bool resolves, ReceivedMessages& messages) {
@@ -252,7 +260,8 @@ void Exchange::shareFaces(int variable, Generation set) {
   const BoundGhostFill fill{variable, Generation::fresh, set, false};
   if (isNear(fill)) near_.settle(set, warehouse_->table()[variable].material);
   threads_->forEach(static_cast<int>(patches.size()), [&](int place) {
-    for (const GhostCopy& copy : faces_[place]) copyGrid(fill, copy);
+    const FilledValues values(*warehouse_, fill);
+    for (const GhostCopy& copy : faces_[place]) copyGrid(fill, copy, values);
   });
 }
 

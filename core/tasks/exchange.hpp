@@ -15,6 +15,28 @@ namespace tushar::tasks {
 
 GhostReach reachOf(const data::VariableTable& table, const BoundGhostFill& fill);
 
+/// The values that a ghost fill copies, on the patches of this rank; found once for many copies.
+class FilledValues {
+ public:
+  FilledValues(data::Warehouse& warehouse, const BoundGhostFill& fill)
+      : label(*warehouse.table()[fill.variable].label),
+        memory_(warehouse.memory(fill.generation, fill.variable)),
+        slots_(warehouse.slots(fill.generation, fill.variable).get()),
+        first_patch_(warehouse.grid().firstPatch()) {}
+
+  CellValues on(int patch) const {
+    const std::size_t place = patch - first_patch_;
+    return {memory_ + slots_->first[place] * label.bytes, slots_->stored.empty() ? grid::Box{} : slots_->stored[place]};
+  }
+
+  const data::Label& label;
+
+ private:
+  std::byte* memory_;
+  const data::Slots* slots_;
+  int first_patch_;
+};
+
 /// Fills the ghosts of every patch from the patches that own them, on this rank or another.
 ///
 /// For a task one message goes to each neighbouring rank, with all that it needs for that task, as soon as the last of
@@ -64,10 +86,10 @@ class Exchange {
   /// The copies between patches of this rank.
   void fillFromHere();
   void fillFromElsewhere(const BoundGhostFill& fill, bool resolves, ReceivedMessages& messages);
-  void copyGrid(const BoundGhostFill& fill, const GhostCopy& copy);
+  void copyGrid(const BoundGhostFill& fill, const GhostCopy& copy, const FilledValues& values);
   void copyNear(const BoundGhostFill& fill, const GhostCopy& copy);
-  CellValues valuesAt(const BoundGhostFill& fill, const GhostCopy& copy);
-  void copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, const CellValues& to);
+  CellValues targetOf(const FilledValues& values, const GhostCopy& copy) const;
+  void copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, const FilledValues& values, const CellValues& to);
   void fillFromCoarser(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages);
   /// Whether patches exchange only rows of nodes near particles.
   bool isNear(const BoundGhostFill& fill) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/mpi.hpp"
+#include "core/tasks/copy_cells.hpp"
 #include "core/tasks/transfer.hpp"
 
 namespace tushar::tasks {
@@ -93,11 +94,11 @@ Bytes meansOf(const data::Label& label, int dimension, const Piece& piece, const
 /// Appends the values of the cells of a piece, x fastest. In a message they stand at any byte: numbers are made
 /// elsewhere.
 void pack(const data::Label& label, int dimension, const Piece& piece, const Variable& old, Bytes& to) {
-  if (piece.coarser == 0)
-    return grid::forEach<3>(piece.box.rowStarts(), [&](const Index3& first) {
-      mpi::append(to, old.values + old.stored.offset(first) * label.bytes,
-                  static_cast<std::size_t>(piece.box.extent(0)) * label.bytes);
-    });
+  if (piece.coarser == 0) {
+    const std::size_t before = to.size();
+    to.resize(before + piece.box.size() * label.bytes);
+    return copyCells(piece.box, {}, label.bytes, {old.values, old.stored}, {to.data() + before, piece.box});
+  }
   Bytes values(piece.box.size() * label.bytes);
   if (piece.coarser < 0)
     prolong(label, dimension, {old.values, old.stored}, piece.box, {values.data(), piece.box});
@@ -107,11 +108,8 @@ void pack(const data::Label& label, int dimension, const Piece& piece, const Var
 }
 
 void unpack(const data::Label& label, const Piece& piece, const Variable& to, const std::byte*& from) {
-  const std::size_t length = static_cast<std::size_t>(piece.box.extent(0)) * label.bytes;
-  grid::forEach<3>(piece.box.rowStarts(), [&](const Index3& first) {
-    std::memcpy(to.values + to.stored.offset(first) * label.bytes, from, length);
-    from += length;
-  });
+  copyCells(piece.box, {}, label.bytes, {from, piece.box}, {to.values, to.stored});
+  from += piece.box.size() * label.bytes;
 }
 
 /// The variables that move, and their packing; particles are on the finest level only, and remain there.

@@ -99,9 +99,10 @@ struct Family {
   unsigned inside;                       ///< children that are wanted
 };
 
-/// `beside`: the distance in memory of each child from the first.
-template <int D, bool AllInside>
-void interpolate(Family<D> family, const std::array<std::ptrdiff_t, 1 << D>& beside, int components) {
+/// `beside`: the distance in memory of each child from the first. `Components`: 0 if it is not known at compile time.
+template <int D, int Components, bool AllInside>
+void interpolate(Family<D> family, const std::array<std::ptrdiff_t, 1 << D>& beside, int numbers) {
+  const int components = Components > 0 ? Components : numbers;
   const auto& stride = family.stride;
   for (int k = 0; k < components; ++k, ++family.parent, ++family.first) {
     const double* middle = family.parent;
@@ -126,7 +127,7 @@ void quarterSlopes(const double* middle, std::ptrdiff_t stride, std::ptrdiff_t c
 }
 
 /// Coarse cells, and the finer cells in them.
-template <int D>
+template <int D, int Components>
 class Interpolation {
  public:
   Interpolation(const CellValues& from, const Box& box, const CellValues& to, int components)
@@ -140,8 +141,10 @@ class Interpolation {
     grid::forEachRow<3>(box_.coarsened(D), [&](const Index3& first, int count) {
       Index3 last = first;
       last[0] += count - 1;
-      if (count >= fewest && insideOf(first) == all && insideOf(last) == all) return ofRow(first, last);
-      for (Index3 parent = first; parent[0] <= last[0]; ++parent[0]) ofCell(parent);
+      const bool areAllInside = insideOf(first) == all && insideOf(last) == all;
+      if (areAllInside && count >= fewest) return ofRow(first, last);
+      for (Index3 parent = first; parent[0] <= last[0]; ++parent[0])
+        ofCell(parent, areAllInside ? all : insideOf(parent));
     });
   }
 
@@ -157,21 +160,22 @@ class Interpolation {
   }
   unsigned insideOf(const Index3& parent) const { return childrenIn<D>(box_, firstChild(parent)); }
 
-  void ofCell(const Index3& parent) {
-    Family<D> family{coarse_.at(parent), {}, fine_.at(firstChild(parent)), insideOf(parent)};
+  void ofCell(const Index3& parent, unsigned inside) {
+    Family<D> family{coarse_.at(parent), {}, fine_.at(firstChild(parent)), inside};
     for (int d = 0; d < D; ++d) family.stride[static_cast<std::size_t>(d)] = strideOf(parent, d);
-    family.inside == all ? interpolate<D, true>(family, beside_, components_)
-                         : interpolate<D, false>(family, beside_, components_);
+    inside == all ? interpolate<D, Components, true>(family, beside_, components_)
+                  : interpolate<D, Components, false>(family, beside_, components_);
   }
 
   /// All children of a row of cells, to the same bits.
   void ofRow(const Index3& first, const Index3& last) {
-    const std::ptrdiff_t cell = components_, cells = last[0] - first[0] + 1, count = cells * cell;
-    quarters_.resize(static_cast<std::size_t>(count) * D);
+    const std::ptrdiff_t cell = Components > 0 ? Components : components_, count = (last[0] - first[0] + 1) * cell;
+    thread_local std::vector<double> quarters;
+    if (quarters.size() < static_cast<std::size_t>(count) * D) quarters.resize(static_cast<std::size_t>(count) * D);
     const double* middle = coarse_.at(first);
     std::array<const double*, D> quarter{};
     for (int d = 0; d < D; ++d) {
-      double* slopes = quarters_.data() + d * count;
+      double* slopes = quarters.data() + d * count;
       quarter[static_cast<std::size_t>(d)] = slopes;
       if (d > 0) {
         quarterSlopes(middle, strideOf(first, d), count, slopes);
@@ -181,14 +185,15 @@ class Interpolation {
       quarterSlopes(middle + cell, cell, count - 2 * cell, slopes + cell);
       quarterSlopes(middle + count - cell, strideOf(last, 0), cell, slopes + count - cell);
     }
-    double* child0 = fine_.at(firstChild(first));
-    for (unsigned child = 0; child < beside_.size(); ++child)
-      for (std::ptrdiff_t at = 0, to = beside_[child]; at < count; to += cell)
-        for (const std::ptrdiff_t end = at + cell; at < end; ++at, ++to) {
+    for (unsigned child = 0; child < beside_.size(); ++child) {
+      double* to = fine_.at(firstChild(first)) + beside_[child];
+      for (std::ptrdiff_t at = 0; at < count; to += cell)
+        for (const std::ptrdiff_t end = at + cell; at < end; ++at) {
           double value = middle[at];
           for (unsigned d = 0; d < D; ++d) value += child >> d & 1 ? quarter[d][at] : -quarter[d][at];
-          child0[to] = value;
+          *to++ = value;
         }
+    }
   }
 
   Cells<const double> coarse_;
@@ -196,12 +201,13 @@ class Interpolation {
   Box box_;
   int components_;
   std::array<std::ptrdiff_t, 1 << D> beside_{};  ///< the distance in memory of each child from the first
-  std::vector<double> quarters_;
 };
 
 template <int D>
 void interpolate(const CellValues& from, const Box& box, const CellValues& to, int components) {
-  Interpolation<D>(from, box, to, components).run();
+  if (components == 1) return Interpolation<D, 1>(from, box, to, components).run();
+  components == D ? Interpolation<D, D>(from, box, to, components).run()
+                  : Interpolation<D, 0>(from, box, to, components).run();
 }
 
 void copyFirstChildren(const Label& label, int dimension, const Box& box, const CellValues& fine,

@@ -28,7 +28,10 @@ void advanceCells(const G& gas, const Level& level, const GhostRules<D>& rules, 
     ColumnStep<Flux, Shape, G> step(gas, level, rules, extents, dt, old, fresh, rims);
     forEachBlock<D>(cells, extents, [&](const Box& column) { step.run(column, finish); });
   } else {
-    auto work = Work<D, kGases<G>>::unfilled(cells, Shape::reach);
+    // Kept for the next patch of the thread: patches of a refined grid may be small.
+    thread_local auto work = Work<D, kGases<G>>::unfilled(cells, Shape::reach);
+    if (work.w.room() < Work<D, kGases<G>>::roomOf(cells, Shape::reach))
+      work = Work<D, kGases<G>>::unfilled(cells, Shape::reach);
     forEachBlock<D>(cells, [&](const Box& block) {
       advanceBlock<D, Flux, Shape>(gas, level, rules, block, dt, old, work, fresh, rims);
       finish(block);

@@ -22,6 +22,8 @@ template <int D, int K = 1>
 struct Work {
   /// Space for the blocks of a patch. The values of cells are 0 at first; all else is written before it is read.
   Work(const Box& cells, int reach) : Work(Rows<D, K>(roomOf(cells, reach)), roomOf(cells, reach), reach > 1, {}) {}
+  /// Number of cells of the largest block of a patch, with those around it.
+  static std::size_t roomOf(const Box& cells, int reach) { return largestBlock<D>(cells).grown(reach, D).size(); }
   /// The same for steps that write the values of all cells of a block.
   static Work unfilled(const Box& cells, int reach) {
     const std::size_t room = roomOf(cells, reach);
@@ -48,7 +50,6 @@ struct Work {
   struct Planes {
     int faces = 0, above = 0;
   };
-  static std::size_t roomOf(const Box& cells, int reach) { return largestBlock<D>(cells).grown(reach, D).size(); }
   Work(Rows<D, K> values, std::size_t cells, bool hasSlopes, const Planes& planes)
       : w(std::move(values)), flux(Rows<D, K>::unfilled(cells, planes.faces)) {
     for (int d = 0; d < D && hasSlopes; ++d) {
@@ -97,9 +98,8 @@ inline constexpr bool takesAnyStates = std::is_same_v<G, StiffenedGas>;
 template <int D, bool Long, class Visit>
 void forEachPart(const Box& box, const Box& held, Visit&& visit) {
   if constexpr (Long && D > 1)
-    forEachStretch<D>(box, held, std::forward<Visit>(visit));
-  else
-    forEachRow<D>(box, std::forward<Visit>(visit));
+    if (!fillRegisters(box, held)) return forEachStretch<D>(box, held, std::forward<Visit>(visit));
+  forEachRow<D>(box, std::forward<Visit>(visit));
 }
 
 /// Values at the faces of the cells of `box`, half a step later. The rows of fluxes hold the change on the way.

@@ -96,10 +96,12 @@ void computeVelocity(const Patch& patch, CellView<const double> density, CellVie
 template <int D>
 void computeMach(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
                  CellView<const double> totalEnergy, CellView<Vec<D>> mach) {
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const double energy = internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
-    const double last = gas.last(density[cell], energy);
-    mach[cell] = momentum[cell] / (density[cell] * std::sqrt(gas.soundSpeedSquared(density[cell], last)));
+  gas.withLaw([&](const auto& law) {
+    forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+      const double energy = internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
+      const double last = law.last(density[cell], energy);
+      mach[cell] = momentum[cell] / (density[cell] * std::sqrt(law.soundSpeedSquared(density[cell], last)));
+    });
   });
 }
 
