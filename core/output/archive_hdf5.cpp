@@ -116,8 +116,13 @@ Result Hdf5File::checked(Result result, const std::string& what) const {
                               failure_.error ? std::generic_category().message(failure_.error) : hdf5Reason()));
 }
 
-Hdf5File::Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression, bool describes)
-    : path_(std::move(path)), double_as_float_(doubleAsFloat), compression_(compression), describes_(describes) {
+Hdf5File::Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression, bool describes, HeadDraft* draft)
+    : path_(std::move(path)),
+      double_as_float_(doubleAsFloat),
+      compression_(compression),
+      describes_(describes),
+      draft_(draft) {
+  if (draft_ && draft_->collects()) return;
   const Silence silence;
   const Handle access(diskAccess(failure_), H5Pclose);
   file_ = checked(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "the file");
@@ -128,7 +133,23 @@ Hdf5File::~Hdf5File() {
   if (file_ >= 0) H5Fclose(file_);
 }
 
+/// Whether a draft collects this instead of a file.
+bool Hdf5File::isDrafted(const std::string& text) const {
+  if (!draft_ || !draft_->collects()) return false;
+  draft_->share(text);
+  return true;
+}
+
+/// The same for a number by which files may differ, which a draft may also mark.
+template <class Number>
+bool Hdf5File::isDrafted(const std::string& object, const char* name, Number& value) const {
+  const bool collects = isDrafted(object + " " + name);
+  if (draft_) draft_->vary(&value, sizeof value);
+  return collects;
+}
+
 void Hdf5File::group(const std::string& name) {
+  if (isDrafted("group " + name)) return;
   const Silence silence;
   const Handle links = parentsMade();
   const Handle made(H5Gcreate2(file_, name.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
@@ -149,6 +170,7 @@ Hdf5File::Id Hdf5File::makeDataset(const std::string& name, const Array& array, 
 
 void Hdf5File::dataset(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape,
                        Precision precision) {
+  if (isDrafted(formOf(name, array, shape) + valuesIn(array))) return;
   const Silence silence;
   const Shape full = fullShape(shape, array);
   const Handle creation = withoutTimes();
@@ -166,6 +188,7 @@ void Hdf5File::dataset(const std::string& name, const Array& array, const std::v
 }
 
 std::uint64_t Hdf5File::room(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape) {
+  if (isDrafted(formOf(name, array, shape))) return 0;
   const Silence silence;
   const Shape full = fullShape(shape, array);
   const Handle creation = withoutTimes();
@@ -222,12 +245,17 @@ void Hdf5File::writePieces(Id data, const Array& array, const Shape& shape, cons
 }
 
 void Hdf5File::text(const std::string& name, const std::string& value) {
+  constexpr std::size_t least = 16;  // a shorter mark may be found elsewhere
+  std::string written = value;
+  const bool collects = isDrafted("text " + name + (value.size() < least ? " " + value : ""));
+  if (draft_ && value.size() >= least) draft_->vary(written.data(), written.size());
+  if (collects) return;
   const Silence silence;
   const Handle links = parentsMade(), space = scalarSpace(), type = stringType();
   const Handle creation = withoutTimes();
   const Handle data(H5Dcreate2(file_, name.c_str(), type, space, links, creation, H5P_DEFAULT), H5Dclose);
   checked<hid_t>(data, name + " in");
-  const char* characters = value.c_str();
+  const char* characters = written.c_str();
   checked(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &characters), name + " in");
 }
 
@@ -310,27 +338,33 @@ void Hdf5File::writeAttribute(const std::string& object, const char* name, Id sp
 }
 
 void Hdf5File::attribute(const std::string& object, const char* name, double value) {
+  if (isDrafted(object, name, value)) return;
   writeAttribute(object, name, scalarSpace(), H5T_NATIVE_DOUBLE, &value);
 }
 
 void Hdf5File::attribute(const std::string& object, const char* name, int value) {
+  if (isDrafted(object, name, value)) return;
   writeAttribute(object, name, scalarSpace(), H5T_NATIVE_INT, &value);
 }
 
 void Hdf5File::attribute(const std::string& object, const char* name, std::uint64_t value) {
+  if (isDrafted(object, name, value)) return;
   writeAttribute(object, name, scalarSpace(), H5T_NATIVE_UINT64, &value);
 }
 
 void Hdf5File::attribute(const std::string& object, const char* name, const std::string& value) {
+  if (isDrafted(object + " " + name + " " + value)) return;
   const char* text = value.c_str();
   writeAttribute(object, name, scalarSpace(), stringType(), &text);
 }
 
 void Hdf5File::attribute(const std::string& object, const char* name, const Vec3& value) {
+  if (isDrafted(fmt::format("{} {} {} {} {}", object, name, value[0], value[1], value[2]))) return;
   writeAttribute(object, name, vectorSpace(3), H5T_NATIVE_DOUBLE, value.data());
 }
 
 void Hdf5File::attribute(const std::string& object, const char* name, const Index3& value) {
+  if (isDrafted(fmt::format("{} {} {} {} {}", object, name, value[0], value[1], value[2]))) return;
   writeAttribute(object, name, vectorSpace(3), H5T_NATIVE_INT, value.at.data());
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/output/archive_disk.hpp"
+#include "core/output/head_image.hpp"
 #include "core/output/snapshot.hpp"
 
 namespace tushar::output {
@@ -34,7 +35,11 @@ class Hdf5File {
  public:
   /// Creates the file, replacing an existing one. Real numbers are kept in 4 bytes if `doubleAsFloat`, and all are
   /// packed by gzip at level `compression` if that is above 0. Datasets have attributes only if `describes`.
-  Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression, bool describes = true);
+  /// `draft`, if any, marks the values of attributes and texts by which files may differ.
+  Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression, bool describes = true,
+           HeadDraft* draft = nullptr);
+  /// Makes no file: `draft` collects what it would hold.
+  explicit Hdf5File(HeadDraft& draft) : Hdf5File("", false, 0, true, &draft) {}
   /// Closes the file if close() was not called; errors are then lost.
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
@@ -91,6 +96,9 @@ class Hdf5File {
   void writeValues(Id data, const std::vector<Number>& values, const std::string& what);
   template <class Number>
   void writePieces(Id data, const Array& array, const Shape& shape, const std::string& what);
+  bool isDrafted(const std::string& text) const;
+  template <class Number>
+  bool isDrafted(const std::string& object, const char* name, Number& value) const;
   void describe(const std::string& dataset, const Array& array);
   void writeAttribute(const std::string& object, const char* name, Id space, Id type, const void* data);
 
@@ -98,6 +106,7 @@ class Hdf5File {
   bool double_as_float_;
   int compression_;
   bool describes_;
+  HeadDraft* draft_;
   DiskFailure failure_;
   Id file_ = -1;
   std::size_t shown_ = 0;         ///< number of parts in virtual datasets since the file was opened

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <deque>
 #include <exception>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -39,8 +40,63 @@ struct Begun {
   std::vector<std::uint64_t> rooms;  ///< the offset of each dataset with a source
 };
 
+/// Whether a file is so small that its form may be kept in memory.
+bool isSmall(const Storage& how, const std::vector<Dataset>& datasets) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 20;
+  std::uint64_t bytes = 0;
+  for (const Dataset& dataset : datasets) bytes += bytesOf(dataset.array);
+  return bytes <= most && how.compression == 0 && !how.doubleAsFloat;
+}
+
+/// Adds what is in each file: the offset of each dataset, if there is a file.
+std::vector<std::uint64_t> roomsIn(Hdf5File& file, const std::function<void(Hdf5File&)>& header,
+                                   const std::vector<Dataset>& datasets) {
+  header(file);
+  std::vector<std::uint64_t> rooms;
+  for (const Dataset& dataset : datasets) rooms.push_back(file.room(dataset.name, dataset.array, dataset.shape));
+  return rooms;
+}
+
+/// Makes a small file from the image of one of its form, which HDF5 has made before or makes now; false if there is
+/// none.
+bool beginFromImage(Begun& begun, const std::filesystem::path& path, const Storage& how,
+                    const std::function<void(Hdf5File&)>& header, const std::vector<Dataset>& datasets) {
+  static HeadImages images;
+  static std::mutex mutex;
+  const std::lock_guard alone(mutex);
+  HeadDraft draft(HeadDraft::Use::collects);
+  Hdf5File collector(draft);
+  roomsIn(collector, header, datasets);
+  draft.share(how.describes ? "described" : "");
+  if (!images.find(draft.form())) {
+    HeadDraft marked(HeadDraft::Use::marks);
+    Hdf5File file(path, false, 0, how.describes, &marked);
+    std::vector<std::uint64_t> rooms = roomsIn(file, header, datasets);
+    file.close();
+    images.keep(draft.form(), HeadImage::of(path, marked.values(), std::move(rooms)));
+  }
+  const std::optional<HeadImage>& kept = *images.find(draft.form());
+  if (!kept) return false;
+  HeadImage image = *kept;
+  for (std::size_t k = 0; k < draft.values().size(); ++k) image.set(k, draft.values()[k]);
+  for (std::size_t k = 0; k < datasets.size(); ++k) {
+    if (datasets[k].array.source)
+      begun.rooms.push_back(image.rooms[k]);
+    else
+      std::visit(
+          [&](const auto& values) {
+            if (!values.empty())
+              std::memcpy(image.bytes.data() + image.rooms[k], values.data(), values.size() * sizeof(values[0]));
+          },
+          datasets[k].array.values);
+  }
+  image.write(path);
+  return true;
+}
+
 void begin(Begun& begun, const std::filesystem::path& path, const Storage& how,
            const std::function<void(Hdf5File&)>& header, const std::vector<Dataset>& datasets) {
+  if (isSmall(how, datasets) && beginFromImage(begun, path, how, header, datasets)) return;
   begun.file = std::make_shared<Hdf5File>(path, how.doubleAsFloat, how.compression, how.describes);
   header(*begun.file);
   for (const Dataset& dataset : datasets) {

@@ -43,6 +43,21 @@ TEST(CheckpointStore, KeepsTheLastOnesAndNamesTheLatest) {
   EXPECT_EQ(stepsAfterWriting(CheckpointStore(here, 1), {200001}), (std::vector<int>{200001}));
 }
 
+TEST(CheckpointStore, KeepsTheLastOneOnTheDiskUntilAnotherIs) {
+  const TemporaryFolder here;
+  const CheckpointStore store(here, 2);
+  store.write(1, fill);
+
+  for (const int step : {2, 3, 4}) store.write(step, fill, {.waitsForDisk = false, .lastOnDisk = 1});
+
+  EXPECT_EQ(store.steps(), (std::vector<int>{1, 3, 4}));
+  EXPECT_EQ(store.latest(), 4);
+  EXPECT_EQ(damageOf(store.folder(4)), "");
+  store.bringToDisk(4);
+  EXPECT_EQ(store.steps(), (std::vector<int>{3, 4}));
+  EXPECT_EQ(store.latest(), 4);
+}
+
 TEST(CheckpointStore, GoesBackAndForgetsWhatCameAfter) {
   const TemporaryFolder here;
   const CheckpointStore store(here, 3);

@@ -81,32 +81,28 @@ struct TensorShape {
       constexpr int n = Axis::nodes;
       Index<D> k;
       if constexpr (D == 1) {
-        for (k[0] = 0; k[0] < n; ++k[0]) visitNode(k, factorsOf(0, k[0]), visit);
+        for (k[0] = 0; k[0] < n; ++k[0]) visitNode(k, visit);
       } else if constexpr (D == 2) {
         for (k[1] = 0; k[1] < n; ++k[1])
-          for (k[0] = 0; k[0] < n; ++k[0]) visitNode(k, factorsOf(0, k[0]) * factorsOf(1, k[1]), visit);
+          for (k[0] = 0; k[0] < n; ++k[0]) visitNode(k, visit);
       } else {
-        std::array<Quad, n * n> ofRows;
-        for (int j = 0; j < n; ++j)
-          for (int i = 0; i < n; ++i) ofRows[j * n + i] = factorsOf(0, i) * factorsOf(1, j);
         for (k[2] = 0; k[2] < n; ++k[2])
           for (k[1] = 0; k[1] < n; ++k[1])
-            for (k[0] = 0; k[0] < n; ++k[0]) visitNode(k, ofRows[k[1] * n + k[0]] * factorsOf(2, k[2]), visit);
+            for (k[0] = 0; k[0] < n; ++k[0]) visitNode(k, visit);
       }
     }
 
    private:
-    /// What node k along an axis contributes to the products: to the gradient, and in the last lane to S.
-    [[gnu::always_inline]] Quad factorsOf(int axis, int k) const {
-      Quad factors = s[k][axis] - Quad{};
-      factors[axis] = ds[k][axis];
-      return factors;
-    }
     template <class Visit>
-    [[gnu::always_inline]] void visitNode(const Index<D>& k, const Quad& products, Visit& visit) const {
-      Vec<D> gradient;
-      for (int d = 0; d < D; ++d) gradient[d] = products[d];
-      visit(first + k, products[3], gradient);
+    [[gnu::always_inline]] void visitNode(const Index<D>& k, Visit&& visit) const {
+      double value = 1;
+      Vec<D> gradient = Vec<D>::Ones();
+      for (int d = 0; d < D; ++d) {
+        const std::size_t node = k[d];
+        value *= s[node][d];
+        for (int e = 0; e < D; ++e) gradient[e] *= (e == d ? ds : s)[node][d];
+      }
+      visit(first + k, value, gradient);
     }
     /// Fills the first axis if it is the radius.
     void fillRadially(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent) {

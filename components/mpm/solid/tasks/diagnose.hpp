@@ -2,50 +2,86 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/method.hpp"
+#include "core/base/quad.hpp"
 
 namespace tushar::mpm::solid {
 
+/// Does what WideSum does, to the same bits, with its lanes in registers.
+class QuadSum {
+ public:
+  /// Adds four numbers, of which the last may be 0 at the end of a sum.
+  [[gnu::always_inline]] void add(Quad x) {
+    data::addExactly(value_, x);
+    data::addExactly(error_, x);
+    rest_ += x;
+  }
+  void mergeInto(Sum& sum) const {
+    for (int lane = 0; lane < 4; ++lane) sum.merge({value_[lane], error_[lane], rest_[lane]});
+  }
+
+ private:
+  Quad value_{}, error_{}, rest_{};
+};
+
+/// Adds `valueOf(p)` of `count` particles.
+template <class ValueOf>
+void addValues(int count, Sum& total, ValueOf&& valueOf) {
+  QuadSum sum;
+  for (int p = 0; p < count; p += 4) {
+    Quad x{};
+    for (int lane = 0; lane < std::min(4, count - p); ++lane) x[lane] = valueOf(p + lane);
+    sum.add(x);
+  }
+  sum.mergeInto(total);
+}
+
+/// Adds the vectors `vectorOf(p)`, along x, y and z, of `count` particles.
+template <class VectorOf>
+void addVectors(int count, VectorSum& total, VectorOf&& vectorOf) {
+  std::array<QuadSum, 3> sums;
+  for (int p = 0; p < count; p += 4) {
+    std::array<Quad, 3> x{};
+    for (int lane = 0; lane < std::min(4, count - p); ++lane) {
+      const Vec3 v = vectorOf(p + lane);
+      for (int axis = 0; axis < 3; ++axis) x[axis][lane] = v[axis];
+    }
+    for (int axis = 0; axis < 3; ++axis) sums[axis].add(x[axis]);
+  }
+  for (auto [sum, of] : {std::pair(&total.x, &sums[0]), std::pair(&total.y, &sums[1]), std::pair(&total.z, &sums[2])})
+    of->mergeInto(*sum);
+}
+
 /// The sum of a particle variable.
 inline void sumParticles(const Patch&, const Material&, ParticleView<const double> values, Sum& total) {
-  WideSum sum(total);
-  for (int p = 0; p < values.owned(); ++p) sum.add(values[p]);
+  addValues(values.owned(), total, [&](int p) { return values[p]; });
 }
 
 /// sum_p m_p c_v T_p
 inline void sumThermalEnergy(const Patch&, const Material& material, ParticleView<const double> mass,
                              ParticleView<const double> temperature, Sum& total) {
-  WideSum sum(total);
-  for (int p = 0; p < mass.owned(); ++p) sum.add(mass[p] * material.specificHeat * temperature[p]);
+  addValues(mass.owned(), total, [&](int p) { return mass[p] * material.specificHeat * temperature[p]; });
 }
-
-/// Adds to a VectorSum in independent lanes.
-struct WideVectorSum {
-  WideSum x, y, z;
-
-  explicit WideVectorSum(VectorSum& sum) : x(sum.x), y(sum.y), z(sum.z) {}
-  void add(const Vec3& v) {
-    x.add(v[0]);
-    y.add(v[1]);
-    z.add(v[2]);
-  }
-};
 
 /// sum_p m_p v_p, kg m/s.
 template <int D>
 void sumMomentum(const Patch& patch, const Material&, ParticleView<const double> mass,
                  ParticleView<const Vec<D>> velocity, VectorSum& total) {
-  WideVectorSum sum(total);
-  for (int p = 0; p < mass.owned(); ++p) sum.add(mass[p] * patch.level().expandDirection<D>(velocity[p]));
+  const Level& level = patch.level();
+  addVectors(mass.owned(), total, [&](int p) { return Vec3(mass[p] * level.expandDirection<D>(velocity[p])); });
 }
 /// sum_p m_p x_p, kg m.
 template <int D>
 void sumCenterOfMass(const Patch& patch, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> x,
                      VectorSum& total) {
-  WideVectorSum sum(total);
-  for (int p = 0; p < mass.owned(); ++p) sum.add(mass[p] * patch.level().expandPoint<D>(x[p]));
+  const Level& level = patch.level();
+  addVectors(mass.owned(), total, [&](int p) { return Vec3(mass[p] * level.expandPoint<D>(x[p])); });
 }
 
 /// sum_p m_p x_p x v_p about the origin of x, y, z, and of APIC's B_p: sum_p m_p (B_kj - B_jk) (Jiang & al. 2015).
@@ -71,8 +107,7 @@ void sumAngularMomentum(const Patch& patch, const Material&, ParticleView<const 
 template <int D>
 void sumKineticEnergy(const Patch&, const Material&, ParticleView<const double> mass,
                       ParticleView<const Vec<D>> velocity, Sum& total) {
-  WideSum sum(total);
-  for (int p = 0; p < mass.owned(); ++p) sum.add(0.5 * mass[p] * velocity[p].squaredNorm());
+  addValues(mass.owned(), total, [&](int p) { return 0.5 * mass[p] * velocity[p].squaredNorm(); });
 }
 
 /// The edges of a particle: F times those at the start, m.
