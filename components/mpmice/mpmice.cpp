@@ -270,9 +270,9 @@ void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) con
 }
 
 template <int D>
-void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& materials) const {
-  tasks.perMaterial("mpmice::limitStepOfBodies", limitStepOfBodies<D>, materials, with(settings_.gas.cfl),
-                    requiresOld(mpm::solid::c::stableTimeStep), computes(delT));
+void GasAround<D>::scheduleStableTimeStep(TaskList& tasks) const {
+  tasks.perPatch("mpmice::limitStepOfBodies", limitStepOfBodies, with(settings_.gas.cfl),
+                 requiresOld(mpm::solid::total::stableTimeStep), computes(delT));
   if (settings_.implicit) {
     tasks.perPatch("mpmice::limitImplicitStep", limitImplicitStep<D>, with(settings_),
                    gasIn(readsOld, {.state = 1, .mass = 2, .room = 2}), computes(delT));

@@ -18,7 +18,7 @@ ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material)
   for (const Row& row : rows_) {
     const Patch& patch = grid.patches()[row.patch];
     if (!grid.isFinest(patch)) continue;
-    const ParticleRange* ranges = warehouse.particles(Generation::old, material, patch.id()).row(row.first);
+    const ParticleRange* ranges = warehouse.particles(Generation::old, material, patch.id()).row<3>(row.first);
     for (std::uint32_t k = 0; k < row.cells; ++k) counts_[row.patch][row.from + k] = std::int32_t{ranges[k].size()};
   }
   sum();
@@ -108,11 +108,11 @@ void ParticleOrder::install() {
   for (const Row& row : rows_) {
     const Patch& patch = grid.patches()[row.patch];
     if (!grid.isFinest(patch)) continue;
-    ParticleRange* ranges = setOf(patch).row(row.first);
-    for (std::uint32_t k = 0; k < row.cells; ++k) {
+    Index3 cell = row.first;
+    for (std::uint32_t k = 0; k < row.cells; ++k, ++cell[0]) {
       const int first = next[row.patch];
       next[row.patch] += counts_[row.patch][row.from + k];
-      ranges[k] = {first, next[row.patch]};
+      setOf(patch).put(cell, {first, next[row.patch]});
     }
   }
   for (std::size_t k = 0; k < next.size(); ++k)

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <new>
 
+#include "core/data/page_size.hpp"
+
 namespace tushar::data {
 
 namespace {
@@ -20,10 +22,6 @@ std::size_t nextSkew() {
 }
 
 std::size_t roundedUp(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
-
-/// Requests large pages, if the system provides them on request, so that fewer page-table entries are needed. Applies
-/// to a whole mapping, as memory that grows must be of one kind.
-void adviseLargePages(void* memory, std::size_t bytes) { madvise(memory, bytes, MADV_HUGEPAGE); }
 
 }  // namespace
 

@@ -8,14 +8,9 @@ void ParticleSet::reset(const grid::Patch& patch, int reach) {
   const grid::Box within = patch.cellsWithin(reach);
   const Span none{within.upper[0], within.lower[0]};
   touched_.clear();
-  if (owned_cells_ == patch.cells() && cells_ == within) {
-    for (std::size_t row = 0; row < spans_.size(); ++row) empty(row, none);
-  } else {
-    owned_cells_ = patch.cells();
-    cells_ = within;
-    stride_ = {{1, cells_.extent(0), cells_.extent(0) * cells_.extent(1)}};
-    ranges_.assign(cells_.size(), {});
-  }
+  owned_cells_ = patch.cells();
+  cells_ = within;
+  ranges_.reset(cells_.rows(), static_cast<std::size_t>(cells_.extent(0)), {});
   spans_.assign(cells_.rows(), none);
   own_spans_ = spans_;
   owned_ = 0;
@@ -26,10 +21,7 @@ void ParticleSet::reset(const grid::Patch& patch, int reach) {
 
 void ParticleSet::empty(std::size_t row, const Span& kept) {
   const auto clear = [&](int from, int to) {
-    if (from >= to) return;
-    const auto start =
-        row * static_cast<std::size_t>(cells_.extent(0)) + static_cast<std::size_t>(from - cells_.lower[0]);
-    std::fill_n(&ranges_[start], to - from, ParticleRange{});
+    if (from < to) std::fill_n(ranges_.open(row) + (from - cells_.lower[0]), to - from, ParticleRange{});
   };
   const Span span = spans_[row];
   if (kept.empty()) return clear(span.first, span.last);
@@ -52,6 +44,7 @@ const TouchedRows& ParticleSet::touched(int ghost, int dimension) const {
 
 void ParticleSet::closeRow(const Index3& cell) {
   touched_.clear();
+  if (!ranges_.isOpen(rowOf(cell))) return;
   const ParticleRange* range = row(cell);
   int first = 0, last = owned_cells_.extent(0);
   while (first < last && range[first].empty()) ++first;
@@ -66,6 +59,14 @@ void ParticleSet::widen(std::size_t row, const Span& cells, const ParticleRange&
                             : ParticleRange{std::min(ghosts_.first, places.first), std::max(ghosts_.last, places.last)};
 }
 
+void ParticleSet::openGhostRows(const grid::Box& box, const ParticleSet& theirs) {
+  if (theirs.owned_ > 0)
+    grid::forEach<3>(box.rowStarts(), [&](const Index3& cell) {
+      const Span span = theirs.own_spans_[theirs.rowOf(cell)];
+      if (span.first < box.upper[0] && span.last > cell[0]) ranges_.open(rowOf(cell));
+    });
+}
+
 void ParticleSet::addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset) {
   if (theirs.owned_ == 0) return;
   touched_.clear();
@@ -75,15 +76,15 @@ void ParticleSet::addGhosts(const grid::Box& box, const ParticleSet& theirs, int
     if (span.empty()) return;
     cell[0] = span.first;
     const ParticleRange* from = theirs.row(cell);
-    ParticleRange* to = row(cell);
+    ParticleRange* to = openRow(cell);
     for (int k = 0; k < span.last - span.first; ++k) to[k] = {from[k].first + offset, from[k].last + offset};
     widen(rowOf(cell), span, {to[0].first, to[span.last - span.first - 1].last});
   });
 }
 
 void ParticleSet::addCopies(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift, int to) {
-  at(cell) = {to, to + there.size()};
   if (there.empty()) return;
+  at(cell) = {to, to + there.size()};
   touched_.clear();
   widen(rowOf(cell), {cell[0], cell[0] + 1}, at(cell));
   GhostRun* last = ghost_runs_.empty() ? nullptr : &ghost_runs_.back();

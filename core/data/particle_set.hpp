@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/vec.hpp"
+#include "core/data/row_table.hpp"
 #include "core/data/touched_rows.hpp"
 #include "core/grid/box.hpp"
 #include "core/grid/patch.hpp"
@@ -63,11 +64,17 @@ class ParticleSet {
 
   template <int D>
   ParticleRange in(const Index<D>& cell) const {
-    return ranges_[offset(cell)];
+    return ranges_[rowOf(cell)][cell[0] - cells_.lower[0]];
   }
+  /// For writing.
   template <int D>
   ParticleRange& at(const Index<D>& cell) {
-    return ranges_[offset(cell)];
+    return ranges_.open(rowOf(cell))[cell[0] - cells_.lower[0]];
+  }
+  /// Assigns the particles of a cell; takes no memory for rows without particles.
+  template <int D>
+  void put(const Index<D>& cell, const ParticleRange& range) {
+    if (!range.empty() || ranges_.isOpen(rowOf(cell))) at(cell) = range;
   }
 
   /// Calls `visit(cell, particles)` for the cells of a box that contain particles, in lexicographic order.
@@ -77,7 +84,7 @@ class ParticleSet {
     grid::forEach<D>(box.rowStarts(), [&](Index<D> cell) {
       const Span span = occupied(cell, box.upper[0]);
       cell[0] = span.first;
-      const ParticleRange* range = &ranges_[offset(cell)];
+      const ParticleRange* range = row(cell);
       for (; cell[0] < span.last; ++cell[0], ++range)
         if (!range->empty()) visit(std::as_const(cell), *range);
     });
@@ -102,8 +109,14 @@ class ParticleSet {
   const TouchedRows& touched(int ghost, int dimension) const;
 
   /// The ranges of consecutive cells along the first axis, from `cell` on.
-  ParticleRange* row(const Index3& cell) { return &ranges_[offset(cell)]; }
-  const ParticleRange* row(const Index3& cell) const { return &ranges_[offset(cell)]; }
+  template <int D>
+  const ParticleRange* row(const Index<D>& cell) const {
+    return ranges_[rowOf(cell)] + (cell[0] - cells_.lower[0]);
+  }
+  /// The same for writing; valid until the next row is opened.
+  ParticleRange* openRow(const Index3& cell) { return ranges_.open(rowOf(cell)) + (cell[0] - cells_.lower[0]); }
+  /// Makes space for the rows of a set that is about as large.
+  void makeSpaceFor(const ParticleSet& other) { ranges_.makeSpaceFor(other.ranges_); }
 
   /// Marks the particles of all cells of the patch as complete, `count` in total.
   void setOwned(int count);
@@ -112,6 +125,9 @@ class ParticleSet {
   /// Like setOwned, after closeRow has been called for every row that has particles.
   void setOwnedOfClosedRows(int count) { owned_ = count; }
 
+  /// Makes space for the particles of another set in `box` as ghosts. Afterwards several threads may call addGhosts,
+  /// each for its own set.
+  void openGhostRows(const grid::Box& box, const ParticleSet& theirs);
   /// Declares the particles of another set in `box` as ghosts; that set begins `offset` places after this one.
   void addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset);
   /// Declares copies, from place `to` on, as the ghosts of a cell: of the particles `there` in cell - shift on `patch`.
@@ -123,13 +139,6 @@ class ParticleSet {
   void forgetGhosts();
 
  private:
-  template <int D>
-  std::size_t offset(const Index<D>& cell) const {
-    std::ptrdiff_t at = cell[0] - cells_.lower[0];
-    if constexpr (D > 1) at += std::ptrdiff_t{cell[1] - cells_.lower[1]} * stride_[1];
-    if constexpr (D > 2) at += std::ptrdiff_t{cell[2] - cells_.lower[2]} * stride_[2];
-    return at;
-  }
   template <int D>
   std::size_t rowOf(const Index<D>& cell) const {
     std::ptrdiff_t row = 0;
@@ -144,8 +153,7 @@ class ParticleSet {
   void widen(std::size_t row, const Span& cells, const ParticleRange& places);
 
   grid::Box owned_cells_, cells_;
-  Index3 stride_{};
-  std::vector<ParticleRange> ranges_;
+  RowTable<ParticleRange> ranges_;
   std::vector<Span> spans_;  ///< for each row along the first axis, the part outside which no cell contains particles
   std::vector<Span> own_spans_;  ///< the same for the patch's own particles
   std::vector<GhostRun> ghost_runs_;

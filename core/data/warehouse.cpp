@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/base/mpi.hpp"
+#include "core/data/page_size.hpp"
 #include "core/data/views.hpp"
 
 namespace tushar::data {
@@ -125,7 +126,11 @@ void Warehouse::allocateGrid(Generation generation, int number) {
   const Label& label = *(*table_)[number].label;
   SharedSlots& slots = grid_slots_[{label.centring, table_->ghost(number)}];
   if (!slots) slots = slotsOfGrid(*grid_, label, table_->ghost(number));
-  allocate(storage(generation, number), label, slots, slots->end);
+  Storage& values = storage(generation, number);
+  allocate(values, label, slots, slots->end);
+  constexpr std::size_t mapped = std::size_t{1} << 21;  // smaller memory may be from the heap
+  if (label.counts == Counts::nearParticles && values.memory.capacity() > mapped)
+    adviseSmallPages(values.memory.data(), values.memory.capacity());
 }
 
 void Warehouse::allocateRims(Generation generation, int number) {

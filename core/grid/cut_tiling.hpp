@@ -10,6 +10,8 @@ class CutTiling : public Tiling {
  public:
   explicit CutTiling(MortonCurve::Cuts cuts) : curve_(std::move(cuts)) {}
 
+  const MortonCurve& curve() const { return curve_; }
+
   int count() const override { return curve_.blocks(); }
   Tile tile(int id) const override { return {id, 0, curve_.cellsAt(curve_.blockAt(id))}; }
   Tile tileOf(int level, const Index3& cell) const override;

@@ -88,15 +88,24 @@ std::unique_ptr<BlockTiling> Grid::cut(BlockTree tree) const {
 }
 
 std::unique_ptr<Tiling> Grid::refine(std::unique_ptr<BlockTiling> tiling, RankOffsets shares) {
-  partition_.reset();
   blocks_ = tiling.get();
+  std::unique_ptr<Tiling> before = replace(std::move(tiling), std::move(shares));
+  findNewCells(*before);
+  return before;
+}
+
+std::unique_ptr<Tiling> Grid::recut(std::unique_ptr<Tiling> tiling, RankOffsets shares) {
+  return replace(std::move(tiling), std::move(shares));
+}
+
+std::unique_ptr<Tiling> Grid::replace(std::unique_ptr<Tiling> tiling, RankOffsets shares) {
+  partition_.reset();
   std::unique_ptr<Tiling> before = std::exchange(tiling_, std::move(tiling));
   if (shares.empty())
     partition_.emplace(*tiling_, share_.ranks);
   else
     partition_.emplace(*tiling_, std::move(shares));
   makePatches();
-  findNewCells(*before);
   return before;
 }
 

@@ -43,6 +43,8 @@ class Grid {
   /// Cells of a block along the kernel axes.
   const Index3& blockCells() const { return blocks_->blockCells(); }
   const BlockTiling& tiling() const { return *blocks_; }
+  /// The patches of all ranks.
+  const Tiling& patchTiling() const { return *tiling_; }
   /// Blocks that are always refined because of regions of the scene; may contain duplicates.
   const std::vector<BlockId>& fixedBlocks() const { return fixed_blocks_; }
   /// The patches of another tree.
@@ -50,6 +52,8 @@ class Grid {
   /// Replaces the patches; returns the previous ones. Without given shares, ranks get as equal numbers of cells as the
   /// patches allow. The caller moves the values of the patches: see tasks::regrid.
   std::unique_ptr<Tiling> refine(std::unique_ptr<BlockTiling> tiling, RankOffsets shares = {});
+  /// The same for a grid of one level, which is cut elsewhere.
+  std::unique_ptr<Tiling> recut(std::unique_ptr<Tiling> tiling, RankOffsets shares = {});
   /// Cells of one of this rank's patches that were part of coarser ones before the last call of refine().
   const std::vector<Box>& newCells(int patch) const { return new_cells_[patch - first_patch_]; }
   /// The patches of this rank, in the order of their indices.
@@ -96,6 +100,7 @@ class Grid {
   void cutIntoBlocks();
   Index3 mostCellsOfPatch(const Index3& blockCells) const;
   Patch patchOf(const Tile& tile) const { return {level(tile.level), tile.id, tile.cells}; }
+  std::unique_ptr<Tiling> replace(std::unique_ptr<Tiling> tiling, RankOffsets shares);
   void makePatches();
   void findNewCells(const Tiling& before);
   bool sharesUpperFace(const Patch& patch, int kernelAxis) const;

@@ -207,6 +207,11 @@ std::string rebalancingLine(const Report& report) {
       change.times, change.times == 1 ? "" : "s", change.step, change.before, change.after);
 }
 
+std::string recutsLine(const Report& report) {
+  if (report.recuts == 0) return "";
+  return fmt::format("  patches were cut elsewhere {}, to share particles evenly\n", counted(report.recuts, "time"));
+}
+
 std::string compressionLine(const Compression& use) {
   if (use.bytes <= 0) return "";
   return fmt::format(
@@ -227,7 +232,8 @@ std::string timeTable(const Report& report) {
   if (isRefined(report)) row("  regridding", report.wallRegrid);
   row("output", report.wallOutput);
   if (report.wallOutputWait > 0) row("  waiting for the previous output", report.wallOutputWait);
-  return text + compressionLine(report.compression) + useLine(report) + memoryLine(report) + rebalancingLine(report);
+  return text + compressionLine(report.compression) + useLine(report) + memoryLine(report) + recutsLine(report) +
+         rebalancingLine(report);
 }
 
 }  // namespace
@@ -255,6 +261,7 @@ std::string toJson(const Report& report) {
   json["build"] = report.build;
   json["layout"] = {{"dimension", report.dimension}, {"cells", report.cells}, {"h", report.spacing},
                     {"patches", report.patches},     {"ranks", report.ranks}, {"threads", report.threads}};
+  if (report.recuts > 0) json["layout"]["recuts"] = report.recuts;
   if (isRefined(report)) {
     json["levels"] = report.levels;
     json["updates"] = report.updates;

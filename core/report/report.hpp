@@ -85,6 +85,7 @@ struct Report {
   Compression compression;
   TimeUse use;
   Rebalancing rebalancing;
+  int recuts = 0;                    ///< how often patches were cut elsewhere, to share particles evenly
   std::vector<long> levels;          ///< cells of each level at the end, the coarsest first; 0 for a single level
   double updates = 0;                ///< cell updates: the sum over steps of the cells of all levels
   std::vector<double> levelUpdates;  ///< cell updates of each level; empty if all take the same steps

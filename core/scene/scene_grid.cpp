@@ -91,6 +91,7 @@ void checkSize(const grid::Domain& domain, const Element& element, Diagnostics& 
 /// The domain of a grid of one level.
 void cutIntoPatches(const GridBox& box, const grid::Workers& workers, const Element& element, grid::Domain& domain,
                     Diagnostics& diagnostics) {
+  domain.mayRecut = !workers.layout;
   if (!box.patches && !workers.layout) {
     domain.patches =
         grid::choosePatches(domain.resolution, box.autoPatch.value_or(workers.patchesFor(domain.resolution)));

@@ -52,6 +52,7 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
     : run_(std::move(problem), options, startedAt, ranks),
       outputs_(run_, options.outputFolder),
       checkpoints_(run_, outputs_),
+      patch_cutter_(run_),
       rebalancer_(run_),
       regridder_(run_),
       report_(run_) {
@@ -121,9 +122,11 @@ void Simulation::begin() {
   if (run_.problem.restart) {
     outputs_.lockArchive();
     resume();
+    patch_cutter_.cutAtStart();
     return rebalancer_.balanceAtStart();
   }
   initialize();
+  patch_cutter_.cutAtStart();
   rebalancer_.balanceAtStart();
   run_.totalsAtStart = run_.measureTotals(run_.phases.startTotals);
 }
@@ -200,6 +203,7 @@ void Simulation::step() {
   level_steps_ ? report_.noteStep(level_steps_->steps()) : report_.noteStep();
   if (run_.progress.due()) run_.progress.live(time.step(), time.time(), time.delT(), run_.problem.time.maxTime);
   regridder_.regridIfDue();
+  patch_cutter_.cutIfDue();
   rebalancer_.balanceIfDue();
   outputs_.saveGlobals();
   outputs_.saveIfDue();
@@ -281,6 +285,7 @@ report::Report Simulation::makeReport() {
     report.advice = failure_->advice();
   }
   report.rebalancing = rebalancer_.report();
+  report.recuts = patch_cutter_.times();
   report.regrids = regridder_.regrids();
   report.wallRegrid = regridder_.seconds();
   report.wallOutput = outputSeconds();

@@ -13,6 +13,7 @@
 #include "core/simulation/checkpoints.hpp"
 #include "core/simulation/level_steps.hpp"
 #include "core/simulation/outputs.hpp"
+#include "core/simulation/patch_cutter.hpp"
 #include "core/simulation/rebalancer.hpp"
 #include "core/simulation/regridder.hpp"
 #include "core/simulation/run_report.hpp"
@@ -75,6 +76,7 @@ class Simulation {
   RunState run_;
   Outputs outputs_;
   Checkpoints checkpoints_;
+  PatchCutter patch_cutter_;
   Rebalancer rebalancer_;
   Regridder regridder_;
   RunReport report_;

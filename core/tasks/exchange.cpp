@@ -274,17 +274,28 @@ void Exchange::linkLocalGhosts(const BoundGhostFill& fill) {
   for (const Patch& patch : patches)
     hasSome.push_back(warehouse_->particles(fill.set, material, patch.id()).owned() > 0);
   const GhostPlan& plan = planOf(fill);
-  const auto link = [&](int place) {
-    const Patch& patch = patches[place];
-    const trace::Span span(trace::Kind::message, "link ghosts", patch.id());
-    ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
+  const auto forEachCopy = [&](int place, const auto& visit) {
     for (const GhostCopy& copy : plan.into[place])
       if (isHere(copy) && hasSome[copy.from - first] && copy.shift == Index3{})
-        set.addGhosts(copy.box, warehouse_->particles(fill.set, material, copy.from),
-                      warehouse_->distance(fill.set, material, patch.id(), copy.from));
-    set.markGhosts();
+        visit(copy, warehouse_->particles(fill.set, material, copy.from));
   };
-  threads_->forEach(static_cast<int>(patches.size()), link, trace::Kind::message);
+  const auto setOf = [&](int place) -> ParticleSet& {
+    return warehouse_->particles(fill.set, material, patches[place].id());
+  };
+  const auto open = [&](int place) {
+    forEachCopy(place,
+                [&](const GhostCopy& copy, const ParticleSet& from) { setOf(place).openGhostRows(copy.box, from); });
+  };
+  const auto link = [&](int place) {
+    const trace::Span span(trace::Kind::message, "link ghosts", patches[place].id());
+    forEachCopy(place, [&](const GhostCopy& copy, const ParticleSet& from) {
+      setOf(place).addGhosts(copy.box, from, warehouse_->distance(fill.set, material, patches[place].id(), copy.from));
+    });
+    setOf(place).markGhosts();
+  };
+  const int count = static_cast<int>(patches.size());
+  if (threads_->count() > 1) threads_->forEach(count, open, trace::Kind::message);
+  threads_->forEach(count, link, trace::Kind::message);
 }
 
 /// Assigns indices to copies of ghosts: of periodic images on this rank, and of particles from other ranks.

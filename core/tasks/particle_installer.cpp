@@ -40,12 +40,15 @@ void ParticleInstaller::writeEach(int number, const OnPatches& onPatches, const 
 void ParticleInstaller::write(int number, std::size_t access, bool isRead, const OnPatches& onPatches) {
   const data::Label& label = *warehouse_->table()[number].label;
   if (isRead)
-    return writeEach(number, onPatches, [&](ParticleMaker& maker, std::byte* to) {
+    writeEach(number, onPatches, [&](ParticleMaker& maker, std::byte* to) {
       if (maker.creates(access)) maker.write(access, label, to);
     });
-  onPatches([&](const grid::Patch&, ParticleMaker& maker) {
-    if (maker.creates(access)) maker.drop(access, label);
-  });
+  else
+    onPatches([&](const grid::Patch&, ParticleMaker& maker) {
+      if (maker.creates(access)) maker.drop(access, label);
+    });
+  const bool isStart = !warehouse_->slots(Generation::old, number);
+  if (isStart) warehouse_->releaseFreeMemory();  // of the values in the maker, which is larger than that of any step
 }
 
 void ParticleInstaller::writeIds(const OnPatches& onPatches) {

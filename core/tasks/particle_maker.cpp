@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <numeric>
 
@@ -11,11 +12,12 @@
 namespace tushar::tasks {
 
 std::vector<std::size_t> ParticleMaker::sortedOrder(const grid::Patch& patch) const {
-  std::vector<std::size_t> offsets(ids_.size()), order(ids_.size());
+  std::vector<std::uint32_t> offsets(ids_.size());
+  std::vector<std::size_t> order(ids_.size());
   for (std::size_t k = 0; k < ids_.size(); ++k) {
     if (!patch.cells().contains(cells_[k]))
       throw data::AccessError(fmt::format("particle {} was made outside the patch", ids_[k]));
-    offsets[k] = patch.cells().offset(cells_[k]);
+    offsets[k] = static_cast<std::uint32_t>(patch.cells().offset(cells_[k]));
   }
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto comesBefore = [&](std::size_t a, std::size_t b) {
@@ -32,7 +34,7 @@ void ParticleMaker::makeSet(data::ParticleSet& set, const grid::Patch& patch, in
   grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
     const std::size_t first = next;
     while (next < order_.size() && cells_[order_[next]] == cell) ++next;
-    set.at(cell) = {static_cast<int>(first), static_cast<int>(next)};
+    set.put(cell, {static_cast<int>(first), static_cast<int>(next)});
   });
   set.setOwned(static_cast<int>(next));
 }

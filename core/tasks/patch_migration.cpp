@@ -101,7 +101,7 @@ class Unpacker {
     grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
       std::int32_t count = 0;
       copyTo(&count, sizeof(count));
-      set.at(cell) = {next, next + count};
+      set.put(cell, {next, next + count});
       next += count;
     });
     set.setOwned(next);

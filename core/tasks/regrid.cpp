@@ -160,7 +160,7 @@ class Luggage {
         std::int32_t count = 0;
         std::memcpy(&count, from, sizeof(count));
         from += sizeof(count);
-        set.at(cell) = {0, count};
+        set.put(cell, {0, count});
       });
     });
   }
@@ -203,7 +203,7 @@ class Luggage {
         int next = 0;
         grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
           const int count = set.in(cell).size();
-          set.at(cell) = {next, next + count};
+          set.put(cell, {next, next + count});
           next += count;
         });
         set.setOwned(next);
@@ -240,7 +240,7 @@ class Luggage {
 /// The messages to other ranks: the counts of all pieces, then the values of all.
 std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, const grid::Partition& owners,
                             const Luggage& luggage) {
-  const Pieces pieces(grid.tiling(), next, grid.dimension(), grid.levels());
+  const Pieces pieces(grid.patchTiling(), next, grid.dimension(), grid.levels());
   std::set<int> readers;
   for (const grid::Patch& patch : grid.patches()) pieces.findReaders(patch, readers);
   std::map<int, Bytes> parts;
@@ -259,11 +259,11 @@ std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, co
 }
 
 /// A distribution with equal costs on all ranks; none if there are only cells, which are distributed by number.
-grid::RankOffsets sharesOf(const grid::Grid& grid, const grid::BlockTiling& next, const mpi::Communicator& ranks,
+grid::RankOffsets sharesOf(const grid::Grid& grid, const grid::Tiling& next, const mpi::Communicator& ranks,
                            const Luggage& luggage, const PatchCosts& costs) {
   if (ranks.isAlone() || !luggage.hasMaterials()) return {};
   std::vector<double> ofPatches(static_cast<std::size_t>(next.count()));
-  const Pieces pieces(grid.tiling(), next, grid.dimension(), grid.levels());
+  const Pieces pieces(grid.patchTiling(), next, grid.dimension(), grid.levels());
   std::set<int> readers;
   for (const grid::Patch& patch : grid.patches())
     if (grid.isFinest(patch)) pieces.findReaders(patch, readers);
@@ -300,24 +300,24 @@ class Messages {
   std::map<int, std::pair<Bytes, const std::byte*>> messages_;
 };
 
-}  // namespace
-
-void regrid(grid::Grid& grid, grid::BlockTree tree, data::Warehouse& warehouse, const MigratedVariables& variables,
-            const PatchCosts& costs) {
+/// Replaces the patches of a grid by those of `next`, and transfers their values. `replace(shares)` makes the grid take
+/// these patches and returns the previous ones.
+template <class Replace>
+void changePatches(grid::Grid& grid, const grid::Tiling& next, data::Warehouse& warehouse,
+                   const MigratedVariables& variables, const PatchCosts& costs, Replace&& replace) {
   const mpi::Communicator& ranks = warehouse.ranks();
   const Luggage luggage(warehouse, variables);
-  std::unique_ptr<grid::BlockTiling> next = grid.cut(std::move(tree));
-  grid::RankOffsets shares = sharesOf(grid, *next, ranks, luggage, costs);
-  const grid::Partition owners = shares.empty() ? grid::Partition(*next, ranks.size()) : grid::Partition(*next, shares);
-  const grid::Partition ownersBefore(grid.tiling(), grid.rankOffsets());
-  std::map<int, Bytes> parts = packed(grid, *next, owners, luggage);  // by rank that they go to
+  grid::RankOffsets shares = sharesOf(grid, next, ranks, luggage, costs);
+  const grid::Partition owners = shares.empty() ? grid::Partition(next, ranks.size()) : grid::Partition(next, shares);
+  const grid::Partition ownersBefore(grid.patchTiling(), grid.rankOffsets());
+  std::map<int, Bytes> parts = packed(grid, next, owners, luggage);  // by rank that they go to
   mpi::Outbox outbox(ranks);
   for (auto& [rank, bytes] : parts)
     if (rank != ranks.rank()) outbox.send(rank, mpi::Tag::patches, std::move(bytes));
-  const std::unique_ptr<grid::Tiling> before = grid.refine(std::move(next), std::move(shares));
+  const std::unique_ptr<grid::Tiling> before = replace(std::move(shares));
   warehouse.startAnew(variables.materials);
   luggage.allocate();
-  const Pieces pieces(*before, grid.tiling(), grid.dimension(), grid.levels());
+  const Pieces pieces(*before, grid.patchTiling(), grid.dimension(), grid.levels());
   Messages messages(ranks, parts);
   const auto forEachPiece = [&](const auto& visit) {
     for (const grid::Patch& patch : grid.patches())
@@ -329,6 +329,23 @@ void regrid(grid::Grid& grid, grid::BlockTree tree, data::Warehouse& warehouse, 
   luggage.allocateParticles();
   forEachPiece([&](const Piece& piece, const std::byte*& from) { luggage.unpackValues(piece, from); });
   outbox.wait();
+}
+
+}  // namespace
+
+void regrid(grid::Grid& grid, grid::BlockTree tree, data::Warehouse& warehouse, const MigratedVariables& variables,
+            const PatchCosts& costs) {
+  std::unique_ptr<grid::BlockTiling> next = grid.cut(std::move(tree));
+  const grid::Tiling& tiling = *next;
+  changePatches(grid, tiling, warehouse, variables, costs,
+                [&](grid::RankOffsets shares) { return grid.refine(std::move(next), std::move(shares)); });
+}
+
+void recut(grid::Grid& grid, std::unique_ptr<grid::Tiling> next, data::Warehouse& warehouse,
+           const MigratedVariables& variables, const PatchCosts& costs) {
+  const grid::Tiling& tiling = *next;
+  changePatches(grid, tiling, warehouse, variables, costs,
+                [&](grid::RankOffsets shares) { return grid.recut(std::move(next), std::move(shares)); });
 }
 
 }  // namespace tushar::tasks

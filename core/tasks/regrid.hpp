@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "core/grid/grid.hpp"
 #include "core/tasks/patch_migration.hpp"
 
@@ -17,5 +19,10 @@ struct PatchCosts {
 /// are as equal in costs as whole patches allow. All ranks that share the grid call it, between two steps.
 void regrid(grid::Grid& grid, grid::BlockTree tree, data::Warehouse& warehouse, const MigratedVariables& variables,
             const PatchCosts& costs = {});
+
+/// Cuts a grid of one level elsewhere, and transfers the particles and the old values of cell variables to its new
+/// patches. All other values of patches are lost. All ranks that share the grid call it, between two steps.
+void recut(grid::Grid& grid, std::unique_ptr<grid::Tiling> next, data::Warehouse& warehouse,
+           const MigratedVariables& variables, const PatchCosts& costs = {});
 
 }  // namespace tushar::tasks

@@ -68,6 +68,7 @@ void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
   const auto* ids = reinterpret_cast<const ParticleId*>(
       warehouse_->variable(Generation::old, moves_[material].id, patch.id()).values);
   after.reset(patch, warehouse_->table().reach(material));
+  after.makeSpaceFor(before);
   moves.runs.clear();
   moves.entries.clear();
   moves.entries.reserve(moves.incoming.size());
@@ -75,11 +76,11 @@ void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
   std::size_t nextDeparted = 0;
   const int rowLength = patch.cells().extent(0);
   grid::forEach<3>(patch.cells().rowStarts(), [&](const Index3& cell) {
-    const bool isEntered = moves.isEntered[patch.cells().rowOf(cell)];
-    if (!isEntered && before.occupied(cell, patch.cells().upper[0]).empty()) return;
+    const std::size_t row = patch.cells().rowOf(cell);
+    if (!moves.firstIncoming.isOpen(row) && before.occupied(cell, patch.cells().upper[0]).empty()) return;
     const ParticleRange* from = before.row(cell);
-    ParticleRange* to = after.row(cell);
-    const int* firstIncoming = &moves.firstIncoming[patch.cells().offset(cell)];
+    ParticleRange* to = after.openRow(cell);
+    const int* firstIncoming = moves.firstIncoming[row];
     for (int k = 0; k < rowLength; ++k) {
       k += keepCells(moves, {from + k, from + rowLength}, firstIncoming + k, nextDeparted, to + k);
       if (k == rowLength) break;

@@ -135,14 +135,9 @@ void Relocation::findMoves(int material, int position, int id) {
 /// Discards the entries of the last moves, even if they have not been made.
 void Relocation::forgetIncoming(const Patch& patch, PatchMoves& moves) {
   const grid::Box& cells = patch.cells();
-  moves.firstIncoming.resize(cells.size(), -1);
-  moves.isEntered.resize(cells.rows(), false);
-  if (moves.incoming.empty()) return;
-  grid::forEach<3>(cells.rowStarts(), [&](const Index3& first) {
-    char& isEntered = moves.isEntered[cells.rowOf(first)];
-    if (isEntered) std::fill_n(&moves.firstIncoming[cells.offset(first)], cells.extent(0), -1);
-    isEntered = false;
-  });
+  const std::size_t length = cells.extent(0);
+  if (moves.firstIncoming.hasOpenRows() || !moves.firstIncoming.isOf(cells.rows(), length))
+    moves.firstIncoming.reset(cells.rows(), length, -1);
 }
 
 template <int D>
@@ -215,11 +210,10 @@ bool Relocation::isNearCoarser(const Patch& from, const Index3& cell) const {
 void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves) {
   const int added = static_cast<int>(moves.incoming.size());
   moves.incoming.push_back(particle);
-  int* link = &moves.firstIncoming[patch.cells().offset(cell)];
+  int* link = moves.firstIncoming.open(patch.cells().rowOf(cell)) + (cell[0] - patch.cells().lower[0]);
   while (*link >= 0 && moves.incoming[*link].id < particle.id) link = &moves.incoming[*link].next;
   moves.incoming.back().next = *link;
   *link = added;
-  moves.isEntered[patch.cells().rowOf(cell)] = true;
 }
 
 Relocation::Verdict Relocation::gather(Moves& moves, bool hasStopped) {

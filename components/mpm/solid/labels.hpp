@@ -109,6 +109,8 @@ namespace total {
 using namespace mpm::total;
 inline constexpr ReductionLabel<VectorSum> angularMomentum{
     "AngularMomentum", "kg m^2/s", "angular momentum of all particles, about the origin of x, y, z"};
+inline constexpr ReductionLabel<Minimum> stableTimeStep{
+    "stableTimeStep", "s", "shortest time in which the fastest wave of a cell's particles crosses the cell"};
 inline constexpr ReductionLabel<Sum> volume{"TotalVolumeDeformed", "m^3", "volume of all particles, deformed by F"};
 inline constexpr ReductionLabel<Sum> thermalEnergy{"ThermalEnergy", "J", "mass times specific heat times temperature"};
 inline constexpr ReductionLabel<VectorSum> rigidReactionForce{

@@ -39,7 +39,7 @@ void SolidsOf<D>::scheduleInitialize(TaskList& tasks) const {
   scheduleActuallyInitialize<D>(tasks, problem_.materials, problem_.start);
   tasks.perMaterial("mpm::computeInitialTimeStep", computeInitialTimeStep<D>, problem_.materials,
                     requiresNew(p::velocity<D>), requiresNew(p::temperature), requiresNew(p::deformationMeasure),
-                    computes(c::stableTimeStep));
+                    computes(total::stableTimeStep), offers(c::stableTimeStep));
   if (keeps_stress_) scheduleInitialStress(tasks, problem_.materials, state_);
   if (hasPlanes())
     tasks.perMaterial("mpm::findSurface", findSurface<D>, problem_.materials, requiresNew(p::x<D>),
@@ -55,8 +55,7 @@ void SolidsOf<D>::scheduleInitialize(TaskList& tasks) const {
 
 template <int D>
 void SolidsOf<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.perMaterial("mpm::computeStableTimeStep", computeStableTimeStep<D>, problem_.materials,
-                    requiresOld(c::stableTimeStep), computes(delT));
+  tasks.perPatch("mpm::computeStableTimeStep", limitByWaves, requiresOld(total::stableTimeStep), computes(delT));
 }
 
 template <int D>

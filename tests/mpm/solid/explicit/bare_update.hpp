@@ -6,6 +6,7 @@ namespace tushar::mpm::solid {
 
 /// The views of a step that updates particles, all without values: tests set those that they need.
 inline StateUpdate<2> bareUpdate(const data::ParticleSet& set, const Level& level) {
+  static thread_local Minimum stableTimeStep;
   const ParticleView<const Vec<2>> none{nullptr, set, level.cells()};
   return {.record = {nullptr, level.nodes()},
           .x = none,
@@ -26,7 +27,8 @@ inline StateUpdate<2> bareUpdate(const data::ParticleSet& set, const Level& leve
           .strainEnergy = {},
           .temperatureChange = {},
           .velocityGradient = {},
-          .stableTimeStep = {nullptr, level.cells()},
+          .stableTimeStep = stableTimeStep,
+          .stableTimeSteps = {},
           .newX = {}};
 }
 

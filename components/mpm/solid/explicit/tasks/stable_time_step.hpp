@@ -53,24 +53,21 @@ class CrossingRate {
 template <int D>
 void computeInitialTimeStep(const Patch& patch, const Material& material, ParticleView<const Vec<D>> velocity,
                             ParticleView<const double> temperature, ParticleView<const Matrix3> deformation,
-                            CellView<double> stableTimeStep) {
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    CrossingRate<D> rate(patch.level());
-    for (const int p : velocity.in(cell)) {
+                            Minimum& stableTimeStep, std::optional<CellView<double>> stableTimeSteps) {
+  const CrossingRate<D> none(patch.level());
+  if (stableTimeSteps) stableTimeSteps->fill(none.time());
+  velocity.template forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
+    CrossingRate<D> rate = none;
+    for (const int p : range) {
       const double density = material.density / deformation[p].determinant();
       rate.add(material.model->initialWaveSpeed(density, temperature[p]), velocity[p]);
     }
-    stableTimeStep[cell] = rate.time();
+    stableTimeStep.add(rate.time());
+    if (stableTimeSteps) (*stableTimeSteps)[cell] = rate.time();
   });
 }
 
-/// The stable time step: the smallest of all cells.
-template <int D>
-void computeStableTimeStep(const Patch& patch, const Material&, CellView<const double> stableTimeStep,
-                           data::Minimum& dt) {
-  double least = std::numeric_limits<double>::infinity();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) { least = std::min(least, stableTimeStep[cell]); });
-  dt.add(least, "wave speed");
-}
+/// Limits the time step to that for which the last one has found the state to be stable.
+inline void limitByWaves(const Patch&, double stableTimeStep, Minimum& dt) { dt.add(stableTimeStep, "wave speed"); }
 
 }  // namespace tushar::mpm::solid

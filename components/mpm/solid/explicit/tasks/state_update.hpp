@@ -28,8 +28,9 @@ struct StateUpdate {
   OptionalView<Matrix3> stress;
   OptionalView<double> state, viscosity, strainEnergy, temperatureChange;
   OptionalView<Matrix3> velocityGradient;
-  CellView<double> stableTimeStep;
-  OptionalView<Vec<D>> newX;  ///< if particles can be removed
+  Minimum& stableTimeStep;
+  std::optional<CellView<double>> stableTimeSteps;  ///< by cell
+  OptionalView<Vec<D>> newX;                        ///< if particles can be removed
 
   int stateSize = 0;  ///< number of values per particle in `state`
 
@@ -55,7 +56,8 @@ struct StateUpdate {
             .strainEnergy = take(offers(p::strainEnergy)),
             .temperatureChange = take(when(keeps.temperatureChange, computes(p::temperatureChange))),
             .velocityGradient = take(offers(p::velocityGradient)),
-            .stableTimeStep = take(computes(c::stableTimeStep)),
+            .stableTimeStep = take(computes(total::stableTimeStep)),
+            .stableTimeSteps = take(offers(c::stableTimeStep)),
             .newX = take(when(removes, modifies(p::x<D>))),
             .stateSize = keeps.stateSize};
   }

@@ -297,7 +297,7 @@ struct MovedParticles {
   }
 };
 
-/// Updates the stress of particles that have moved, and the stable time step of their cells. Removes those that the
+/// Updates the stress of particles that have moved, and the stable time step. Removes those that the
 /// step turns inside out or throws out of `space`, or throws NumericalError. No particle is left in `moved`.
 template <int D>
 void updateStresses(const Level& level, const Material& material, const Method& method, double time, double dt,
@@ -313,13 +313,14 @@ void updateStresses(const Level& level, const Material& material, const Method& 
     rate.add(waveSpeed, u.velocity.values() + range.first, range.size());
     if (!rate.isKnown() || (u.newX && !space.containAll(u.newX->values() + range.first, range.size())))
       rate = withoutLost<D>(level, u, cell, range, none, space, waveSpeed);
-    u.stableTimeStep[cell] = rate.time();
+    u.stableTimeStep.add(rate.time());
+    if (u.stableTimeSteps) (*u.stableTimeSteps)[cell] = rate.time();
   });
   moved.cells.clear();
 }
 
 /// Updates F, the stress and related quantities of the patch's own particles to the end of the step, and computes the
-/// stable time step of each cell. Calls `move(p, count, sums)` for what particles from p on gather from the grid: one,
+/// stable time step. Calls `move(p, count, sums)` for what particles from p on gather from the grid: one,
 /// or several in lanes. Throws NumericalError where a wave has no speed. The step starts at `time`, s.
 template <class Shape, Volumes volumes, class Move, int D = Shape::dimension>
 void updateParticles(const Patch& patch, const Material& material, const Method& method, double time, double dt,
@@ -328,7 +329,7 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
   const Extents<Shape> extents(level, method.commonSize, u.size, u.oldDeformation);
   const CrossingRate<D> none(level);
   const BetweenPlanes<D> space(level, material.index);
-  u.stableTimeStep.fill(none.time());
+  if (u.stableTimeSteps) u.stableTimeSteps->fill(none.time());
   if (u.x.owned() == 0) return;
   MovedParticles<D> moved;
   u.x.template forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {

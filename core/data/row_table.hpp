@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace tushar::data {
+
+/// A value for each cell of some rows. Rows that have not been opened share one piece of memory, so that a body in a
+/// large grid takes memory for the rows that it occupies.
+template <class T>
+class RowTable {
+ public:
+  /// Closes all of `rows` rows of `length` cells, whose value is `none`.
+  void reset(std::size_t rows, std::size_t length, const T& none) {
+    starts_.assign(rows, 0);
+    values_.assign(length, none);
+    length_ = length;
+  }
+  bool isOf(std::size_t rows, std::size_t length) const { return starts_.size() == rows && length_ == length; }
+  /// The values of a row, for reading.
+  const T* operator[](std::size_t row) const { return values_.data() + starts_[row]; }
+  bool isOpen(std::size_t row) const { return starts_[row] > 0; }
+  bool hasOpenRows() const { return values_.size() > length_; }
+  /// The values of a row, for writing; valid until the next row is opened.
+  T* open(std::size_t row) {
+    if (starts_[row] == 0) append(row);
+    return values_.data() + starts_[row];
+  }
+  /// Makes space for as many open rows as another table has, and some more.
+  void makeSpaceFor(const RowTable& other) { makeSpaceFor(other.values_.size() + other.values_.size() / 8 + length_); }
+
+ private:
+  void makeSpaceFor(std::size_t values) {
+    if (values > values_.capacity()) values_.reserve(values);
+  }
+  void append(std::size_t row) {
+    const std::size_t start = values_.size();
+    if (start + length_ > values_.capacity()) makeSpaceFor(start + start / 4 + length_);
+    starts_[row] = start;
+    const T none = values_.front();
+    values_.resize(start + length_, none);
+  }
+
+  std::vector<std::size_t> starts_;  ///< for each row, the place of its first value; 0: the row that closed rows share
+  std::vector<T> values_;
+  std::size_t length_ = 0;
+};
+
+}  // namespace tushar::data
