@@ -37,15 +37,7 @@ struct SurfaceSources {
 /// A body continues beyond a symmetry plane: no gradient points through the plane, and the volume counts twice.
 template <int D>
 void mirrorSurface(const Patch& patch, const Material& material, NodeView<Vec<D>> massGradient,
-                   NodeView<double> volume) {
-  for (int d = 0; d < D; ++d)
-    for (const int side : {0, 1})
-      if (patch.isAtBoundary(d, side) && patch.level().isSymmetry(d, side, material.index))
-        forEach<D>(patch.faceNodes(d, side), [&](const Index<D>& node) {
-          massGradient[node][d] = 0;
-          volume[node] *= 2;
-        });
-}
+                   NodeView<double> volume);
 
 /// The surface of a body for friction (see ContactSurface) at every node of the patch. Where axisymmetric, the gradient
 /// is that of the density, as in Uintah: mass grows with the radius, and would tilt the normal.
