@@ -34,6 +34,21 @@ void ParticleSet::setOwned(int count) {
   grid::forEach<3>(owned_cells_.rowStarts(), [&](const Index3& first) { closeRow(first); });
 }
 
+template <int D>
+void ParticleSet::forEachOccupied(const grid::Box& box, VisitCell<D> visit) const {
+  if (hasNone()) return;
+  grid::forEach<D>(box.rowStarts(), [&](Index<D> cell) {
+    const Span span = occupied(cell, box.upper[0]);
+    cell[0] = span.first;
+    const ParticleRange* range = row(cell);
+    for (; cell[0] < span.last; ++cell[0], ++range)
+      if (!range->empty()) visit(cell, *range);
+  });
+}
+template void ParticleSet::forEachOccupied(const grid::Box&, VisitCell<1>) const;
+template void ParticleSet::forEachOccupied(const grid::Box&, VisitCell<2>) const;
+template void ParticleSet::forEachOccupied(const grid::Box&, VisitCell<3>) const;
+
 const TouchedRows& ParticleSet::touched(int ghost, int dimension) const {
   static const TouchedRows none;
   if (hasNone()) return none;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/function_ref.hpp"
 #include "core/base/vec.hpp"
 #include "core/data/row_table.hpp"
 #include "core/data/touched_rows.hpp"
@@ -77,18 +78,11 @@ class ParticleSet {
     if (!range.empty() || ranges_.isOpen(rowOf(cell))) at(cell) = range;
   }
 
+  template <int D>
+  using VisitCell = FunctionRef<void(const Index<D>& cell, const ParticleRange& particles)>;
   /// Calls `visit(cell, particles)` for the cells of a box that contain particles, in lexicographic order.
-  template <int D, class Visit>
-  void forEachOccupied(const grid::Box& box, Visit&& visit) const {
-    if (hasNone()) return;
-    grid::forEach<D>(box.rowStarts(), [&](Index<D> cell) {
-      const Span span = occupied(cell, box.upper[0]);
-      cell[0] = span.first;
-      const ParticleRange* range = row(cell);
-      for (; cell[0] < span.last; ++cell[0], ++range)
-        if (!range->empty()) visit(std::as_const(cell), *range);
-    });
-  }
+  template <int D>
+  void forEachOccupied(const grid::Box& box, VisitCell<D> visit) const;
 
   /// Coordinates of cells along the first axis, from `first` up to but excluding `last`.
   struct Span {

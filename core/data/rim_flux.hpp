@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "core/base/function_ref.hpp"
 #include "core/data/label.hpp"
 #include "core/grid/rim.hpp"
 
@@ -9,6 +10,12 @@ namespace tushar::data {
 
 /// The label of the fluxes of a cell variable through the rims of patches; it exists until the program ends.
 const Label& rimLabelOf(const Label& label);
+
+/// Calls `visit(face, place)` for the faces of rims across an axis that are in a box of faces, with the place of each
+/// among the values of the rims.
+template <int D>
+void forEachRimFace(std::span<const grid::RimPiece> pieces, const grid::Box& faces, int axis,
+                    FunctionRef<void(const Index<D>& face, std::size_t place)> visit);
 
 /// The fluxes of a variable through the faces of a patch at which its level ends: the amount per area and time, along
 /// the axis. None if there is one level, and where nothing needs them. Several tasks of a step each add their part;
@@ -32,15 +39,9 @@ class RimFlux {
   /// the cell above it.
   template <int D, class Visit>
   void forEachFaceIn(const grid::Box& faces, int axis, Visit&& visit) const {
-    for (const grid::RimPiece& piece : pieces_) {
-      if (piece.axis != axis) continue;
-      const grid::Box all = piece.cells.shifted(piece.side == 0 ? Index3{} : Index3::unit(axis));
-      grid::forEach<D>(all.intersect(faces), [&](const Index<D>& face) {
-        Index3 at;
-        for (int d = 0; d < D; ++d) at[d] = face[d];
-        visit(face, values_[piece.first + all.offset(at)]);
-      });
-    }
+    if (empty()) return;
+    forEachRimFace<D>(pieces_, faces, axis,
+                      [&](const Index<D>& face, std::size_t place) { visit(face, values_[place]); });
   }
 
  private:

@@ -26,6 +26,28 @@ TouchedRows::TouchedRows(const ParticleSet& particles, const Box& around, int gh
   });
 }
 
+void TouchedRows::forEachRow(VisitRow visit) const {
+  if (touched_.empty()) return;
+  const std::pair<int, int>* touched = touched_.data();
+  grid::forEach<3>(rows_, [&](const Index3& row) {
+    const auto [low, high] = *touched++;
+    if (low < high) visit(Index3{{low, row[1], row[2]}}, high);
+  });
+}
+
+void TouchedRows::forEachRow(const Box& within, VisitRow visit) const {
+  Box rows = within.intersect(nodes_);
+  if (touched_.empty() || rows.empty()) return;
+  const int lower = rows.lower[0], upper = rows.upper[0];
+  rows.lower[0] = rows_.lower[0];
+  rows.upper[0] = rows_.upper[0];
+  grid::forEach<3>(rows, [&](const Index3& row) {
+    const auto [low, high] = touched_[rows_.rowOf(row)];
+    if (const int first = std::max(low, lower), end = std::min(high, upper); first < end)
+      visit(Index3{{first, row[1], row[2]}}, end);
+  });
+}
+
 void TouchedRows::touch(const Index3& cellRow, int low, int high, int ghost, int dimension) {
   low = std::max(low, nodes_.lower[0]);
   high = std::min(high, nodes_.upper[0]);

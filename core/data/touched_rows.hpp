@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/function_ref.hpp"
 #include "core/grid/box.hpp"
 
 namespace tushar::data {
@@ -21,31 +22,11 @@ class TouchedRows {
   TouchedRows(const ParticleSet& particles, const grid::Box& around, int ghost, const grid::Box& nodes, int dimension);
 
   bool empty() const { return touched_.empty(); }
+  using VisitRow = FunctionRef<void(const Index3& first, int end)>;
   /// Calls `visit(first, end)` for each row: its first node, and the end of the row along the first axis.
-  template <class Visit>
-  void forEachRow(Visit&& visit) const {
-    if (touched_.empty()) return;
-    const std::pair<int, int>* touched = touched_.data();
-    grid::forEach<3>(rows_, [&](const Index3& row) {
-      const auto [low, high] = *touched++;
-      if (low < high) visit(Index3{{low, row[1], row[2]}}, high);
-    });
-  }
-
+  void forEachRow(VisitRow visit) const;
   /// Visits the parts of the rows that lie within a box.
-  template <class Visit>
-  void forEachRow(const grid::Box& within, Visit&& visit) const {
-    grid::Box rows = within.intersect(nodes_);
-    if (touched_.empty() || rows.empty()) return;
-    const int lower = rows.lower[0], upper = rows.upper[0];
-    rows.lower[0] = rows_.lower[0];
-    rows.upper[0] = rows_.upper[0];
-    grid::forEach<3>(rows, [&](const Index3& row) {
-      const auto [low, high] = touched_[rows_.rowOf(row)];
-      if (const int first = std::max(low, lower), end = std::min(high, upper); first < end)
-        visit(Index3{{first, row[1], row[2]}}, end);
-    });
-  }
+  void forEachRow(const grid::Box& within, VisitRow visit) const;
 
  private:
   void touch(const Index3& cellRow, int low, int high, int ghost, int dimension);

@@ -48,11 +48,11 @@ class ParticleView {
     return set_->in(cell);
   }
   /// Calls `visit(cell, particles)` for the cells of a box that contain particles, in lexicographic order.
-  template <int D, class Visit>
-  void forEachOccupied(const grid::Box& box, Visit&& visit) const {
+  template <int D>
+  void forEachOccupied(const grid::Box& box, ParticleSet::VisitCell<D> visit) const {
     if constexpr (checked)
       if (!(box.intersect(cells_) == box)) refuse(label_, box.lower, cells_);
-    set_->forEachOccupied<D>(box, std::forward<Visit>(visit));
+    set_->forEachOccupied<D>(box, visit);
   }
   /// Number of particles that the patch owns: indices 0 to owned() - 1.
   int owned() const { return set_->owned(); }

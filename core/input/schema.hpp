@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -182,7 +181,7 @@ class Schema : public SchemaBase {
   /// an Element and Diagnostics.
   template <class Read>
   Schema& custom(std::string_view name, Read reader, std::vector<std::string> takes, std::string_view sentence,
-                 std::function<void(std::ostream&, int)> describeBelow = {}) {
+                 SharedFunction<void(std::ostream&, int)> describeBelow = {}) {
     addCustom(
         name,
         [reader = std::move(reader)](void* object, const Element& element, Diagnostics& diagnostics) {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/base/shared_function.hpp"
 #include "core/input/diagnostics.hpp"
 #include "core/input/element.hpp"
 #include "core/input/tag_form.hpp"
@@ -42,13 +42,13 @@ struct SchemaEntry {
   std::vector<TagForm> forms;  ///< the allowed content of tags that a function of the parent reads; empty: anything
   const SchemaBase* nested = nullptr;  ///< the schema that reads a nested tag
 
-  std::function<void(void* object)> setDefault;
+  SharedFunction<void(void* object)> setDefault;
   /// Reads a value that is given at `where`; returns the problem with it, if any.
-  std::function<std::string(void* object, const std::string& text, const Location& where)> assign;
+  SharedFunction<std::string(void* object, const std::string& text, const Location& where)> assign;
   /// Reads a nested tag; for Form::custom, the parent.
-  std::function<void(void* object, const Element& element, Diagnostics& diagnostics)> fill;
+  SharedFunction<void(void* object, const Element& element, Diagnostics& diagnostics)> fill;
   /// The manual of the content of the tag.
-  std::function<void(std::ostream& out, int indent)> describe;
+  SharedFunction<void(std::ostream& out, int indent)> describe;
 };
 
 SchemaEntry namedEntry(std::string_view name, std::string_view sentence);
@@ -81,15 +81,15 @@ class SchemaBase {
   /// Like describe(), without the line of the tag itself.
   void describeContents(std::ostream& out, int indent = 0) const;
 
-  using Fill = std::function<void(void* object, const Element& element, Diagnostics& diagnostics)>;
+  using Fill = SharedFunction<void(void* object, const Element& element, Diagnostics& diagnostics)>;
   /// Schema::custom and Schema::forms, for functions that do not need the object.
   void addCustom(std::string_view name, Fill&& fill, std::vector<std::string>&& takes, std::string_view sentence,
-                 std::function<void(std::ostream&, int)>&& describeBelow = {});
+                 SharedFunction<void(std::ostream&, int)>&& describeBelow = {});
   void setFormsOfLast(std::vector<TagForm> forms, int atLeast = 0);
 
  protected:
-  using Locate = std::function<void(void* object, const Element& element)>;
-  using Check = std::function<void(const void* object, const Element& element, Diagnostics& diagnostics)>;
+  using Locate = SharedFunction<void(void* object, const Element& element)>;
+  using Check = SharedFunction<void(const void* object, const Element& element, Diagnostics& diagnostics)>;
 
   SchemaBase(std::string_view name, std::string_view sentence);
   SchemaBase(const SchemaBase& other);

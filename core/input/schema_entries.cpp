@@ -76,7 +76,7 @@ SchemaEntry SchemaBase::sectionEntry(std::string_view name, const SchemaBase& sc
 }
 
 void SchemaBase::addCustom(std::string_view name, Fill&& fill, std::vector<std::string>&& takes,
-                           std::string_view sentence, std::function<void(std::ostream&, int)>&& describeBelow) {
+                           std::string_view sentence, SharedFunction<void(std::ostream&, int)>&& describeBelow) {
   SchemaEntry entry = namedEntry(name, sentence);
   entry.form = SchemaEntry::Form::custom;
   entry.takes = std::move(takes);

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cstddef>
 #include <cstring>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -66,7 +65,7 @@ template <class T>
 struct Limit {
   std::string allowed;  ///< `greater than 0`
   /// Why a value, given as `text`, violates the constraint; empty if it does not.
-  std::function<std::string(const T& value, const std::string& text, const std::string& unit)> problem;
+  SharedFunction<std::string(const T& value, const std::string& text, const std::string& unit)> problem;
 };
 template <class T>
 using Limits = std::vector<Limit<T>>;

@@ -26,6 +26,7 @@ struct FieldAccess<data::FieldLabel<C, T>, Kind> {
   int index = -1;          ///< index among the task's accesses
 
   void declare(std::vector<Access>& accesses) { index = append(accesses, {label, kind, ghost, own, offered}); }
+  void number(int& next) { index = next++; }
 
   static constexpr bool readOnly = Kind == AccessKind::requiresOld;
   using Element = std::conditional_t<readOnly, const T, T>;
@@ -46,6 +47,7 @@ struct FieldAccess<data::ReductionLabel<R>, Kind> {
   int index = -1;
 
   void declare(std::vector<Access>& accesses) { index = append(accesses, {label, Kind, 0}); }
+  void number(int& next) { index = next++; }
   decltype(auto) bind(const TaskContext& context) const {
     if constexpr (Kind == AccessKind::computes)
       return (context.partOfReduction<R>(index));
@@ -127,6 +129,9 @@ struct OptionalAccess {
   void declare(std::vector<tasks::Access>& accesses) {
     if (on) access.declare(accesses);
   }
+  void number(int& next) {
+    if (on) access.number(next);
+  }
   auto bind(const TaskContext& context) const { return on ? std::optional(access.bind(context)) : std::nullopt; }
 };
 /// An access that is declared only if `on` is true: the body gets a std::optional view.
@@ -145,6 +150,7 @@ struct OfferedAccess {
   Access access;
 
   void declare(std::vector<tasks::Access>& accesses) { access.declare(accesses); }
+  void number(int& next) { access.number(next); }
   auto bind(const TaskContext& context) const {
     return context.isWanted(access.index) ? std::optional(access.bind(context)) : std::nullopt;
   }
@@ -165,6 +171,7 @@ struct FluxAccess {
   void declare(std::vector<Access>& accesses) {
     index = append(accesses, {&data::rimLabelOf(*label), AccessKind::computes, 0, false, true, label});
   }
+  void number(int& next) { index = next++; }
   data::RimFlux<T> bind(const TaskContext& context) const {
     return context.isWanted(index) ? context.flux<T>(index) : data::RimFlux<T>();
   }

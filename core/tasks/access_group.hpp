@@ -1,12 +1,15 @@
 #pragma once
 
-#include <tuple>
+#include <utility>
 
 #include "core/tasks/access.hpp"
 
 // Accesses that a body gets by name, as one struct of views.
 
 namespace tushar::tasks {
+
+/// A set for views of no particles.
+const data::ParticleSet& noParticles();
 
 /// Placeholder for a view while a group only declares its accesses.
 template <class View>
@@ -22,10 +25,7 @@ struct Blank<T&> {
 };
 template <class T>
 struct Blank<data::ParticleView<T>> {
-  static data::ParticleView<T> make() {
-    static const data::ParticleSet none;
-    return {nullptr, none, grid::Box{}};
-  }
+  static data::ParticleView<T> make() { return {nullptr, noParticles(), grid::Box{}}; }
 };
 template <data::Centring C, class T>
 struct Blank<data::GridView<C, T>> {
@@ -60,56 +60,45 @@ class BindEach {
 
   template <class Argument>
   decltype(auto) operator()(Argument argument) {
-    number(argument);
+    argument.number(next_);
     return argument.bind(*context_);
   }
 
  private:
-  template <class Label, AccessKind Kind>
-  void number(FieldAccess<Label, Kind>& access) {
-    access.index = next_++;
-  }
-  template <class Field>
-  void number(OptionalAccess<Field>& access) {
-    if (access.on) number(access.access);
-  }
-  template <class Field>
-  void number(OfferedAccess<Field>& access) {
-    number(access.access);
-  }
-
-  template <class T>
-  void number(FluxAccess<T>& access) {
-    access.index = next_++;
-  }
-
   const TaskContext* context_;
   int next_;
 };
 
-/// The argument that `all` makes.
-template <class Group, class... Settings>
+/// The argument that `all` makes: `from(take)` makes the group, with the settings that it holds.
+template <class Group, class From>
 struct GroupArgument {
-  std::tuple<Settings...> settings;
+  From from;
   int first = 0;  ///< index of its first access among those of the task
 
   template <bool makesParticles>
   void declareFor(std::vector<Access>& accesses) {
     first = static_cast<int>(accesses.size());
     DeclareEach<makesParticles> take(accesses);
-    std::apply([&](const auto&... each) { Group::from(take, each...); }, settings);
+    from(take);
   }
   Group bind(const TaskContext& context) const {
     BindEach take(context, first);
-    return std::apply([&](const auto&... each) { return Group::from(take, each...); }, settings);
+    return from(take);
   }
 };
-template <class Group, class... Settings>
-inline constexpr bool isOfMaterialAndPatch<GroupArgument<Group, Settings...>> = true;
+template <class Group, class From>
+inline constexpr bool isOfMaterialAndPatch<GroupArgument<Group, From>> = true;
 
 /// The argument that `totals` makes.
+template <class Group, class From>
+struct TotalsArgument : GroupArgument<Group, From> {};
+
+/// A function that makes a group with given settings. As a closure it costs the compiler less than a std::tuple of
+/// them.
 template <class Group, class... Settings>
-struct TotalsArgument : GroupArgument<Group, Settings...> {};
+auto groupMaker(Settings&... settings) {
+  return [... each = std::move(settings)](auto& take) -> Group { return Group::from(take, each...); };
+}
 
 /// Accesses that the body gets as one `Group`: an aggregate of views whose `static Group from(auto& take, const
 /// Settings&... settings)` gives each member its access by designated initialisers, `.mass =
@@ -117,17 +106,19 @@ struct TotalsArgument : GroupArgument<Group, Settings...> {};
 /// Placed<Shape>::from(take, settings)`. A task that sees several materials or patches gets a std::vector<Group>. An
 /// access keeps the address of its label, so a label among the settings is passed by pointer.
 template <class Group, class... Settings>
-GroupArgument<Group, Settings...> all(Settings... settings) {
+auto all(Settings... settings) {
   static_assert(!(std::is_base_of_v<data::Label, Settings> || ...), "pass a label to all<Group>(...) by pointer");
-  return {{std::move(settings)...}};
+  auto from = groupMaker<Group>(settings...);
+  return GroupArgument<Group, decltype(from)>{std::move(from)};
 }
 
 /// Reducers that the body gets as one `Group` of references. Totals belong to no patch and no material: the body gets
 /// one group whichever of them its task sees.
 template <class Group, class... Settings>
-TotalsArgument<Group, Settings...> totals(Settings... settings) {
+auto totals(Settings... settings) {
   static_assert(!(std::is_base_of_v<data::Label, Settings> || ...), "pass a label to totals<Group>(...) by pointer");
-  return {{{std::move(settings)...}}};
+  auto from = groupMaker<Group>(settings...);
+  return TotalsArgument<Group, decltype(from)>{{std::move(from)}};
 }
 
 }  // namespace tushar::tasks

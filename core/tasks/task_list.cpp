@@ -1,15 +1,15 @@
 #include "core/tasks/task_list.hpp"
 
-#include <new>
-
 namespace tushar::tasks {
-
-std::shared_ptr<const void> TaskBody::keep(void* function, Destroy destroy) { return {function, destroy}; }
-void TaskBody::release(void* function) { ::operator delete(function); }
 
 int append(std::vector<Access>& accesses, const Access& access) {
   accesses.push_back(access);
   return static_cast<int>(accesses.size()) - 1;
+}
+
+const data::ParticleSet& noParticles() {
+  static const data::ParticleSet none;
+  return none;
 }
 
 void TaskList::add(Task task) { tasks_.push_back(std::move(task)); }

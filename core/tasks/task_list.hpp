@@ -23,7 +23,9 @@ class TaskList {
                   "withoutMaterial(...) is not needed in perPatch, whose tasks have no materials");
     std::vector<Access> accesses = declare<false>(arguments...);
     add(name, TaskKind::work, {}, std::move(accesses),
-        [body, ... bound = arguments](const TaskContext& context) { body(context.patch(), bound.bind(context)...); });
+        [body, ... bound = std::move(arguments)](const TaskContext& context) {
+          body(context.patch(), bound.bind(context)...);
+        });
   }
 
   /// Runs `body(patch, material, arguments...)` on each patch, for each of `materials`, which must outlive the list
@@ -33,7 +35,7 @@ class TaskList {
     check<false, false, Arguments...>();
     std::vector<Access> accesses = declare<false>(arguments...);
     add(name, TaskKind::work, names(materials), std::move(accesses),
-        [body, &materials, ... bound = arguments](const TaskContext& context) {
+        [body, &materials, ... bound = std::move(arguments)](const TaskContext& context) {
           body(context.patch(), materials[context.material()], bound.bind(context)...);
         });
   }
@@ -47,7 +49,7 @@ class TaskList {
     std::vector<Access> accesses = declare<false>(arguments...);
     add(
         name, TaskKind::work, names(materials), std::move(accesses),
-        [body, &materials, ... bound = arguments](const TaskContext& context) {
+        [body, &materials, ... bound = std::move(arguments)](const TaskContext& context) {
           body(context.patch(), materials, bindAll(bound, context)...);
         },
         Sees::allMaterials);
@@ -61,7 +63,7 @@ class TaskList {
     std::vector<Access> accesses = declare<false>(arguments...);
     add(
         name, TaskKind::work, {}, std::move(accesses),
-        [body, ... bound = arguments](const TaskContext& context) {
+        [body, ... bound = std::move(arguments)](const TaskContext& context) {
           body(patchesOf(context), bindRank(bound, context)...);
         },
         Sees::rank);
@@ -76,7 +78,7 @@ class TaskList {
     std::vector<Access> accesses = declare<false>(arguments...);
     add(
         name, TaskKind::work, names(materials), std::move(accesses),
-        [body, &materials, ... bound = arguments](const TaskContext& context) {
+        [body, &materials, ... bound = std::move(arguments)](const TaskContext& context) {
           body(patchesOf(context), materials, bindRankAll(bound, context)...);
         },
         Sees::rank);
@@ -89,7 +91,7 @@ class TaskList {
     check<true, false, Arguments...>();
     std::vector<Access> accesses = declare<true>(arguments...);
     add(name, TaskKind::newParticles, names(materials), std::move(accesses),
-        [body, &materials, ... bound = arguments](const TaskContext& context) {
+        [body, &materials, ... bound = std::move(arguments)](const TaskContext& context) {
           body(context.patch(), materials[context.material()], context.maker(), bound.bind(context)...);
         });
   }

@@ -7,9 +7,7 @@
 #include <map>
 #include <set>
 
-#include "components/mpm/solid/constitutive/all.hpp"
-#include "components/mpm/solid/constitutive/expanding.hpp"
-#include "components/mpm/solid/constitutive/gurson.hpp"
+#include "components/mpm/solid/constitutive/make_model.hpp"
 #include "components/mpm/solid/contact/contact_input.hpp"
 #include "components/mpm/solid/damage/damage_input.hpp"
 #include "core/input/refuse.hpp"
@@ -87,37 +85,6 @@ std::string typeOf(const Element& tag) {
   return other == otherWords.end() ? type : other->second;
 }
 
-/// Whether a model has thermal expansion: as in Uintah, only neo-Hookean ones.
-template <class M>
-inline constexpr bool expands =
-    std::is_same_v<M, CompNeoHook> || std::is_same_v<M, Ucnh> || std::is_same_v<M, CompNeoHookPlastic>;
-
-/// Thermal expansion of a model with this bulk modulus, Pa.
-template <class M>
-std::shared_ptr<const Model> expandingIfAsked(const M& model, double bulkModulus, const Material& material) {
-  if (material.thermalExpansion > 0)
-    return std::make_shared<Expanding<M>>(model, bulkModulus,
-                                          ThermalExpansion{material.thermalExpansion, material.roomTemperature});
-  return std::make_shared<ModelOf<M>>(model);
-}
-
-/// The model of a material for use by its particles.
-template <class M>
-std::shared_ptr<const Model> modelFrom(const M& model, const Material& material) {
-  if constexpr (requires { model.yieldSpreads; })
-    if (model.isPlastic && model.yieldSpreads && model.yieldStress && model.hardeningModulus)
-      return expandingIfAsked(UcnhVar::spread(model), model.bulkModulus, material);
-  if constexpr (std::is_same_v<M, ElasticPlasticHp>)
-    if (std::holds_alternative<GursonYield>(model.yieldCondition))
-      return std::make_shared<ModelOf<GursonPlastic>>(GursonPlastic{model});
-  if constexpr (std::is_same_v<M, ViscoScram>)
-    if (model.thermalExpansion > 0) return std::make_shared<ModelOf<ExpandingViscoScram>>(ExpandingViscoScram{model});
-  if constexpr (expands<M>)
-    return expandingIfAsked(model, model.bulkModulus, material);
-  else
-    return std::make_shared<ModelOf<M>>(model);
-}
-
 void readModel(Material& material, const Element& parent, Diagnostics& diagnostics) {
   const auto tag = parent.child("constitutive_model");
   if (!tag) return diagnostics.error(parent, "missing tag <constitutive_model> in <material>");
@@ -128,7 +95,7 @@ void readModel(Material& material, const Element& parent, Diagnostics& diagnosti
     if (type != M::name) return;
     M model = modelSchema<M>().read(*tag, diagnostics);
     if constexpr (providesCapability<M, capability::ConstantsOfMaterial>) model.material = material.constants();
-    material.model = modelFrom(model, material);
+    material.model = makeModel(model, material);
     if (material.thermalExpansion > 0 && !expands<M>)
       diagnostics.note(parent.child("linear_thermal_expansion_coef").value(),
                        "does nothing: as in Uintah, only comp_neo_hook, UCNH and comp_neo_hook_plastic expand");

@@ -1,4 +1,5 @@
 #include "components/mpm/solid/implicit/input.hpp"
+#include "components/mpm/boundary_labels.hpp"
 
 #include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/implicit/implicit_mpm.hpp"

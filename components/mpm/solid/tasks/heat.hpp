@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 
-#include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/transfer/placed.hpp"
 
@@ -10,19 +9,7 @@ namespace tushar::mpm::solid {
 
 /// Applies the conditions of a side: a given temperature (Dirichlet), or a given decrease per metre outwards (Neumann).
 template <int D>
-void setTemperature(const Patch& patch, int material, NodeView<double> field) {
-  for (int d = 0; d < D; ++d)
-    for (const int side : {0, 1}) {
-      const auto given = patch.level().boundary(d, side, boundary::temperature, material);
-      if (!given || !patch.isAtBoundary(d, side)) continue;
-      const Index<D> inwards = side == 0 ? Index<D>::unit(d) : Index<D>{} - Index<D>::unit(d);
-      const double value = given->value, drop = value * patch.level().spacing(d);
-      for (const Box& nodes : {patch.faceNodes(d, side), patch.nodesBeyond(d, side)})
-        forEach<D>(nodes, [&](const Index<D>& node) {
-          field[node] = given->isDirichlet() ? value : field[node + inwards] - drop;
-        });
-    }
-}
+void setTemperature(const Patch& patch, int material, NodeView<double> field);
 
 /// Particles whose heat is transferred to the nodes.
 template <int D>

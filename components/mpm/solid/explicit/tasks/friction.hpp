@@ -79,15 +79,7 @@ class MeetingPlaces {
 
 /// A body continues beyond a symmetry plane: no gradient points through the plane, and the volume counts twice.
 template <int D>
-void mirrorSurface(const Patch& patch, const Material& material, NodeView<SurfaceRecord> surface) {
-  for (int d = 0; d < D; ++d)
-    for (const int side : {0, 1})
-      if (patch.isAtBoundary(d, side) && patch.level().isSymmetry(d, side, material.index))
-        forEach<D>(patch.faceNodes(d, side), [&](const Index<D>& node) {
-          surface[node].numbers()[d] = 0;
-          surface[node].numbers()[3] *= 2;
-        });
-}
+void mirrorSurface(const Patch& patch, const Material& material, NodeView<SurfaceRecord> surface);
 
 /// Adds the particles of a material around places where bodies meet. Where axisymmetric, the gradient is that of the
 /// density, as in Uintah: mass grows with the radius, and would tilt the normal.

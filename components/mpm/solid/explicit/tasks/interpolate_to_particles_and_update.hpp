@@ -24,13 +24,13 @@ void interpolateToParticlesAndUpdate(const Patch& patch, const Material& materia
                                      double dt, const ParticleUpdate<D>& u) {
   StateUpdate<D> state = u.state;
   if (method.removesLost) state.newX = u.newX;
-  updateParticles<Shape, Volumes::own>(
-      patch, material, method, time, dt, state, [&](int p, int count, const auto& sums) {
-        prefetch(u.newX.values(), p + count, count);
-        prefetch(u.newVelocity.values(), p + count, count);
-        moveGroup<D>(dt, sums, count, u.state.x.values() + p, u.state.velocity.values() + p, u.newX.values() + p,
-                     u.newVelocity.values() + p);
-      });
+  updateParticles<Shape>(patch, material, method, time, dt, Volumes::own, state,
+                         [&](int p, int count, const auto& sums) {
+                           prefetch(u.newX.values(), p + count, count);
+                           prefetch(u.newVelocity.values(), p + count, count);
+                           moveGroup<D>(dt, sums, count, u.state.x.values() + p, u.state.velocity.values() + p,
+                                        u.newX.values() + p, u.newVelocity.values() + p);
+                         });
 }
 
 }  // namespace tushar::mpm::solid

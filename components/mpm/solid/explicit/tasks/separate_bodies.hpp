@@ -1,8 +1,7 @@
 #pragma once
 
-#include "components/mpm/solid/contact/plane_friction.hpp"
+#include "components/mpm/solid/explicit/tasks/meeting_nodes.hpp"
 #include "components/mpm/solid/loads/load.hpp"
-#include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/transfer/placed.hpp"
 
 // The planes that separate bodies at the nodes where several meet (see SeparatingPlane), as in Uintah.
@@ -41,77 +40,6 @@ struct PlaneSources {
   }
 };
 
-/// The materials to which a plane may belong, and the preferred one.
-struct Precedence {
-  std::vector<bool> mayLead, isRigid;
-
-  Precedence(const std::vector<Material>& materials, const std::vector<Contact>& contacts) {
-    for (const Material& material : materials) {
-      mayLead.push_back(material.mayLeadContact);
-      isRigid.push_back(material.isRigid);
-    }
-    for (const Contact& contact : contacts) {
-      const std::size_t master = contact.master;
-      if (contact.type == Contact::Type::specified) mayLead[master] = false;
-      if (contact.type == Contact::Type::specifiedFriction) isRigid[master] = true;
-    }
-  }
-
-  /// The material with the most mass of those that meet at a node, or the rigid one; -1 if fewer than two meet.
-  template <int D>
-  int leader(const std::vector<NodeView<const NodeRecord>>& records, const Index<D>& node) const {
-    double total = 0, most = 0, mostOfRigid = 1e-90;
-    for (const auto& record : records) total += record[node][lane::mass];
-    int meeting = 0, heaviest = -1, rigid = -1;
-    for (std::size_t m = 0; m < records.size(); ++m) {
-      const double mass = records[m][node][lane::mass];
-      if (!mayLead[m]) continue;
-      if (isRigid[m] && mass > mostOfRigid) {
-        mostOfRigid = mass;
-        rigid = static_cast<int>(m);
-      }
-      if (mass <= 1e-8 * total || mass <= 1e-16) continue;
-      ++meeting;
-      if (mass <= most) continue;
-      most = mass;
-      heaviest = static_cast<int>(m);
-    }
-    if (meeting < 2) return -1;
-    return rigid >= 0 ? rigid : heaviest;
-  }
-};
-
-/// The nodes of a patch at which bodies meet, in their order.
-template <int D>
-struct MeetingNodes {
-  Box box;
-  std::vector<int> number;  ///< for each node of the box, its index among those that follow, or -1
-  std::vector<Index<D>> node;
-  std::vector<int> leader;  ///< the material that the plane belongs to
-  std::vector<std::vector<SidedParticle<D>>> particles;
-
-  MeetingNodes(const Box& nodes, const Precedence& precedence, const std::vector<NodeView<const NodeRecord>>& records)
-      : box(nodes), number(nodes.size(), -1) {
-    forEach<D>(box, [&](const Index<D>& at) {
-      const int first = precedence.leader<D>(records, at);
-      if (first < 0) return;
-      number[place(at)] = static_cast<int>(node.size());
-      node.push_back(at);
-      leader.push_back(first);
-    });
-    particles.resize(node.size());
-  }
-  /// The index of a node, or -1.
-  int operator[](const Index<D>& at) const { return box.contains(at) ? number[place(at)] : -1; }
-
- private:
-  std::size_t place(const Index<D>& at) const {
-    Index3 whole = box.lower;
-    for (int d = 0; d < D; ++d) whole[d] = at[d];
-    return box.offset(whole);
-  }
-};
-
 /// Adds the particles of material m to the nodes at which they meet other materials.
 template <class Shape, int D = Shape::dimension>
 void gatherParticles(const Patch& patch, const Vec3& commonSize, const PlaneSources<D>& of, int m,
@@ -126,24 +54,6 @@ void gatherParticles(const Patch& patch, const Vec3& commonSize, const PlaneSour
       nodes.particles[k].push_back({away, m != nodes.leader[k]});
     });
   });
-}
-
-/// The normal at the k-th of the nodes: 0 unless there are particles on both sides. None points through a symmetry
-/// plane.
-template <int D>
-Vec<D> normalAt(const Patch& patch, const MeetingNodes<D>& nodes, std::size_t k) {
-  const auto& around = nodes.particles[k];
-  const auto others = std::count_if(around.begin(), around.end(), [](const auto& one) { return one.isOther; });
-  if (others == 0 || others == static_cast<std::ptrdiff_t>(around.size())) return Vec<D>::Zero();
-  Vec<D> normal = separatingNormal<D>(around, patch.level().cellWidth(0));
-  const int material = nodes.leader[k];
-  for (int d = 0; d < D; ++d)
-    for (const int side : {0, 1})
-      if (patch.isAtBoundary(d, side) && patch.level().isSymmetry(d, side, material) &&
-          patch.faceNodes(d, side).template contains<D>(nodes.node[k]))
-        normal[d] = 0;
-  const double length = normal.norm();
-  return length > 0 ? Vec<D>(normal / length) : normal;
 }
 
 /// Prominence of material m: the largest extent of its particles along the normal if it is the reference body,
@@ -175,7 +85,7 @@ template <class Shape, int D = Shape::dimension>
 void separateBodies(const Patch& patch, const std::vector<Material>& materials, const std::vector<Contact>& contacts,
                     const Vec3& commonSize, const std::vector<NodeView<const NodeRecord>>& records,
                     const std::vector<PlaneSources<D>>& of) {
-  MeetingNodes<D> nodes(of.front().normal.box(), Precedence(materials, contacts), records);
+  MeetingNodes<D> nodes(of.front().normal.box(), materials, contacts, records);
   for (std::size_t m = 0; m < of.size(); ++m) {
     of[m].normal.fill(Vec<D>::Zero());
     gatherParticles<Shape>(patch, commonSize, of[m], static_cast<int>(m), nodes);

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <Eigen/LU>
-
-#include <cmath>
-
 #include "components/mpm/solid/explicit/tasks/state_update.hpp"
 
 namespace tushar::mpm::solid {
@@ -21,24 +17,6 @@ enum class Volumes {
 /// is, and out of the sums.
 /// `velocityGradient` holds L, 1/s, of the particles of `range`.
 template <int D>
-void shareVolume(double dt, const data::ParticleRange& range, const StateUpdate<D>& u, Matrix3* velocityGradient) {
-  const auto bears = [&](int p) { return (!u.localized || !(*u.localized)[p]) && u.deformation[p].determinant() > 0; };
-  double start = 0, now = 0;
-  for (const int p : range) {
-    if (!bears(p)) continue;
-    start += u.mass[p];
-    now += u.mass[p] * u.deformation[p].determinant();
-  }
-  for (const int p : range) {
-    if (!bears(p)) continue;
-    const double cubed = now / start / u.deformation[p].determinant();
-    const double stretch = std::cbrt(cubed);
-    Matrix3& gradient = velocityGradient[p - range.first];
-    u.deformation[p] *= stretch;
-    gradient.diagonal().array() += std::log(stretch) / dt;
-    if (u.volume) (*u.volume)[p] *= cubed;
-    if (u.velocityGradient) (*u.velocityGradient)[p] = gradient;
-  }
-}
+void shareVolume(double dt, const data::ParticleRange& range, const StateUpdate<D>& u, Matrix3* velocityGradient);
 
 }  // namespace tushar::mpm::solid

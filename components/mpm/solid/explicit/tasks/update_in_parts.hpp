@@ -35,11 +35,16 @@ void moveParticles(const Patch& patch, const Material&, const Vec3& commonSize, 
   });
 }
 
+/// Moves no particles.
+struct StayInPlace {
+  void operator()(int, int, const auto&) const {}
+};
+
 /// L_p, F_p and the stress, with the velocity in the records: Uintah's computeStressTensor.
 template <class Shape, Volumes volumes = Volumes::own, int D = Shape::dimension>
 void computeStressTensor(const Patch& patch, const Material& material, const Method& method, double time, double dt,
                          const StateUpdate<D>& u) {
-  updateParticles<Shape, volumes>(patch, material, method, time, dt, u, [](int, int, const auto&) {});
+  updateParticles<Shape>(patch, material, method, time, dt, volumes, u, StayInPlace());
 }
 
 }  // namespace tushar::mpm::solid

@@ -2,15 +2,8 @@
 
 #include <Eigen/LU>
 
-#include <vector>
-
-#include "components/mpm/solid/explicit/tasks/remove_lost.hpp"
 #include "components/mpm/solid/explicit/tasks/share_volume.hpp"
-#include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
-#include "components/mpm/solid/explicit/tasks/state_update.hpp"
-#include "components/mpm/solid/material.hpp"
-#include "components/mpm/solid/method.hpp"
-#include "components/mpm/solid/transfer/cell_run.hpp"
+#include "components/mpm/solid/explicit/tasks/update_stresses.hpp"
 #include "components/mpm/solid/transfer/gathered_lanes.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
 
@@ -146,106 +139,6 @@ template <class Shape, int D = Shape::dimension>
   for (int k = 0; k < count; ++k) finishDeformation(erosion, u, first + k, velocityGradient[k]);
 }
 
-/// The results of a constitutive model for up to stressGroup particles, besides their stresses and wave speeds.
-struct StressResults {
-  std::array<double, stressGroup> bulkSpeed;      ///< m/s
-  std::array<double, stressGroup> energyDensity;  ///< J/m^3 of the volume at the start
-};
-
-/// The positions and masses of the particles from `first` on, and the time, for a model that reads them.
-template <int D>
-void placePoints(const Level& level, const StateUpdate<D>& u, double time, int first,
-                 std::array<Vec3, stressGroup>& positions, StressPoints& points) {
-  for (int k = 0; k < points.count; ++k) positions[k] = level.expandPoint<D>(u.x[first + k]);
-  points.position = positions.data();
-  points.mass = u.mass.values() + first;
-  points.time = time;
-}
-
-/// Particles starting with `first`, in the form for a constitutive model. `velocityGradient` is that of the first.
-template <int D>
-StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* velocityGradient, int first, int count,
-                          double* waveSpeed, StressResults& results) {
-  const auto of = [&](const auto& view) { return view ? valuesOf(view) + first : nullptr; };
-  return {.count = count,
-          .timeStep = dt,
-          .oldDeformationGradient = u.oldDeformation.values() + first,
-          .deformationGradient = u.deformation.values() + first,
-          .velocityGradient = velocityGradient,
-          .temperature = of(u.temperature),
-          .oldStress = of(u.oldStress),
-          .stress = of(u.stress),
-          .state = u.state ? valuesOf(u.state) + first * u.stateSize : nullptr,
-          .stateStride = u.stateSize,
-          .waveSpeed = waveSpeed,
-          .bulkSpeed = u.viscosity ? results.bulkSpeed.data() : nullptr,
-          .temperatureChange = of(u.temperatureChange),
-          .strainEnergyDensity = u.strainEnergy ? results.energyDensity.data() : nullptr};
-}
-
-/// The work of the artificial viscosity when the volume per mass grows by `growth`, m^3/kg.
-template <int D>
-void heatByViscosity(const Material& material, double growth, const StateUpdate<D>& u, int p) {
-  const double heat = -(*u.viscosity)[p] * growth;
-  if (u.temperatureChange) {
-    const double temperature = u.temperature ? (*u.temperature)[p] : 0.0;
-    (*u.temperatureChange)[p] +=
-        heat / material.model->heatCapacity(u.deformation[p], temperature, material.specificHeat);
-  }
-  material.model->addViscousHeat(valuesOf(u.state) + p * u.stateSize, heat);
-}
-
-/// Updates the artificial viscosity of particles starting with `first`, and its heat; the arrays of velocity gradients
-/// and bulk wave speeds (m/s) start with the first particle.
-template <int D>
-void updateViscosity(const Material& material, const Method& method, double dt, const StateUpdate<D>& u,
-                     const Matrix3* velocityGradient, const double* bulkSpeed, int first, int count) {
-  const ArtificialViscosity own =
-      material.model->ownViscosity().value_or(method.viscosity.value_or(ArtificialViscosity{}));
-  const bool heated = method.viscosityHeats && material.model->hasViscousHeat();
-  const double undeformed = material.undeformedDensity();
-  double* const viscosity = valuesOf(u.viscosity);
-  for (int k = 0; k < count; ++k) {
-    const int p = first + k;
-    const double jump = std::max(-velocityGradient[k].trace(), 0.0) * method.meanWidth;
-    const double density = undeformed / u.deformation[p].determinant();
-    viscosity[p] = density * jump * (own.linear * bulkSpeed[k] + own.quadratic * jump);
-    if (heated) heatByViscosity(material, velocityGradient[k].trace() * dt / density, u, p);
-  }
-}
-
-/// Strain energy of particles starting with `first`, from its density (J/m^3 of the volume at F = I); 0 for failed
-/// particles.
-template <int D>
-void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const double* density, int first,
-                        int count) {
-  const double undeformed = material.undeformedDensity();
-  double* const energy = valuesOf(u.strainEnergy);
-  const int* const localized = valuesOf(u.localized);
-  for (int k = 0; k < count; ++k) {
-    const int p = first + k;
-    const bool bears = !localized || !localized[p];
-    energy[p] = bears ? density[k] * u.mass[p] / undeformed : 0.0;
-  }
-}
-
-/// Updates stress, artificial viscosity and strain energy of up to stressGroup particles, if kept, and computes their
-/// wave speeds, m/s.
-template <int D>
-void updateStress(const Level& level, const Material& material, const Method& method, double time, double dt,
-                  const StateUpdate<D>& u, const Matrix3* velocityGradient, int first, int count, double* waveSpeed) {
-  if (u.state)
-    std::copy_n(valuesOf(u.oldState) + first * u.stateSize, count * u.stateSize,
-                valuesOf(u.state) + first * u.stateSize);
-  StressResults results;
-  StressPoints points = stressPoints(u, dt, velocityGradient, first, count, waveSpeed, results);
-  std::array<Vec3, stressGroup> positions;
-  if (material.model->usesPlaceAndTime()) placePoints<D>(level, u, time, first, positions, points);
-  material.model->updateStress(material.density, points);
-  if (u.viscosity) updateViscosity(material, method, dt, u, velocityGradient, results.bulkSpeed.data(), first, count);
-  if (u.strainEnergy) updateStrainEnergy(material, u, results.energyDensity.data(), first, count);
-}
-
 /// Whether several particles are updated at once: only in three dimensions do cells contain enough of them.
 template <class Shape>
 inline constexpr bool updatesTogether = Shape::dimension == 3;
@@ -279,52 +172,12 @@ template <class Shape, class Move, int D = Shape::dimension>
   }
 }
 
-/// Particles that have moved to the end of the step, but whose stress has not been updated.
-template <int D>
-struct MovedParticles {
-  CellRun<D> cells;
-  std::vector<Matrix3> velocityGradient;  ///< at least of those of the cells
-  std::vector<double> waveSpeed;          ///< of as many
-
-  /// L of the particles of a cell that joins the run, 1/s.
-  Matrix3* add(const Index<D>& cell, const data::ParticleRange& range) {
-    cells.add(cell, range);
-    if (velocityGradient.size() < static_cast<std::size_t>(cells.count())) {
-      velocityGradient.resize(std::max(cells.count(), stressGroup));
-      waveSpeed.resize(velocityGradient.size());
-    }
-    return velocityGradient.data() + (range.first - cells.first());
-  }
-};
-
-/// Updates the stress of particles that have moved, and the stable time step. Removes those that the
-/// step turns inside out or throws out of `space`, or throws NumericalError. No particle is left in `moved`.
-template <int D>
-void updateStresses(const Level& level, const Material& material, const Method& method, double time, double dt,
-                    const StateUpdate<D>& u, const CrossingRate<D>& none, const BetweenPlanes<D>& space,
-                    MovedParticles<D>& moved) {
-  moved.cells.forEachGroup([&](int k, int count) {
-    updateStress<D>(level, material, method, time, dt, u, moved.velocityGradient.data() + k, moved.cells.first() + k,
-                    count, moved.waveSpeed.data() + k);
-  });
-  moved.cells.forEachCell([&](const Index<D>& cell, const data::ParticleRange& range) {
-    CrossingRate<D> rate = none;
-    const double* const waveSpeed = moved.waveSpeed.data() + (range.first - moved.cells.first());
-    rate.add(waveSpeed, u.velocity.values() + range.first, range.size());
-    if (!rate.isKnown() || (u.newX && !space.containAll(u.newX->values() + range.first, range.size())))
-      rate = withoutLost<D>(level, u, cell, range, none, space, waveSpeed);
-    u.stableTimeStep.add(rate.time());
-    if (u.stableTimeSteps) (*u.stableTimeSteps)[cell] = rate.time();
-  });
-  moved.cells.clear();
-}
-
 /// Updates F, the stress and related quantities of the patch's own particles to the end of the step, and computes the
 /// stable time step. Calls `move(p, count, sums)` for what particles from p on gather from the grid: one,
 /// or several in lanes. Throws NumericalError where a wave has no speed. The step starts at `time`, s.
-template <class Shape, Volumes volumes, class Move, int D = Shape::dimension>
+template <class Shape, class Move, int D = Shape::dimension>
 void updateParticles(const Patch& patch, const Material& material, const Method& method, double time, double dt,
-                     const StateUpdate<D>& u, Move&& move) {
+                     Volumes volumes, const StateUpdate<D>& u, Move&& move) {
   const Level& level = patch.level();
   const Extents<Shape> extents(level, method.commonSize, u.size, u.oldDeformation);
   const CrossingRate<D> none(level);
@@ -336,7 +189,7 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
     if (!moved.cells.takes(range)) updateStresses<D>(level, material, method, time, dt, u, none, space, moved);
     Matrix3* const velocityGradient = moved.add(cell, range);
     moveAndDeform(level, cell, extents, material, method, dt, u, range, velocityGradient, move);
-    if constexpr (volumes == Volumes::shared) shareVolume<D>(dt, range, u, velocityGradient);
+    if (volumes == Volumes::shared) shareVolume<D>(dt, range, u, velocityGradient);
   });
   updateStresses<D>(level, material, method, time, dt, u, none, space, moved);
 }

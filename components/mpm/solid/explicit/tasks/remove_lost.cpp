@@ -1,0 +1,70 @@
+#include "components/mpm/solid/explicit/tasks/remove_lost.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+
+#include "core/data/vanished.hpp"
+
+namespace tushar::mpm::solid {
+
+namespace {
+
+/// The error for the first particle of a cell whose wave speed is undefined: its velocity is not a number, or it is
+/// inverted.
+template <int D>
+NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
+                                const data::ParticleRange& range) {
+  const auto isSound = [&](int p) { return u.velocity[p].allFinite() && u.deformation[p].determinant() > 0; };
+  int p = range.first;
+  while (p + 1 < range.last && isSound(p)) ++p;
+  const Vec3 x = level.expandPoint<D>(u.x[p]);
+  return {fmt::format("the wave speed of the particle at ({:g}, {:g}, {:g}) m is not a number: det F is {:g}, the "
+                      "particle's speed {:g} m/s",
+                      x[0], x[1], x[2], u.deformation[p].determinant(), u.velocity[p].norm()),
+          "", "p.deformationMeasure", level.cellNumber<D>(cell)};
+}
+
+/// Removes a particle, and gives it the state at the start of the step, which later tasks of the step can read.
+template <int D>
+void removeParticle(const StateUpdate<D>& u, int p) {
+  (*u.newX)[p][0] = data::removed;
+  u.deformation[p] = u.oldDeformation[p];
+  if (u.volume) (*u.volume)[p] = (*u.oldVolume)[p];
+  if (u.stress) (*u.stress)[p] = (*u.oldStress)[p];
+  if (u.state) std::copy_n(valuesOf(u.oldState) + p * u.stateSize, u.stateSize, valuesOf(u.state) + p * u.stateSize);
+  if (u.viscosity) (*u.viscosity)[p] = 0;
+  if (u.strainEnergy) (*u.strainEnergy)[p] = 0;
+  if (u.temperatureChange) (*u.temperatureChange)[p] = 0;
+  if (u.velocityGradient) (*u.velocityGradient)[p].setZero();
+}
+
+}  // namespace
+
+template <int D>
+CrossingRate<D> withoutLost(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
+                            const data::ParticleRange& range, const CrossingRate<D>& none,
+                            const BetweenPlanes<D>& space, const double* waveSpeed) {
+  CrossingRate<D> rate = none;
+  for (int k = 0; k < range.size(); ++k) {
+    const int p = range.first + k;
+    const bool isInverted = u.deformation[p].determinant() <= 0;
+    if (!isInverted && (!u.newX || space.contains((*u.newX)[p])))
+      rate.add(waveSpeed[k], u.velocity[p]);
+    else if (u.newX)
+      removeParticle<D>(u, p);
+    else
+      throw withoutWaveSpeed<D>(level, u, cell, range);
+  }
+  if (!rate.isKnown()) throw withoutWaveSpeed<D>(level, u, cell, range);
+  return rate;
+}
+
+template CrossingRate<1> withoutLost(const Level&, const StateUpdate<1>&, const Index<1>&, const data::ParticleRange&,
+                                     const CrossingRate<1>&, const BetweenPlanes<1>&, const double*);
+template CrossingRate<2> withoutLost(const Level&, const StateUpdate<2>&, const Index<2>&, const data::ParticleRange&,
+                                     const CrossingRate<2>&, const BetweenPlanes<2>&, const double*);
+template CrossingRate<3> withoutLost(const Level&, const StateUpdate<3>&, const Index<3>&, const data::ParticleRange&,
+                                     const CrossingRate<3>&, const BetweenPlanes<3>&, const double*);
+
+}  // namespace tushar::mpm::solid

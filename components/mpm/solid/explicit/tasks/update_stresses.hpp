@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "components/mpm/solid/explicit/tasks/remove_lost.hpp"
+#include "components/mpm/solid/method.hpp"
+#include "components/mpm/solid/transfer/cell_run.hpp"
+
+// The part of the update of particles that does not depend on shape functions: compiled once for each dimension.
+
+namespace tushar::mpm::solid {
+
+/// Particles that have moved to the end of the step, but whose stress has not been updated.
+template <int D>
+struct MovedParticles {
+  CellRun<D> cells;
+  std::vector<Matrix3> velocityGradient;  ///< at least of those of the cells
+  std::vector<double> waveSpeed;          ///< of as many
+
+  /// L of the particles of a cell that joins the run, 1/s.
+  Matrix3* add(const Index<D>& cell, const data::ParticleRange& range);
+};
+
+/// Updates the stress of particles that have moved, and the stable time step. Removes those that the
+/// step turns inside out or throws out of `space`, or throws NumericalError. No particle is left in `moved`.
+template <int D>
+void updateStresses(const Level& level, const Material& material, const Method& method, double time, double dt,
+                    const StateUpdate<D>& u, const CrossingRate<D>& none, const BetweenPlanes<D>& space,
+                    MovedParticles<D>& moved);
+
+}  // namespace tushar::mpm::solid

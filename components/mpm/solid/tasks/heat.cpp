@@ -1,0 +1,26 @@
+#include "components/mpm/solid/tasks/heat.hpp"
+
+#include "components/mpm/boundary_labels.hpp"
+
+namespace tushar::mpm::solid {
+
+template <int D>
+void setTemperature(const Patch& patch, int material, NodeView<double> field) {
+  for (int d = 0; d < D; ++d)
+    for (const int side : {0, 1}) {
+      const auto given = patch.level().boundary(d, side, boundary::temperature, material);
+      if (!given || !patch.isAtBoundary(d, side)) continue;
+      const Index<D> inwards = side == 0 ? Index<D>::unit(d) : Index<D>{} - Index<D>::unit(d);
+      const double value = given->value, drop = value * patch.level().spacing(d);
+      for (const Box& nodes : {patch.faceNodes(d, side), patch.nodesBeyond(d, side)})
+        forEach<D>(nodes, [&](const Index<D>& node) {
+          field[node] = given->isDirichlet() ? value : field[node + inwards] - drop;
+        });
+    }
+}
+
+template void setTemperature<1>(const Patch&, int, NodeView<double>);
+template void setTemperature<2>(const Patch&, int, NodeView<double>);
+template void setTemperature<3>(const Patch&, int, NodeView<double>);
+
+}  // namespace tushar::mpm::solid
