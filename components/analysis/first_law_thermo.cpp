@@ -64,8 +64,8 @@ const input::Schema<FirstLawSettings>& firstLawSchema() {
                                          "The internal energy of gas and bodies, and what flows out through sides.");
     tags.requiredAttribute("name", &FirstLawSettings::name, "1", "firstLawThermo").location(&FirstLawSettings::where);
     addTimes(tags);
-    return tags.requiredSection("controlVolume", &FirstLawSettings::sides, sides, "the sides of the grid")
-        .ignored("engy_convt_factor", "all energies are in J");
+    tags.ignored("engy_convt_factor", "all energies are in J");
+    return tags.requiredSection("controlVolume", &FirstLawSettings::sides, sides, "the sides to measure");
   }();
   return schema;
 }

@@ -213,7 +213,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
   for (const ice::ScalarSettings& one : scene.scalars)
     if (one.diffusivity > 0)
-      diagnostics.error(one.where, "Models/Model/PassiveScalar/scalar/constants/diffusivity",
+      diagnostics.error(one.where, "Models/Model",
                         fmt::format("{:g} m^2/s is not available with bodies: there scalars are carried, but do not "
                                     "diffuse; set it to 0",
                                     one.diffusivity));

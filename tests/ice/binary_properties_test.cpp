@@ -49,10 +49,10 @@ const std::string unlike = "<rho_A>1</rho_A><rho_B>0.5</rho_B><cv_A>2</cv_A><cv_
 }  // namespace
 
 TEST(BinaryProperties, HaveNoExchangeOfTheirOwn) {
-  const std::string plain = binary(unlike, region("0.5", "1", "1"), "");
+  const std::string plain = binary(unlike, region("0", "1", "0.25"), variable("c.density", "0.8"));
   const std::string given = changedScene(plain, "</ICE>\n  </MaterialProperties>",
-                                         "</ICE><exchange_properties><exchange_coefficients><momentum>[]</momentum>"
-                                         "<heat>[]</heat></exchange_coefficients></exchange_properties>"
+                                         "</ICE><exchange_properties><exchange_coefficients><momentum>[1e15]</momentum>"
+                                         "<heat>[0]</heat></exchange_coefficients></exchange_properties>"
                                          "</MaterialProperties>");
   const simulation::Problem problem = scene::readScene(given, {}, catalogue());
   EXPECT_TRUE(std::any_of(problem.notes.begin(), problem.notes.end(), [](const InputProblem& note) {
