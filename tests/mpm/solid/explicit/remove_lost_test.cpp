@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "components/mpm/solid/explicit/tasks/remove_lost.hpp"
+#include "core/data/vanished.hpp"
 #include "tests/mpm/solid/explicit/bare_update.hpp"
 
 namespace tushar::mpm::solid {

@@ -8,6 +8,46 @@
 
 namespace tushar::mpm::solid {
 
+/// The materials to which a plane may belong, and the preferred one.
+struct Precedence {
+  std::vector<bool> mayLead, isRigid;
+
+  Precedence(const std::vector<Material>& materials, const std::vector<Contact>& contacts) {
+    for (const Material& material : materials) {
+      mayLead.push_back(material.mayLeadContact);
+      isRigid.push_back(material.isRigid);
+    }
+    for (const Contact& contact : contacts) {
+      const std::size_t master = contact.master;
+      if (contact.type == Contact::Type::specified) mayLead[master] = false;
+      if (contact.type == Contact::Type::specifiedFriction) isRigid[master] = true;
+    }
+  }
+
+  /// The material with the most mass of those that meet at a node, or the rigid one; -1 if fewer than two meet.
+  template <int D>
+  int leader(const std::vector<NodeView<const NodeRecord>>& records, const Index<D>& node) const {
+    double total = 0, most = 0, mostOfRigid = 1e-90;
+    for (const auto& record : records) total += record[node][lane::mass];
+    int meeting = 0, heaviest = -1, rigid = -1;
+    for (std::size_t m = 0; m < records.size(); ++m) {
+      const double mass = records[m][node][lane::mass];
+      if (!mayLead[m]) continue;
+      if (isRigid[m] && mass > mostOfRigid) {
+        mostOfRigid = mass;
+        rigid = static_cast<int>(m);
+      }
+      if (mass <= 1e-8 * total || mass <= 1e-16) continue;
+      ++meeting;
+      if (mass <= most) continue;
+      most = mass;
+      heaviest = static_cast<int>(m);
+    }
+    if (meeting < 2) return -1;
+    return rigid >= 0 ? rigid : heaviest;
+  }
+};
+
 /// The nodes of a patch at which bodies meet, in their order.
 template <int D>
 struct MeetingNodes {
