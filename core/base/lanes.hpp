@@ -26,18 +26,18 @@ class Lanes {
   static constexpr int count = 2;
 #endif
   using Register [[gnu::vector_size(count * sizeof(double))]] = double;
-  using Mask = decltype(Register() < Register());  ///< true or false in each lane
+  using Mask = decltype(Register() < Register());  ///< one truth value per lane
 
   Lanes() = default;
   Lanes(double all) : values_(all - Register{}) {}
   Lanes(Register values) : values_(values) {}
-  /// Lane k holds value(k).
+  /// Constructs a register whose lane k contains value(k).
   template <class Value>
   static Lanes of(Value&& value) {
     return fill(value, std::make_integer_sequence<int, count>());
   }
 
-  /// Lane k holds from[k].
+  /// Loads from[k] into lane k.
   static Lanes at(const double* from) {
     Register values;
     std::memcpy(&values, from, sizeof(values));
@@ -67,14 +67,14 @@ class Lanes {
   }
   friend Mask operator>=(Lanes a, Lanes b) { return a.values_ >= b.values_; }
   friend Lanes select(Mask which, Lanes yes, Lanes no) { return which ? yes.values_ : no.values_; }
-  /// Component `Which` of consecutive vectors of `numbers` numbers, one vector for each lane.
+  /// Component `Which` of consecutive vectors with `numbers` components, one vector per lane.
   template <int numbers, int Which>
   [[gnu::always_inline]] static Lanes unpacked(const double* from) {
     Register sum = at(from).values_;
     takeRegisters<numbers, Which, 1>(sum, from, std::make_integer_sequence<int, count>());
     return sum;
   }
-  /// The reverse: the numbers of register `Which` of these vectors, of which each element of `of` has a component.
+  /// The inverse operation: register `Which` of such vectors; element c of `of` contains their components c.
   template <int Which, std::size_t numbers>
   [[gnu::always_inline]] static Lanes packed(const std::array<Lanes, numbers>& of) {
     Register sum = of[0].values_;
@@ -150,7 +150,8 @@ template <int step = Lanes::count / 2>
   if constexpr (step > 1) transpose<step / 2>(rows);
 }
 
-/// Number c of the result has at(k)[c] in lane k: `at(k)` points to `numbers` numbers.
+/// Loads `numbers` consecutive numbers from the address at(k) for each lane k: element c of the result has at(k)[c]
+/// there.
 template <int numbers, class At>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> columnsOf(At&& at) {
   constexpr int inSquares = numbers / Lanes::count * Lanes::count;
@@ -169,7 +170,7 @@ template <int numbers, class At>
   return columns;
 }
 
-/// columnsOf for consecutive records of few numbers.
+/// columnsOf for short records that are contiguous in memory.
 template <int numbers, int... Which>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> unpack(const double* from,
                                                                 std::integer_sequence<int, Which...>) {
@@ -179,7 +180,7 @@ template <int numbers>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> unpack(const double* from) {
   return unpack<numbers>(from, std::make_integer_sequence<int, numbers>());
 }
-/// The reverse of unpack.
+/// The inverse of unpack.
 template <std::size_t numbers, int... Which>
 [[gnu::always_inline]] inline void pack(const std::array<Lanes, numbers>& columns, double* to,
                                         std::integer_sequence<int, Which...>) {
@@ -190,7 +191,7 @@ template <std::size_t numbers>
   pack(columns, to, std::make_integer_sequence<int, int(numbers)>());
 }
 
-/// The reverse of columnsOf for the first `count` lanes: at(k)[c] = columns[c] of lane k.
+/// The inverse of columnsOf for the first `count` lanes: at(k)[c] = columns[c] of lane k.
 template <std::size_t numbers, class At>
 [[gnu::always_inline]] inline void storeColumns(const std::array<Lanes, numbers>& columns, int count, At&& at) {
   constexpr int inSquares = int(numbers) / Lanes::count * Lanes::count;

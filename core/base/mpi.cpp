@@ -33,7 +33,7 @@ Bytes opened(Bytes words) {
 
 int wordsOf(const Bytes& words) { return static_cast<int>(words.size() / wordBytes); }
 
-/// The merge function for the operation below; global, because MPI cannot pass it on.
+/// The merge function for the MPI operation below; a global variable, because MPI cannot pass it as an argument.
 const std::function<void(const std::byte*, std::byte*)>* merging = nullptr;
 
 /// MPI requires inout = in ∘ inout, in the order of the ranks.

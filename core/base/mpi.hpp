@@ -17,7 +17,7 @@ namespace tushar::mpi {
 
 using Bytes = std::vector<std::byte>;
 
-/// The kind of a message: a rank that waits for one kind does not receive others.
+/// The kind of a message: a rank that waits for one kind does not receive messages of another.
 enum class Tag : int { ghosts, migrants, patches, output };
 
 /// Adds `length` bytes to the end.
@@ -29,13 +29,13 @@ inline void append(Bytes& bytes, const void* from, std::size_t length) {
 /// Name and version of the MPI library; MPI need not be initialised.
 std::string libraryVersion();
 
-/// Thrown on a rank because another rank has failed, which reports the cause.
+/// Exception on a rank when another rank has failed; that other rank reports the cause.
 class FailedElsewhere : public std::runtime_error {
  public:
   FailedElsewhere() : std::runtime_error("another rank has failed") {}
 };
 
-/// The ranks that run a simulation together, seen from one of them.
+/// The ranks that run a simulation together, as seen from one of them.
 ///
 /// All but `receive` are collective: every rank calls them, in the same order. With one rank they return at once, and
 /// MPI is not needed.
@@ -43,7 +43,7 @@ class Communicator {
  public:
   struct Native;
 
-  /// A single rank without others.
+  /// A communicator of a single rank.
   Communicator() = default;
   static const Communicator& alone();
   /// See mpi_native.hpp.
@@ -70,9 +70,9 @@ class Communicator {
   void merge(T& value) const {
     merge(std::as_writable_bytes(std::span(&value, 1)), mergeInMemory<T>);
   }
-  /// The bytes of rank `from`, on every rank.
+  /// Sends the bytes of rank `from` to all ranks; returns them on every rank.
   Bytes broadcast(Bytes bytes, int from = 0) const;
-  /// The value of rank `from`, on every rank; it must not contain pointers.
+  /// Sends the value of rank `from` to all ranks; the value must not contain pointers.
   template <class T>
   T broadcast(T value, int from = 0) const {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>,
@@ -84,7 +84,7 @@ class Communicator {
     return value;
   }
   std::string broadcast(const std::string& text, int from = 0) const;
-  /// The texts of all ranks, by rank, on every rank. Slow: for errors.
+  /// Returns the texts of all ranks, ordered by rank, on every rank. Slow: meant for errors.
   std::vector<std::string> gather(const std::string& mine) const;
   /// Runs a function on rank 0 only. If it throws, its exception passes on there, and the others throw FailedElsewhere.
   void onFirst(const std::function<void()>& action) const;
@@ -102,20 +102,20 @@ class Communicator {
   int rank_ = 0, size_ = 1;
 };
 
-/// Outgoing messages; keeps their bytes until they are sent.
+/// Outgoing messages, whose bytes are kept until they have been sent.
 class Outbox {
  public:
   explicit Outbox(const Communicator& ranks);
   Outbox(const Outbox&) = delete;
   Outbox& operator=(const Outbox&) = delete;
-  /// Messages that have not been received yet remain in memory, where MPI reads them.
+  /// Messages that have not been received yet remain in memory, because MPI may still read them.
   ~Outbox();
 
-  /// Returns at once.
+  /// Starts sending a message and returns at once.
   void send(int to, Tag tag, Bytes bytes);
   /// Waits until all messages are sent; later messages reuse their memory.
   void wait();
-  /// An empty buffer, in the memory of an earlier message if there is one.
+  /// Returns an empty buffer, which reuses the memory of an earlier message if possible.
   Bytes buffer();
 
  private:
@@ -128,10 +128,11 @@ class Outbox {
   std::vector<Bytes> spare_;
 };
 
-/// MPI for the lifetime of a program: initialised only if a launcher (mpirun, srun) started several processes.
+/// Initialises and finalises MPI for a program; MPI is used only if a launcher (mpirun, srun) started several
+/// processes.
 class Session {
  public:
-  /// Throws std::runtime_error for an MPI that allows no threads, and FailedElsewhere on all ranks except 0.
+  /// Throws std::runtime_error if the MPI library does not support threads, and FailedElsewhere on all ranks except 0.
   Session();
   ~Session();
   Session(const Session&) = delete;
@@ -146,7 +147,7 @@ class Session {
   bool speaks(bool isKnown, int& exitCode);
   /// Whether all ranks have called `speaks`.
   bool isAgreed() const { return is_agreed_; }
-  /// Ends all ranks at once.
+  /// Ends the program on all ranks at once.
   [[noreturn]] void abort(int exitCode);
 
  private:

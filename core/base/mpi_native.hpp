@@ -22,7 +22,7 @@ struct Communicator::Native {
   }
 };
 
-/// MPI's communicator of the ranks. For a single rank MPI must have been initialised.
+/// MPI's handle of the communicator. For a single rank, MPI must have been initialised.
 inline MPI_Comm handleOf(const Communicator& ranks) { return ranks.native() ? ranks.native()->ranks : MPI_COMM_SELF; }
 
 }  // namespace tushar::mpi

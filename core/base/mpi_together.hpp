@@ -20,19 +20,19 @@ void together(const Communicator& ranks, const std::function<void()>& action);
 /// more.
 bool meet(const Communicator& ranks, std::chrono::milliseconds patience);
 
-/// The sum of the values that all ranks have for this rank: `of[r]` is for rank r.
+/// Adds up values addressed to ranks: `of[r]` is this rank's value for rank r. Returns the sum of those for this rank.
 int sumForMe(const Communicator& ranks, std::span<const int> of);
 
-/// The sum over the ranks before this one.
+/// The sum of the values of all ranks with a lower index than this one.
 std::uint64_t sumBefore(const Communicator& ranks, std::uint64_t mine);
 
 /// The numbers of all ranks, in the order of the ranks, on every rank.
 std::vector<std::uint64_t> allOf(const Communicator& ranks, std::span<const std::uint64_t> mine);
 
-/// The first rank of each node, ascending, on every rank.
+/// The first rank on each machine, in ascending order, on every rank.
 std::vector<int> firstOfNodes(const Communicator& ranks);
 
-/// A message, and the rank to which it is sent or from which it comes.
+/// A message, and its destination or source rank.
 struct Letter {
   int rank = 0;
   Bytes bytes;

@@ -18,17 +18,17 @@ class Progress {
 
   /// Prints a permanent line.
   void line(const std::string& text);
-  /// Draws the live line, or writes a line to a file. `time`, `dt` and `maxTime` in s.
+  /// Draws the live line, or writes a line to a file. `time`, `dt` and `maxTime` [s].
   void live(int step, double time, double dt, double maxTime);
   /// Ends the live line.
   void finish();
-  /// Whether live() is due, at most ten times a second; cheap enough for every step.
+  /// Whether the next live() is due, at most ten times a second; cheap enough to call in every step.
   bool due();
 
  private:
   bool quiet_, terminal_, drawn_ = false;
   std::FILE* stream_;
-  Clock::duration period_;  ///< between live lines
+  Clock::duration period_;  ///< time between live lines
   Clock::time_point started_, next_;
 };
 

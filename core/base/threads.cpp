@@ -30,7 +30,7 @@ int boundCores() {
   return sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
 }
 
-/// Keeps the exception of the lowest index among those thrown in a loop.
+/// Among the exceptions thrown in a loop, keeps the one with the lowest loop index.
 class FirstFailure {
  public:
   template <class Work>
@@ -87,7 +87,7 @@ class Threads::Pool {
   }
 
  private:
-  /// The work of a thread in a loop.
+  /// Working time of one thread in a loop.
   struct alignas(64) Busy {
     Clock::time_point until;
     Clock::duration time{};

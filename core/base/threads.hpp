@@ -15,7 +15,7 @@ int allowedThreads();
 /// The version of TBB in use.
 std::string tbbVersion();
 
-/// A fixed number of threads, including the caller's, that work through loops.
+/// A fixed number of threads, including the calling thread, that share the iterations of loops.
 class Threads {
  public:
   explicit Threads(int count = 1);
@@ -24,7 +24,7 @@ class Threads {
   Threads& operator=(const Threads&) = delete;
 
   int count() const { return count_; }
-  /// Sets the number of threads from the next loop on.
+  /// Sets the number of threads for the next and later loops.
   void resize(int count);
 
   /// Calls `work(0)` to `work(times - 1)`, in any order and possibly concurrently, and returns when all are done. If
@@ -34,7 +34,7 @@ class Threads {
     run(times, {&work, [](const void* called, int k) { (*static_cast<const Work*>(called))(k); }}, kind);
   }
 
-  /// Calls `work()` once, on this thread; in a trace it has this name, which must outlive it.
+  /// Calls `work()` once, on this thread; it appears in a trace as `name`, which must outlive the trace.
   template <class Work>
   void alone(const Work& work, trace::Kind kind, std::string_view name) {
     const auto named = [&](int) {
@@ -44,10 +44,10 @@ class Threads {
     forEach(1, named, kind);
   }
 
-  /// Time that the loops have taken so far, s.
+  /// Time spent in loops so far [s].
   struct Use {
-    double task = 0, message = 0;  ///< time of all threads together, by the kind of loop
-    double loops = 0;              ///< time from the start of each loop to its end
+    double task = 0, message = 0;  ///< sum over all threads, separately for each kind of loop
+    double loops = 0;              ///< elapsed time, from the start of each loop to its end
   };
   const Use& use() const { return use_; }
 
@@ -71,7 +71,7 @@ class Threads {
   int count_ = 1;
   bool counted_outside_ = false;
   Use use_;
-  std::unique_ptr<Pool> pool_;  ///< null for one thread
+  std::unique_ptr<Pool> pool_;  ///< null if there is only one thread
 };
 
 }  // namespace tushar

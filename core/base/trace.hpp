@@ -13,7 +13,7 @@ enum class Kind { task, message, output, wait };
 
 std::string_view nameOf(Kind kind);
 
-/// Starts recording spans; before that, a span costs one test of a flag.
+/// Starts recording spans. Until then, a span costs one test of a flag.
 void start();
 bool isOn();
 
@@ -21,7 +21,7 @@ bool isOn();
 /// is none.
 void record(Kind kind, std::string_view name, int patch, Clock::time_point from, Clock::time_point to);
 
-/// Records a span as long as its own lifetime. Spans of a thread are nested.
+/// Records the time from its construction to its destruction. The spans of a thread are nested.
 class Span {
  public:
   Span(Kind kind, std::string_view name, int patch = -1) : name_(name), kind_(kind), patch_(patch), on_(isOn()) {
@@ -46,7 +46,7 @@ class Span {
 /// thread but the first had nothing to do is a wait. Not while threads record.
 std::string events(int rank);
 
-/// A file in that format from the events of all ranks.
+/// Makes a file in this format from the events of all ranks.
 std::string fileOf(const std::string& events);
 
 }  // namespace tushar::trace

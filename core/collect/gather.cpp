@@ -57,7 +57,7 @@ struct HashFree {
   void operator()(XXH64_state_t* state) const { XXH64_freeState(state); }
 };
 
-/// The hash of an array, which rank 0 receives piece by piece; 0 on the others.
+/// The hash of an array, which rank 0 receives piece by piece; 0 on the other ranks.
 XXH64_hash_t hashOf(const output::Array& array, XXH64_hash_t seed, const output::Writers& first) {
   const std::size_t bytes = output::entryBytes(array);
   const std::size_t piece = first.ranks().isAlone() ? 1 << 14 : std::max<std::size_t>(1, mostOfPiece(first) / bytes);

@@ -16,13 +16,13 @@ namespace tushar::collect {
 /// of several levels, the cells of each level between two planes of its nodes, and no nodes.
 struct Layer {
   int axis = 0, cell = 0, node = 0;
-  std::vector<int> finer{};  ///< cells of levels 1, 2, …
+  std::vector<int> finer{};  ///< index of the layer among the cells of levels 1, 2, …
 };
 
 /// A box of cells and a box of nodes; on a grid of several levels, a box of the cells of each level, and no nodes.
 struct Window {
   grid::Box cells, nodes;
-  std::vector<grid::Box> finer{};  ///< cells of levels 1, 2, …
+  std::vector<grid::Box> finer{};  ///< box of cells on levels 1, 2, …
 };
 
 /// Variables over the whole grid, in an order that does not depend on the layout: particles by id, nodes and cells with
@@ -31,28 +31,28 @@ class Gather {
  public:
   explicit Gather(data::Warehouse& warehouse) : warehouse_(&warehouse) {}
 
-  /// The values of a variable of a generation, copied; none if the variable has none. For one rank on its own.
+  /// Returns a copy of the values of a variable; empty if it has none. Only for a run on one rank.
   output::Array array(data::Generation generation, int variable);
-  /// The values of a variable without a copy: those of each rank stay in place, and are valid until the state changes.
+  /// Gives access to the values of a variable without copying them; valid until the state changes.
   /// None if no rank has any.
   output::Array stream(data::Generation generation, int variable);
-  /// The same in a given order.
+  /// Like the function above, in a given order.
   output::Array stream(data::Generation generation, int variable, const GridOrder& order);
-  /// The values of a variable of cells or nodes in a layer, without a copy; no other part is read.
+  /// Gives access to the values of a cell or node variable in a layer, without copying; no other part is read.
   output::Array stream(data::Generation generation, int variable, const Layer& layer);
-  /// The values in a window, without a copy.
+  /// Gives access to the values in a window, without copying.
   output::Array stream(data::Generation generation, int variable, const Window& window);
 
  private:
   using Places = std::shared_ptr<const ParticlePlaces>;
 
-  /// Where the particles of a material are, by id.
+  /// The memory locations of the particles of a material, sorted by id.
   const Places& placesOf(int material);
   void streamParticles(data::Generation generation, int number, output::Array& array);
   void streamGrid(data::Generation generation, int number, const GridOrder& order, output::Array& array);
 
   data::Warehouse* warehouse_;
-  std::map<int, Places> places_;  ///< by material
+  std::map<int, Places> places_;  ///< index: material
 };
 
 /// The geometry of the grid, in the form for the archive.

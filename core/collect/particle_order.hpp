@@ -25,27 +25,27 @@ class ParticleOrder {
     std::size_t first, count;
     std::int32_t* to;
   };
-  /// Gets the number of particles in each cell from `read`, which is called once. Collective.
+  /// Obtains the number of particles in each cell from `read`, which is called once. Collective.
   ParticleOrder(data::Warehouse& warehouse, int material, const std::function<void(const std::vector<Wanted>&)>& read);
 
-  /// Number of particles of all ranks.
+  /// Number of particles on all ranks.
   std::size_t count() const { return count_; }
-  /// The number of particles in each cell of the grid, in the order of the cells; valid as long as this object exists.
+  /// The number of particles in each cell of the grid, in cell order; valid as long as this object exists.
   std::shared_ptr<const output::Source> perCell() const;
-  /// Assigns its particles to each patch, without their values.
+  /// Gives each patch its particles, without their values.
   void install();
-  /// The rows of cells with particles in the patches of this rank.
+  /// The rows with particles in the patches of this rank.
   Runs runs() const;
 
  private:
-  /// Cells of a row that are consecutive in the order.
+  /// Cells of a row that are consecutive in the cell order.
   struct Row {
-    std::size_t place;    ///< place of the first cell in the order of the cells
-    std::uint64_t start;  ///< place of its first particle in the order of the particles
+    std::size_t place;    ///< position of the first cell in the cell order
+    std::uint64_t start;  ///< position of the row's first particle in the particle order
     std::uint32_t particles, cells;
     std::uint32_t patch;  ///< index of the patch on this rank
-    std::uint32_t from;   ///< place of the first cell among the counts of the patch
-    Index3 first;         ///< cell
+    std::uint32_t from;   ///< position of the first cell in the patch's list of counts
+    Index3 first;         ///< index of the first cell
   };
 
   void findRows();
@@ -54,8 +54,9 @@ class ParticleOrder {
   data::Warehouse* warehouse_;
   int material_;
   GridOrder order_;
-  std::vector<Row> rows_;                          ///< patch by patch, row by row, from left to right
-  std::vector<std::vector<std::int32_t>> counts_;  ///< by patch: particles in each cell, in the order of the rows
+  std::vector<Row> rows_;  ///< sorted by patch, then by row, then from left to right
+  /// For each patch, the number of particles in each cell, in the order of the rows.
+  std::vector<std::vector<std::int32_t>> counts_;
   std::size_t count_ = 0;
 };
 

@@ -12,7 +12,7 @@
 
 namespace tushar::collect {
 
-/// The variables of a state: those with these names, without a material and for each of these materials.
+/// The names of the variables of a state: those that belong to no material, and those of each of these materials.
 struct StateNames {
   std::vector<std::string> labels, materials;
 };
@@ -27,9 +27,9 @@ struct StateNames {
 ///     /reductions/<label>              the reducer's bytes, eight to a number
 class StoredState {
  public:
-  /// Collective.
+  /// Collective over all ranks.
   StoredState(data::Warehouse& warehouse, const StateNames& names);
-  /// For output::writeTogether.
+  /// The datasets for output::writeTogether.
   const std::vector<output::Dataset>& datasets() const { return datasets_; }
 
  private:

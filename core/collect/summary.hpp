@@ -8,7 +8,7 @@ namespace tushar::collect {
 /// The scope of a summary: the whole grid, or each plane of cells or nodes across a kernel axis of a grid of one
 /// level.
 struct SummaryOver {
-  int axis = -1;  ///< -1: the whole grid
+  int axis = -1;  ///< kernel axis across which planes are summarised; -1 for the whole grid
 };
 
 /// Minimum, maximum and sum of each component: over all cells or nodes, or for each plane. Sums over several levels

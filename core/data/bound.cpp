@@ -10,8 +10,8 @@ namespace {
 
 /// A summary of many numbers, for checking them at once.
 struct Look {
-  double least;  ///< smallest of those that are not NaN, or 1; computed only if it is needed
-  double sum;    ///< not finite if one number is not, or if the sum overflows
+  double least;  ///< the smallest number that is not NaN, at most 1; computed only if it is needed
+  double sum;    ///< sum of the numbers: not finite if any of them is not finite, or if it overflows
 };
 
 /// Summarises numbers in independent lanes, for vector instructions, which are then merged pairwise.
@@ -39,7 +39,7 @@ Look lookAt(const double* values, std::size_t count) {
   return {least[0], sum[0]};
 }
 
-/// Whether the numbers certainly satisfy a bound: if their sum is finite, they are finite.
+/// Whether the numbers are sure to satisfy a bound; false if this cannot be decided from the sum and the minimum.
 bool surelyHolds(Bound bound, const double* values, std::size_t count) {
   if (bound == Bound::finite) return std::isfinite(lookAt<false>(values, count).sum);
   const Look look = lookAt<true>(values, count);

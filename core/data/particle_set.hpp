@@ -32,11 +32,11 @@ struct ParticleRange {
   Iterator end() const { return {last}; }
 };
 
-/// Consecutive ghosts of a patch that are copies of particles: of another rank, or of a periodic image.
+/// Consecutive ghosts of a patch that are copies of particles, from another rank or from a periodic image.
 struct GhostRun {
-  int patch, first, count;  ///< where the copied particles are
-  Index3 shift;             ///< shift in cells of their periodic image; zero on the grid itself
-  int to;                   ///< place of the first copy, counted from the first particle of the patch
+  int patch, first, count;  ///< patch of the original particles, index of the first one, and their number
+  Index3 shift;             ///< shift of the periodic image [cells]; zero for particles on the grid itself
+  int to;                   ///< index of the first copy, counted from the first particle of the patch
 };
 
 /// The particles of one material on a patch, cell by cell.
@@ -48,17 +48,17 @@ struct GhostRun {
 /// not depend on who owns what.
 class ParticleSet {
  public:
-  /// An empty set over a patch and the cells of the grid within `reach` of it.
+  /// Makes the set empty, for a patch and the cells of the grid within `reach` of it.
   void reset(const grid::Patch& patch, int reach);
 
   int owned() const { return owned_; }
-  /// Whether there is a particle at this place that the patch owns or reads.
+  /// Whether there is a particle with this index that the patch owns or may read.
   bool covers(int place) const {
     return (place >= 0 && place < owned_) || (place >= ghosts_.first && place < ghosts_.last);
   }
   bool hasNone() const { return owned_ == 0 && ghosts_.empty(); }
   const grid::Box& ownedCells() const { return owned_cells_; }
-  /// The patch's cells and those within reach of it.
+  /// The cells of the patch and the cells within reach of it.
   const grid::Box& cells() const { return cells_; }
 
   template <int D>
@@ -83,13 +83,13 @@ class ParticleSet {
     });
   }
 
-  /// Coordinates of cells along the first axis, from `first` up to but excluding `last`.
+  /// A range of cells along the first axis, from `first` up to but excluding `last`.
   struct Span {
     int first, last;
 
     bool empty() const { return first >= last; }
   };
-  /// The part of the row from `cell` to `end` outside which no cell contains particles.
+  /// The smallest part of the row from `cell` to `end` that contains all cells with particles.
   template <int D>
   Span occupied(const Index<D>& cell, int end) const {
     const Span span = spans_[rowOf(cell)];
@@ -101,25 +101,26 @@ class ParticleSet {
   /// the first `dimension` axes. They are found on first use, which must not be by several threads at once.
   const TouchedRows& touched(int ghost, int dimension) const;
 
-  /// The ranges of consecutive cells along the first axis, from `cell` on.
+  /// The particle ranges of consecutive cells along the first axis, starting at `cell`.
   ParticleRange* row(const Index3& cell) { return &ranges_[offset(cell)]; }
   const ParticleRange* row(const Index3& cell) const { return &ranges_[offset(cell)]; }
 
-  /// Marks the particles of all cells of the patch as complete, `count` in total.
+  /// Declares that the particles of all cells of the patch have been added, `count` in total.
   void setOwned(int count);
-  /// Marks the particles of the cells of the patch in the row starting with `first` as complete.
+  /// Declares that all particles of the patch in the row starting at `first` have been added.
   void closeRow(const Index3& first);
   /// Like setOwned, after closeRow has been called for every row that has particles.
   void setOwnedOfClosedRows(int count) { owned_ = count; }
 
-  /// Declares the particles of another set in `box` as ghosts; that set begins `offset` places after this one.
+  /// Declares the particles of another set in `box` as ghosts; that set begins `offset` positions after this one.
   void addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset);
-  /// Declares copies, from place `to` on, as the ghosts of a cell: of the particles `there` in cell - shift on `patch`.
+  /// Declares copies as the ghosts of a cell, starting at index `to`: of the particles `there` in cell - shift on
+  /// `patch`.
   void addCopies(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift, int to);
   const std::vector<GhostRun>& ghostRuns() const { return ghost_runs_; }
   bool hasGhosts() const { return has_ghosts_; }
   void markGhosts() { has_ghosts_ = true; }
-  /// Marks the ghosts as out of date, because their patches have other particles now.
+  /// Marks the ghosts as out of date, because the particles of their patches have changed.
   void forgetGhosts();
 
  private:
@@ -140,19 +141,21 @@ class ParticleSet {
 
   /// Removes the particles of the cells of a row, except those in `kept`.
   void empty(std::size_t row, const Span& kept);
-  /// Notes ghosts from `first` up to `last` in a row of cells.
+  /// Extends a row of cells by ghosts from `first` up to `last`.
   void widen(std::size_t row, const Span& cells, const ParticleRange& places);
 
   grid::Box owned_cells_, cells_;
   Index3 stride_{};
   std::vector<ParticleRange> ranges_;
-  std::vector<Span> spans_;  ///< for each row along the first axis, the part outside which no cell contains particles
-  std::vector<Span> own_spans_;  ///< the same for the patch's own particles
+  /// For each row along the first axis, the smallest part that contains all cells with particles.
+  std::vector<Span> spans_;
+  std::vector<Span> own_spans_;  ///< the same, for the patch's own particles only
   std::vector<GhostRun> ghost_runs_;
-  ParticleRange ghosts_;  ///< from the first place of a ghost to the end of the last
+  ParticleRange ghosts_;  ///< range from the first ghost to the end of the last one
   int owned_ = 0;
   bool has_ghosts_ = false;
-  mutable std::map<int, TouchedRows> touched_;  ///< by distance beyond the cells, up to the largest that was requested
+  /// Touched rows for each number of ghost layers, up to the largest that was requested.
+  mutable std::map<int, TouchedRows> touched_;
 };
 
 }  // namespace tushar::data

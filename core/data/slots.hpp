@@ -16,7 +16,7 @@ struct Label;
 /// Layouts do not change: variables with the same layout share one, and where particles need other slots there is a new
 /// one.
 struct Slots {
-  std::vector<std::size_t> first;  ///< by index of the patch on its rank
+  std::vector<std::size_t> first;  ///< start of each slot, indexed by the patch on its rank
   std::vector<std::size_t> room;   ///< for particles: capacity of each slot
   std::vector<grid::Box> stored;   ///< for nodes and cells: the box in each slot, including ghosts
   std::size_t end = 0;             ///< end of the last slot

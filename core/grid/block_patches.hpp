@@ -15,7 +15,7 @@ struct PatchBox {
   friend bool operator==(const PatchBox&, const PatchBox&) = default;
 };
 
-/// The cells of a block, as indices of its level. `blockCells`: cells of a block along the kernel axes. Axes beyond the
+/// The cells of a block, as indices on its level. `blockCells`: cells of a block along the kernel axes. Axes beyond the
 /// dimension hold the single index 0.
 Box cellsOf(const BlockId& block, const Index3& blockCells, int dimension);
 

@@ -12,12 +12,12 @@ namespace tushar::grid {
 
 namespace {
 
-constexpr int mostPlaceBits = 20;  ///< bits of the coordinate of a block of the finest level along an axis
+constexpr int mostPlaceBits = 20;  ///< number of bits of a block's coordinate on the finest level
 constexpr int keyLevelBits = 4;
 constexpr int mostTreeLevels = 1 << keyLevelBits;
 constexpr std::uint64_t keyLevelMask = mostTreeLevels - 1;
 
-/// The lowest 21 bits, each followed by two bits of 0.
+/// Spreads the lowest 21 bits, so that each is followed by two zero bits.
 constexpr std::uint64_t spreadBits(std::uint64_t bits) {
   bits &= 0x1fffff;
   bits = (bits | bits << 32) & 0x001f00000000ffff;
@@ -27,7 +27,7 @@ constexpr std::uint64_t spreadBits(std::uint64_t bits) {
   return (bits | bits << 2) & 0x1249249249249249;
 }
 
-/// Every third bit, from the lowest on.
+/// Extracts every third bit, starting with the lowest: the inverse of spreadBits.
 constexpr int gatherBits(std::uint64_t bits) {
   bits &= 0x1249249249249249;
   bits = (bits | bits >> 2) & 0x10c30c30c30c30c3;
@@ -41,7 +41,7 @@ BlockId parentOf(const BlockId& block) {
   return {block.level - 1, {{block.at[0] >> 1, block.at[1] >> 1, block.at[2] >> 1}}};
 }
 
-/// Calls `visit(offset)` for 0 and 1 along each of the first `dimension` axes, along the curve.
+/// Calls `visit(offset)` for all offsets 0 or 1 along each of the first `dimension` axes, in the order of the curve.
 template <class Visit>
 void forEachCorner(int dimension, Visit&& visit) {
   for (int corner = 0; corner < 1 << dimension; ++corner) visit(Index3{{corner & 1, corner >> 1 & 1, corner >> 2 & 1}});

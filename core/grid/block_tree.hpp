@@ -9,7 +9,7 @@
 
 namespace tushar::grid {
 
-/// A block of cells: its level, 0 the coarsest, and its index among the blocks of this level along the kernel axes.
+/// A block of cells: its level (0: coarsest) and its index among the blocks of this level along the kernel axes.
 struct BlockId {
   int level = 0;
   Index3 at{};
@@ -33,20 +33,20 @@ class BlockTree {
   int dimension() const { return dimension_; }
   int levels() const { return levels_; }
   const Index3& roots() const { return roots_; }
-  /// Number of blocks of a level along the kernel axes: that of roots times 2^level.
+  /// Number of blocks of a level along each kernel axis, if all were refined: the number of roots times 2^level.
   Index3 blocksOf(int level) const;
 
-  /// Depth first along Morton's curve through all levels (G. M. Morton, A Computer Oriented Geodetic Data Base and a
-  /// New Technique in File Sequencing, IBM 1966).
+  /// The leaves, depth first along Morton's curve through all levels (G. M. Morton, A Computer Oriented Geodetic Data
+  /// Base and a New Technique in File Sequencing, IBM 1966).
   const std::vector<BlockId>& leaves() const { return leaves_; }
-  /// The level of the leaf at a block's place: that of the block, a coarser one, or block.level + 1 if the block is
+  /// The level of the leaf at the place of a block: the block's own, a coarser one, or block.level + 1 if the block is
   /// refined. Along periodic axes, images count; outside the grid along other axes: -1.
   int levelAt(const BlockId& block) const;
-  /// Place of a leaf on the curve, from 0; the block must be a leaf, not a periodic image.
+  /// Position of a leaf on the curve, from 0; the block must be a leaf, not a periodic image.
   int placeOf(const BlockId& leaf) const;
-  /// The same for any block of the grid; -1 if it is not a leaf.
+  /// Position of any block of the grid on the curve; -1 if it is not a leaf.
   int placeIfLeaf(const BlockId& block) const;
-  /// Whether a block is refined. Along periodic axes, images count.
+  /// Whether a block is refined. A periodic image is refined if its original is.
   bool isRefined(const BlockId& block) const { return levelAt(block) > block.level; }
 
   /// The tree in which only these blocks are refined: all of `wanted`, those of `kept` that are refined now, and those
@@ -73,17 +73,17 @@ class BlockTree {
 
   std::uint64_t keyOf(const BlockId& block) const;
   BlockId blockOf(std::uint64_t key) const;
-  /// The block itself, or the one of which it is a periodic image; none outside the grid.
+  /// The block itself, or the block of which it is a periodic image; none outside the grid.
   std::optional<BlockId> inside(const BlockId& block) const;
-  /// The smallest tree in which these blocks of each level are refined.
+  /// The smallest valid tree in which these blocks of each level are refined.
   BlockTree withRefined(std::vector<Keys> refined) const;
-  /// Blocks one level coarser that must be refined, so that all blocks around a refined one exist.
+  /// Adds the blocks one level coarser that must be refined so that all neighbours of a refined block exist.
   void addRefinedAround(const BlockId& block, Keys& coarser) const;
   void setLeaves(const std::vector<Keys>& refined);
 
   int dimension_;
   Index3 roots_;
-  Index3 periodic_{};  ///< 0 or 1
+  Index3 periodic_{};  ///< for each kernel axis: 1 if periodic, otherwise 0
   int levels_;
   Keys keys_;  ///< keys of the leaves, sorted
   std::vector<BlockId> leaves_;

@@ -16,7 +16,7 @@ namespace tushar::grid {
 /// steps as the number of blocks has bits.
 class MortonCurve {
  public:
-  /// `cuts[d]`: the first cell of each block along axis d, then the end.
+  /// `cuts[d]`: the first cell of each block along axis d, followed by the end of the last block.
   using Cuts = std::array<std::vector<int>, 3>;
   explicit MortonCurve(Cuts cuts);
 
@@ -28,22 +28,22 @@ class MortonCurve {
   Index3 blockAt(int place) const;
   /// The cells of a block.
   Box cellsAt(const Index3& block) const;
-  /// Number of cells of all blocks before a position.
+  /// Number of cells in all blocks before a position on the curve.
   std::uint64_t cellsBefore(int place) const;
-  /// The first position before which there are at least `cells` cells.
+  /// The first position on the curve before which there are at least `cells` cells.
   int placeAfter(std::uint64_t cells) const;
   /// The block along an axis that contains a cell.
   int blockAlong(int axis, int cell) const;
 
  private:
   std::uint64_t cellsOf(const Box& blocks) const;
-  /// Halves the grid down to one block, and returns it; `isUpper(lower half, axis)` chooses the half.
+  /// Halves the grid repeatedly down to one block, which it returns; `isUpper(lower half, axis)` chooses the half.
   template <class IsUpper>
   Index3 descend(IsUpper&& isUpper) const;
 
   Cuts cuts_;
-  Box all_;       ///< all blocks
-  int bits_ = 0;  ///< bits of the largest index of a block along an axis
+  Box all_;       ///< box of all blocks
+  int bits_ = 0;  ///< number of bits of the largest block index along an axis
 };
 
 }  // namespace tushar::grid

@@ -23,7 +23,7 @@ int Partition::ownerOf(int patch) const {
   return static_cast<int>((twiceMiddle(patch) * static_cast<std::uint64_t>(ranks_) - 1) / (2 * tiling_->cells()));
 }
 
-/// Twice the number of cells before the middle of a patch.
+/// Twice the number of cells before the middle of a patch (twice, so that the number is an integer).
 std::uint64_t Partition::twiceMiddle(int patch) const {
   return tiling_->cellsBefore(patch) + tiling_->cellsBefore(patch + 1);
 }

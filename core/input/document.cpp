@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* rootName = "Uintah_specification";
 
-/// Builds one tree from parsed files and those that they include.
+/// Builds one tree from parsed files and the files that they include.
 class TreeBuilder {
  public:
   explicit TreeBuilder(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -47,7 +47,7 @@ class TreeBuilder {
 /// The path of a file that is named in a tag.
 struct FoundFile {
   std::string path;
-  bool hasMoved = false;  ///< whether it was found elsewhere
+  bool hasMoved = false;  ///< whether the file was found elsewhere than its path says
 };
 
 bool isFile(const std::filesystem::path& path) {
@@ -55,7 +55,7 @@ bool isFile(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, unreadable);
 }
 
-/// Whether there is a pair of files of this name, as for a surface of triangles: NAME.pts and NAME.tri.
+/// Whether there is a pair of files NAME.pts and NAME.tri, which describe a surface of triangles.
 bool isPair(const std::filesystem::path& path) {
   return isFile(path.string() + ".pts") && isFile(path.string() + ".tri");
 }

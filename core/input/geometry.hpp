@@ -11,7 +11,7 @@
 
 namespace tushar::input {
 
-/// The names of tags that are shapes, for Schema::custom: `.custom("shape", …, geometryNames(), …)`.
+/// The names of all tags that are shapes, for Schema::custom: `.custom("shape", …, geometryNames(), …)`.
 std::vector<std::string> geometryNames();
 /// The allowed content of these tags, for Schema::forms.
 std::vector<TagForm> geometryForms();
@@ -23,7 +23,7 @@ std::vector<TagForm> geometryForms();
 /// the root), by an empty tag of the same kind with that label.
 PiecePtr readGeometry(const Element& parent, Diagnostics& diagnostics);
 
-/// One shape. Null, with an error in the diagnostics, if it is unknown or wrong.
+/// Reads one shape. Returns null, with an error in the diagnostics, if the shape is unknown or invalid.
 PiecePtr readShape(const Element& shape, Diagnostics& diagnostics);
 
 /// Prints the manual of all shapes, indented by `indent` blanks.

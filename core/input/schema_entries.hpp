@@ -24,8 +24,8 @@ namespace tushar::input {
 template <class E>
 using Choices = std::vector<std::pair<std::string, E>>;
 
-/// The address of a member in an object whose type is erased: an M, which is a T, an optional T or a list of T. Does
-/// what std::function would, except for each structure the compiler makes one function in place of five.
+/// The address of a member in an object whose type is erased; M is T, an optional T or a list of T. Does what
+/// std::function would, except for each structure the compiler makes one function in place of five.
 template <class M>
 class Reach {
  public:
@@ -44,7 +44,7 @@ class Reach {
     return &(static_cast<S*>(object)->*member);
   }
 
-  std::byte member_[sizeof(std::ptrdiff_t)];  ///< an M S::*
+  std::byte member_[sizeof(std::ptrdiff_t)];  ///< the member pointer, an M S::*
   M* (*address_)(const std::byte*, void*);
 };
 
@@ -64,8 +64,8 @@ void storeIn(std::vector<T>& member, T value) {
 /// A constraint on a T.
 template <class T>
 struct Limit {
-  std::string allowed;  ///< `greater than 0`
-  /// Why a value, given as `text`, violates the constraint; empty if it does not.
+  std::string allowed;  ///< the constraint in words, such as `greater than 0`
+  /// Returns why a value, given as `text`, violates the constraint; empty if it does not.
   std::function<std::string(const T& value, const std::string& text, const std::string& unit)> problem;
 };
 template <class T>

@@ -44,7 +44,7 @@ Parsed<Expression> parse<Expression>(std::string_view text);
 template <>
 Parsed<VectorExpression> parse<VectorExpression>(std::string_view text);
 
-/// The manual's name for values of type T.
+/// The name of type T in the manual.
 template <class T>
 inline constexpr std::string_view typeName = "value";
 template <>

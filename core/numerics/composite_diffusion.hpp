@@ -23,7 +23,7 @@ namespace tushar::numerics {
 template <int D>
 class CompositeDiffusion {
  public:
-  /// `k` is a formula in space, and greater than 0; grid and formula must outlive it.
+  /// `k` is a formula in space and must be greater than 0; grid and formula must outlive this object.
   CompositeDiffusion(const grid::Grid& grid, const input::Expression& k, const grid::BoundaryLabel<double>& phi)
       : grid_(grid), leaves_(grid) {
     for (int level = 0; level < grid.levels(); ++level) ofLevels_.emplace_back(grid.level(level), k, phi);
@@ -53,7 +53,7 @@ class CompositeDiffusion {
  private:
   const Diffusion<D>& on(int level) const { return ofLevels_[level]; }
 
-  /// Calls `visit` for the finer cells in a cell that touch its face to the previous cell.
+  /// Calls `visit` for the finer cells inside a cell that touch its face to the previous cell.
   template <class Visit>
   static void forEachFiner(const Index<D>& next, int d, int side, Visit&& visit) {
     for (int k = 0; k < (1 << D); ++k) {
@@ -63,7 +63,7 @@ class CompositeDiffusion {
     }
   }
 
-  /// Adds `factor` times the flux A F from a cell into a coarser one.
+  /// Adds `factor` times the flux A F from a cell into a coarser cell.
   void addRim(int level, const Index<D>& fine, int d, int side, double factor, Balance<D>& balance) const {
     const Diffusion<D>& diffusion = on(level);
     const grid::Level& here = grid_.level(level);
@@ -94,7 +94,7 @@ class CompositeDiffusion {
 
   const grid::Grid& grid_;
   LeafCells<D> leaves_;
-  std::deque<Diffusion<D>> ofLevels_;  ///< the coarsest first
+  std::deque<Diffusion<D>> ofLevels_;  ///< stencil of each level, the coarsest first
 };
 
 }  // namespace tushar::numerics

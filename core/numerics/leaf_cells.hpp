@@ -6,14 +6,14 @@
 
 namespace tushar::numerics {
 
-/// Which cells of a grid of several levels exist: those that are neither refined nor part of coarser ones.
+/// Determines which cells of a grid of several levels exist: those that are neither refined nor part of coarser cells.
 template <int D>
 class LeafCells {
  public:
-  /// The grid must outlive it.
+  /// The grid must outlive this object.
   explicit LeafCells(const grid::Grid& grid) : grid_(&grid) {}
 
-  /// The level of the leaves at a cell of any level: that of the cell, a coarser one, or the next finer one. Images
+  /// The level of the leaves at the place of a cell: the cell's own level, a coarser one, or the next finer one. Images
   /// along periodic axes count; outside the grid: -1.
   int levelAt(int level, const Index<D>& cell) const { return grid_->tree().levelAt(blockOf(level, cell)); }
   bool isThere(int level, const Index<D>& cell) const { return levelAt(level, cell) == level; }
@@ -40,7 +40,7 @@ class FaceInterpolation {
  public:
   explicit FaceInterpolation(const LeafCells<D>& leaves) : leaves_(leaves) {}
 
-  /// Calls `visit(cell, weight)` for each term of the value at the centre of `cell` plus `shift` widths; the shift
+  /// Calls `visit(cell, weight)` for each term of the value at the centre of `cell` plus `shift` cell widths; the shift
   /// along the axis `normal` is ignored.
   template <class Visit>
   void forEachTerm(int level, const Index<D>& cell, int normal, const std::array<double, D>& shift,
@@ -53,7 +53,7 @@ class FaceInterpolation {
   }
 
  private:
-  /// Visits the neighbours along an axis; returns the addition to the cell's own weight.
+  /// Visits the neighbours along an axis; returns the amount to be added to the cell's own weight.
   template <class Visit>
   double addAlong(int level, const Index<D>& cell, int d, double s, Visit&& visit) const {
     const Index<D> one = Index<D>::unit(d);
@@ -74,8 +74,8 @@ class FaceInterpolation {
     visit(cell + inwards * 2, u * (u - 1) / 2);
     return (u - 1) * (u - 2) / 2 - 1;
   }
-  /// Visits the cells of s_a s_b times the mixed difference, which is the mean over those corners of the cell whose
-  /// other cells exist.
+  /// Visits the cells in the term s_a s_b times the mixed difference, which is the mean over those corners of the cell
+  /// whose other cells exist.
   template <class Visit>
   double addMixed(int level, const Index<D>& cell, int a, int b, const std::array<double, D>& shift,
                   Visit&& visit) const {

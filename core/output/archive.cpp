@@ -46,9 +46,9 @@ struct Archive::State {
   ArchiveIndex index;
   XdmfIndex xdmf;
   GlobalFiles globals{folder};
-  Pace pace;  ///< pace of the lists
+  Pace pace;  ///< when to write the lists
   int last_step = -1;
-  Pace vtkhdf_pace;  ///< pace of the VTKHDF files, which take longer
+  Pace vtkhdf_pace;  ///< when to write the VTKHDF files, which takes longer
 };
 
 void Archive::State::writeLists() {
@@ -121,7 +121,7 @@ void Archive::flush() {
   if (state_->vtkhdf_pace.isBehind()) state_->writeVtkHdfFiles();
 }
 
-/// Does not write the lists: a run that continues from here uses the list of the checkpoint, and adds the later outputs
+/// Does not write the lists: a run that continues from here uses the list in the checkpoint, and adds the later outputs
 /// again.
 ArchivePoint Archive::sync(int step, double time) {
   state_->globals.sync();

@@ -9,30 +9,30 @@
 
 namespace tushar::output {
 
-/// The storage of numbers in an archive.
+/// How numbers are stored in an archive.
 struct ArchiveOptions {
-  bool doubleAsFloat = false;  ///< keep 4 of the 8 bytes of each real number
+  bool doubleAsFloat = false;  ///< store each real number in 4 instead of 8 bytes
   int compression = 0;         ///< gzip level, 0 (none) to 9
-  std::string version{};       ///< version of the program that writes
+  std::string version{};       ///< version of the program that writes the archive
 };
 
-/// A global quantity at one time.
+/// The values of a global quantity at one time.
 struct GlobalSample {
   std::string name, unit, description;
-  double time = 0;  ///< s
+  double time = 0;  ///< time [s]
   std::vector<double> values;
 };
 
-/// The contents of an archive when a checkpoint was written.
+/// The extent of an archive at the time when a checkpoint was written.
 struct ArchivePoint {
   int step = 0;
-  double time = 0;    ///< s
+  double time = 0;    ///< time [s]
   std::string index;  ///< content of index.xml
 };
 
-/// The `.uda` folder of a run: the scene, an index, an HDF5 file per output, an XDMF file with which ParaView opens
-/// them, and a text file per global quantity. One process writes it, with other ranks that help with the
-/// outputs. Any function may throw FileError, which names the file
+/// The `.uda` folder of a run: the scene, an index, one HDF5 file per output, an XDMF file with which ParaView opens
+/// them, and a text file per global quantity. One process writes it, with other ranks that help with the outputs. Any
+/// function may throw FileError, which names the file
 /// and the system's reason.
 ///
 ///     sod.uda -> sod.uda.001      link to the newest run
@@ -49,36 +49,36 @@ struct ArchivePoint {
 class Archive {
  public:
   /// Makes the folder `filebase.NNN`, where NNN is one above the largest existing number, and points the link
-  /// `filebase` to it. FileError if `filebase` exists and is not a link, or if nothing can be written there.
+  /// `filebase` to it. Throws FileError if `filebase` exists and is not a link, or if nothing can be written there.
   Archive(const std::filesystem::path& filebase, const std::string& inputXml, const ArchiveOptions& options = {});
   /// Continues in the folder of another run from some point; later outputs and lines of `.dat` files are removed.
   /// `name` is that of the filebase. Where index.xml is damaged, the point's is taken; what the XDMF file lacks is read
   /// from the outputs.
   Archive(const std::filesystem::path& folder, const std::string& name, const ArchivePoint& from,
           const std::string& inputXml, const ArchiveOptions& options);
-  /// Flushes; errors are ignored, so call flush() first.
+  /// Flushes; errors are ignored, so call flush() first to detect them.
   ~Archive();
   Archive(const Archive&) = delete;
   Archive& operator=(const Archive&) = delete;
 
-  /// Writes an output. A step that is written again replaces what was there.
+  /// Writes an output. If the step has been written before, the old output is replaced.
   void write(const Snapshot& snapshot);
-  /// Lists an output that ranks have already written into the folder together.
+  /// Adds to the index an output that the ranks have already written into the folder together.
   void list(const Snapshot& snapshot);
   /// Adds a line to `<name>.dat`.
   void appendGlobal(const GlobalSample& sample);
-  /// Writes index.xml and the XDMF file if they have been out of date long enough. To be called after each step.
+  /// Writes index.xml and the XDMF file if they have been out of date for long enough. Call it after each step.
   void keepUp();
   /// Writes index.xml and the XDMF file if they are out of date.
   void flush();
-  /// Waits until the lines of globals are on the disk. Returns the extent of the archive then: kept in a checkpoint, it
-  /// replaces lists that are out of date, or that a power cut destroys. Outputs may go with it, except for those of the
-  /// last seconds only.
+  /// Waits until the lines of globals are on the disk. Returns the current extent of the archive: stored in a
+  /// checkpoint, it replaces lists that are out of date, or that a power cut destroys. Outputs may go with it, except
+  /// for those of the last seconds only.
   ArchivePoint sync(int step, double time);
 
   /// The folder of this run, such as `sod.uda.001`.
   const std::filesystem::path& folder() const;
-  /// The step of the last write(), -1 before the first.
+  /// The step of the last write(); -1 before the first one.
   int lastStep() const;
 
  private:

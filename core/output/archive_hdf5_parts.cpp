@@ -31,7 +31,8 @@ class OpenFile {
   const int descriptor;
 };
 
-constexpr std::size_t mostAtOnce = 256;  ///< number of parts; the limit of Linux is 1024
+/// Largest number of parts read by one system call; the limit of Linux is 1024.
+constexpr std::size_t mostAtOnce = 256;
 
 }  // namespace
 

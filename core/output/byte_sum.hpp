@@ -18,7 +18,7 @@ namespace tushar::output {
 /// Res. Dev. 31 (1987) 249-260).
 class ByteSum {
  public:
-  /// Adds the bytes of the file from a place on. Fastest where places ascend by equal steps.
+  /// Adds consecutive bytes of the file, starting at position `at`. Fastest if positions increase by equal steps.
   void add(std::uint64_t at, std::span<const std::byte> bytes);
   std::uint64_t value() const { return total_; }
 
@@ -27,19 +27,19 @@ class ByteSum {
   std::uint64_t power(std::uint64_t number);
 
   std::uint64_t total_ = 0;
-  std::uint64_t last_ = 0, last_power_ = 1;  ///< the power that was needed last
-  std::uint64_t step_ = 0, step_power_ = 1;  ///< step from the previous power
+  std::uint64_t last_ = 0, last_power_ = 1;  ///< exponent and value of the power that was needed last
+  std::uint64_t step_ = 0, step_power_ = 1;  ///< difference to the exponent before it, and the corresponding power
 };
 
-/// The share of one of several ranks in evenly distributed work.
+/// Identifies one of several ranks that share work evenly.
 struct ShareOf {
   int one = 0, several = 1;
 };
 
-/// The sum of one rank's share of the bytes in ranges of a file. FileError if they cannot be read.
+/// The checksum of one rank's share of the bytes in ranges of a file. Throws FileError if they cannot be read.
 std::uint64_t sumOfFile(const std::filesystem::path& file, std::span<const ByteRange> ranges, const ShareOf& share);
 
-/// The sums, over all ranks, of their numbers, modulo 2^61 - 1; on every rank. Collective.
+/// Adds up the numbers of all ranks, modulo 2^61 - 1; all ranks get the sums. Collective.
 std::vector<std::uint64_t> sumsOfRanks(const mpi::Communicator& ranks, std::span<const std::uint64_t> mine);
 
 }  // namespace tushar::output

@@ -72,7 +72,7 @@ void CheckpointStore::goBackTo(int step) const {
 
 void CheckpointStore::setLatest(int step) const { replaceFileOnDisk(folder_ / latestName, stepName(step) + "\n"); }
 
-/// Removes a checkpoint. Renames its folder first, so that a partly removed one is not taken for a checkpoint.
+/// Removes a checkpoint. Renames its folder first, so that a partly removed folder is not mistaken for a checkpoint.
 void CheckpointStore::remove(int step) const {
   moveInto(folder(step), temporaryOf(folder(step)));
   removeLeftovers();

@@ -10,7 +10,7 @@
 
 namespace tushar::output {
 
-/// The folder `checkpoints` of an archive. It does not depend on the contents of a checkpoint.
+/// The folder `checkpoints` of an archive. This class does not interpret the contents of a checkpoint.
 ///
 ///     sod.uda.001/checkpoints/LATEST     the name of the newest, `t00050`
 ///                             t00040/    the one before
@@ -21,7 +21,7 @@ namespace tushar::output {
 /// checkpoints before as they were.
 class CheckpointStore {
  public:
-  /// `cycle` is the number of checkpoints to keep, at least 1. Nothing is made before the first write().
+  /// `cycle` is the number of checkpoints to keep, at least 1. No folder is made before the first write().
   explicit CheckpointStore(const std::filesystem::path& archive, int cycle, const Writers& writers = {});
 
   /// Writes a checkpoint: `fill` writes its files to the given folder, and returns those parts of them that are checked
@@ -29,14 +29,15 @@ class CheckpointStore {
   /// the others, or what `fill` throws, which must throw on all ranks if on any; no trace of the checkpoint is left
   /// then.
   void write(int step, const std::function<std::vector<FilePart>(const std::filesystem::path& folder)>& fill) const;
-  /// Makes the checkpoint of a step the latest, and removes those after it.
+  /// Makes the checkpoint of a step the latest one, and removes all later checkpoints.
   void goBackTo(int step) const;
 
-  /// The folder of a step's checkpoint.
+  /// The folder of the checkpoint of a step.
   std::filesystem::path folder(int step) const;
   /// Steps of the existing checkpoints, intact or not, ascending.
   std::vector<int> steps() const;
-  /// The step in LATEST, or that of the last checkpoint if there is no LATEST; -1 if there is no checkpoint.
+  /// The step in the file LATEST, or the step of the last checkpoint if there is no such file; -1 if there is no
+  /// checkpoint.
   int latest() const;
 
  private:

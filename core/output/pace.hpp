@@ -5,11 +5,11 @@
 
 namespace tushar::output {
 
-/// Decides when to rewrite a list that can only be written as a whole. Writing takes longer the more it lists: so it
+/// Decides when to rewrite a list that can only be written as a whole. Writing takes longer the longer the list: so it
 /// waits for a second after the last time, and for 20 times as long as that has taken.
 class Pace {
  public:
-  /// Notes that there is a new entry; `urgent` if readers need it at once.
+  /// Records that there is a new entry; `urgent` if readers need it at once.
   void note(bool urgent) {
     behind_ = true;
     urgent_ = urgent_ || urgent;

@@ -19,7 +19,7 @@ class SharedFile {
 
   /// Writes bytes at an offset; `what` describes them in error messages.
   void write(std::uint64_t at, const std::byte* from, std::size_t count, const std::string& what);
-  /// Throws FileError if a write has failed, with `what`, the path and the system's reason.
+  /// Throws FileError with `what`, the path and the system's reason if a write has failed.
   void close();
 
  private:

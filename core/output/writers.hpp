@@ -6,17 +6,17 @@
 
 namespace tushar::output {
 
-/// Ranks that write files together, and the writers among them, which write the bytes. The first of these is rank 0.
+/// The ranks that write files together. Those among them that write the bytes are the writers; the first is rank 0.
 class Writers {
  public:
-  /// A single process.
+  /// A single process, which is the only writer.
   Writers() : Writers(mpi::Communicator::alone(), {0}) {}
-  /// The ranks with these numbers, ascending from 0. `ranks` must outlive it.
+  /// Writers with these rank indices, ascending from 0. `ranks` must outlive this object.
   Writers(const mpi::Communicator& ranks, std::vector<int> writers);
-  /// `count` evenly spread ranks, as given on rank 0; 0: one on each node. No more than there are. Collective.
+  /// Selects `count` evenly spaced ranks (as given on rank 0), at most all; 0: one rank on each node. Collective.
   static Writers spread(const mpi::Communicator& ranks, int count);
 
-  /// The ranks that pass `true`, and rank 0. Collective.
+  /// Only those ranks that pass `true`, and rank 0. Collective.
   Writers only(bool mine) const;
 
   const mpi::Communicator& ranks() const { return *ranks_; }

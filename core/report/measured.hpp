@@ -15,11 +15,11 @@ struct MeasuredError {
   std::vector<std::string> norms;
 };
 
-/// A part of an energy budget that an analysis module keeps: the total `label` (J).
+/// A term of an energy budget computed by an analysis module: the total `label` [J].
 struct EnergyTerm {
   enum class Side {
-    came,  ///< energy present at the start, or added since
-    went,  ///< energy present now, or lost
+    came,  ///< energy present at the start, or added since then
+    went,  ///< energy present now, or removed since the start
   };
   std::string name;
   const data::Label* label;

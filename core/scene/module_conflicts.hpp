@@ -13,7 +13,7 @@
 
 namespace tushar::scene {
 
-/// The quantities that earlier modules of the scene measure and compute.
+/// The quantities that earlier modules of the scene already measure and compute.
 struct TakenByModules {
   std::set<std::string> measured, computed;
 };

@@ -24,7 +24,8 @@ void describeSharedSections(std::ostream& out, const simulation::Catalogue& cata
 
 /// The `Time` section.
 simulation::TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnostics);
-/// Refuses an interval [s] at `element` that the times of a run could not resolve; `what` precedes the message.
+/// Refuses an interval [s] at `element` that is too short for the times of the run to resolve; `what` precedes the
+/// message.
 void checkInterval(double interval, const simulation::TimeSettings& time, const input::Element& element,
                    const std::string& what, input::Diagnostics& diagnostics);
 /// The `DataArchiver` section.
@@ -33,29 +34,29 @@ simulation::ArchiveSettings readArchive(const input::Element& section, input::Di
 struct AmrSettings {
   simulation::RegridSettings regrid;
   std::optional<int> maxLevels;               ///< number of levels, including the coarsest
-  std::optional<Index3> block;                ///< cells along x, y, z
-  int fewestCellsOfBlock = 4;                 ///< along an axis in use; even
+  std::optional<Index3> block;                ///< number of cells of a block along x, y, z
+  int fewestCellsOfBlock = 4;                 ///< smallest number of cells of a block along an axis in use; even
   std::optional<std::vector<Index3>> ratios;  ///< ratios of cell widths from level to level
-  std::optional<input::Element> tag;          ///< `AMR`, if given; for messages
-  std::optional<Location> smallerSteps;       ///< the tag by which finer levels take smaller steps
+  std::optional<input::Element> tag;          ///< the tag `AMR`, if given; used in messages
+  std::optional<Location> smallerSteps;       ///< the tag that makes finer levels take smaller steps
 };
-/// `kind`: the component of the scene; null if it is unknown.
+/// `kind` is the component of the scene; null if it is unknown.
 AmrSettings readAmr(const input::Element& section, const simulation::ComponentKind* kind,
                     input::Diagnostics& diagnostics);
-/// When and where to refine a component's grid: by its own criteria if the scene has none. Reports variables that the
-/// component lacks.
+/// Determines when and where to refine the grid of a component: by its own criteria if the scene has none. Reports
+/// variables that component lacks.
 simulation::RegridSettings settled(AmrSettings amr, const simulation::Component& component,
                                    input::Diagnostics& diagnostics);
-/// Removes node variables, which are not defined between levels, with a note.
+/// Removes node variables from the saved ones, with a note: they are not defined between levels.
 void dropSavedNodes(std::vector<simulation::SaveRequest>& saves, input::Diagnostics& diagnostics);
-/// The boundary conditions that a component supports.
+/// What a component supports as boundary conditions.
 struct SideWords {
   std::vector<grid::BoundaryVariable> labels = {};
   bool takesParts = false;     ///< whether parts of a side may have their own conditions
   bool takesFormulas = false;  ///< whether Dirichlet values may be formulas
   simulation::ConditionWords own = {};
 };
-/// The `Grid` section.
+/// Reads the `Grid` section.
 grid::Domain readGrid(const input::Element& section, const SideWords& words, const grid::Workers& workers,
                       const AmrSettings& amr, input::Diagnostics& diagnostics);
 
@@ -71,7 +72,7 @@ const input::SchemaBase& timeForm();
 const input::SchemaBase& archiveForm();
 const input::SchemaBase& amrForm(const simulation::ComponentKind& kind);
 const input::SchemaBase& gridForm(const simulation::ComponentKind& kind);
-/// The tag SimulationComponent; its `type` says which component.
+/// The schema of the tag SimulationComponent, whose `type` selects the component.
 const input::SchemaBase& componentForm();
 
 /// Uintah's sections that have no effect in Tushar, with the reasons.

@@ -9,14 +9,14 @@
 
 namespace tushar::scene {
 
-/// Largest number of cells that an int can number.
+/// Largest number of cells that can be indexed by an int.
 inline constexpr double mostCells = 2147483647.0;
 
 /// The tag `Box`.
 struct GridBox {
   std::string label;
-  Vec3 lower = Vec3::Zero(), upper = Vec3::Ones();  ///< m
-  std::optional<Index3> resolution;                 ///< cells along x, y, z
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Ones();  ///< lower and upper corner [m]
+  std::optional<Index3> resolution;                 ///< number of cells along x, y, z
   std::optional<Index3> patches;
   std::optional<int> autoPatch;
   Index3 extraCells{};
@@ -25,7 +25,7 @@ struct GridBox {
 /// The tag `Level`.
 struct LevelSection {
   std::vector<GridBox> boxes;
-  std::optional<Vec3> spacing;  ///< m
+  std::optional<Vec3> spacing;  ///< cell width [m]
   Index3 periodic{};
 };
 

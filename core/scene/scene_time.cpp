@@ -86,12 +86,12 @@ const Schema<SaveRequest>& saveSchema() {
   return schema;
 }
 
-/// Whether `one` requests all that `other` requests.
+/// Whether `one` requests everything that `other` requests.
 bool covers(const SaveRequest& one, const SaveRequest& other) {
   return one.label == other.label && (one.material.empty() || one.material == other.material);
 }
 
-/// Removes save requests that another one includes.
+/// Removes save requests that are included in another one.
 void takeOutRepeated(std::vector<SaveRequest>& saves, const std::vector<Element>& tags, Diagnostics& diagnostics) {
   if (saves.size() != tags.size()) return;
   std::vector<SaveRequest> kept;
@@ -148,7 +148,7 @@ const Schema<CheckpointSettings>& checkpointSchema() {
   return schema;
 }
 
-/// Reads the compression: a level, or a word of Uintah's.
+/// Reads the compression of the archive: a level, or one of Uintah's words.
 void readCompression(ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("compression");
   if (!given) return;
@@ -164,7 +164,7 @@ void readCompression(ArchiveSettings& archive, const Element& element, Diagnosti
     archive.compression = *level.value;
 }
 
-/// The name of the folder; of an absolute path, which some of Uintah's scenes contain, only the last part.
+/// The name of the folder; if an absolute path is given, as in some of Uintah's scenes, only its last part.
 std::string nameOf(const std::string& filebase) {
   return filebase.starts_with('/') ? std::filesystem::path(filebase).filename().string() : filebase;
 }

@@ -19,23 +19,23 @@ class Balance {
  public:
   explicit Balance(int ranks) : ranks_(ranks) {}
 
-  /// The cost of a patch at the start, in cells.
+  /// The estimated cost of a patch at the start, in units of the cost of a cell.
   static double costOf(std::size_t cells, int particles) {
     return static_cast<double>(cells) + particleCost * particles;
   }
 
-  /// Counts a step. Returns whether to measure the costs now.
+  /// Counts a step. Returns whether the costs are to be measured now.
   bool isDue() { return ranks_ > 1 && ++steps_ >= next_; }
   /// A new distribution if it pays off. According to `costs` (of each patch of the grid), the load of the busiest rank
   /// must fall by at least a tenth, and this must save more time than the change takes.
   std::optional<grid::RankOffsets> better(const std::vector<double>& costs, const grid::RankOffsets& now, int step);
-  /// Notes the duration of the change on the slowest rank [s].
+  /// Records how long the change took on the slowest rank [s].
   void noteChange(double seconds) { change_ = seconds; }
 
   const Rebalancing& report() const { return report_; }
 
  private:
-  static constexpr double particleCost = 1;  ///< cost of a particle, in cells
+  static constexpr double particleCost = 1;  ///< cost of a particle, in units of the cost of a cell
   static constexpr int soonest = 8, latest = 64;
 
   int ranks_;

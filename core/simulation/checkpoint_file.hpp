@@ -19,15 +19,15 @@ namespace tushar::simulation {
 //     /removed           particles that were removed; `dropped` has those that left the grid
 //     and the state: see core/collect/stored_state.hpp
 
-/// The location of a checkpoint file, and its content except the state.
+/// The location of a checkpoint file, and its content apart from the variables.
 struct CheckpointTarget {
   std::filesystem::path path;
   output::ArchivePoint point;  ///< extent of the archive; on rank 0 only
-  tasks::LostParticles lost;   ///< on all ranks
+  tasks::LostParticles lost;   ///< numbers of particles lost on all ranks
 };
 
-/// Writes the current state of a run; returns where its values are in the file. All ranks call it. Throws FileError on
-/// a rank that cannot write, and FailedElsewhere on the others.
+/// Writes the current state of a run; returns where its values are in the file. Collective. Throws FileError on a rank
+/// that cannot write, and FailedElsewhere on the others.
 std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTarget& target);
 
 /// Restores a run from the checkpoint named in its problem: the variables, step and time, dropped particles, and totals
@@ -35,8 +35,7 @@ std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTar
 /// whose values have changed since it was written. All ranks call it.
 void readCheckpoint(RunState& run);
 
-/// The extent of the archive when the checkpoint of a restarted run was written; to be called after the checkpoint was
-/// read.
+/// The extent of the archive when the checkpoint of a restarted run was written; call it after the checkpoint was read.
 output::ArchivePoint archivePointOf(const RunState& run);
 
 }  // namespace tushar::simulation

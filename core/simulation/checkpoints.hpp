@@ -18,21 +18,21 @@ class Checkpoints {
 
   /// Sets a function that is called on rank 0 with messages about damaged checkpoints.
   void setWarning(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
-  /// Reads the checkpoint from which the run continues; if it is damaged, the previous one. Throws InputError where
+  /// Reads the checkpoint from which the run continues or, if it is damaged, the previous one. Throws InputError where
   /// there is none, or for one that does not fit the scene.
   void resume();
   /// Writes a checkpoint at the start, if the scene has checkpoints.
   void writeFirst();
-  /// Writes a checkpoint at the end, if the scene has checkpoints, or the run has an archive and was cut short.
+  /// Writes a checkpoint at the end, if the scene has checkpoints, or if the run has an archive and was cut short.
   void writeLast();
   /// Whether a checkpoint is due after the last step.
   bool isDue() const;
-  /// Writes a checkpoint, unless this step has one.
+  /// Writes a checkpoint, unless one has been written for this step.
   void write();
 
-  /// Wall time spent writing, s.
+  /// Wall time spent writing [s].
   double seconds() const { return seconds_; }
-  /// The increase of this rank's peak memory by writing, bytes.
+  /// Increase of this rank's peak memory caused by writing [bytes].
   double memory() const { return memory_; }
 
  private:
@@ -41,8 +41,8 @@ class Checkpoints {
 
   RunState& run_;
   Outputs& outputs_;
-  std::optional<CheckpointControl> control_;  ///< empty if the scene has none
-  int last_ = -1;                             ///< step of the last checkpoint that was written or read
+  std::optional<CheckpointControl> control_;  ///< when checkpoints are due; empty if the scene has none
+  int last_ = -1;                             ///< step of the checkpoint that was last written or read
   double seconds_ = 0, memory_ = 0;
   std::function<void(const std::string&)> warn_;
 };

@@ -9,7 +9,7 @@
 
 namespace tushar::simulation {
 
-/// The problems of tasks on a grid of several levels, each with the task and its label; none on a single level:
+/// Problems of tasks on a grid of several levels, each with the name of the task and its label; none on a single level:
 /// - blocks that are too small for the ghosts that a task reads (see tasks::fewestCellsOfBlock);
 /// - ghost nodes, which have no values between levels; tasks of materials may read them near their particles, which are
 /// on the finest level and remain some cells away from coarser cells;

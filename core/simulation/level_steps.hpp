@@ -7,7 +7,7 @@
 
 namespace tushar::simulation {
 
-/// The steps of a run in which finer levels take smaller ones.
+/// Performs the steps of a run in which finer levels take smaller steps.
 ///
 /// A level makes its step from the old state, then the next finer level makes steps up to the end of it: two in
 /// general, one if that is stable there, three or more where signals have become faster meanwhile. Its ghosts in
@@ -24,31 +24,31 @@ class LevelSteps {
   /// The longest step of the coarsest level [s] for which two steps of each level per step of the next coarser one are
   /// stable, and the limit that determines it.
   data::Minimum stable();
-  /// Advances the old state of all levels by the step of the coarsest, `whole.delT`; the new state has stable steps. If
-  /// a task requests a smaller one, returns its factor and reason; then, and if a NumericalError comes out, the old
-  /// state is as it was.
+  /// Advances the old state of all levels by the step of the coarsest level, `whole.delT`; the new state has stable
+  /// steps. If a task requests a smaller one, returns its factor and reason; then, and if a NumericalError comes out,
+  /// the old state is as it was.
   std::optional<data::Minimum> advance(const tasks::StepInfo& whole);
 
-  /// Steps of each level in the last step of the coarsest; 0 for those that have no cells.
+  /// Number of steps of each level in the last step of the coarsest; 0 for levels without cells.
   const std::vector<int>& steps() const { return steps_; }
 
  private:
   /// Makes a step of a level, and the steps of finer levels within it.
   std::optional<data::Minimum> advanceLevel(const tasks::StepInfo& at);
   std::optional<data::Minimum> advanceFiner(const tasks::StepInfo& coarser);
-  /// Computes the stable step for the state of a level, unless it is known.
+  /// Computes the stable step for the state of a level, unless it is already known.
   std::optional<data::Minimum> findStable(const tasks::StepInfo& at);
   std::optional<data::Minimum> findStableOfAll(tasks::StepInfo at);
-  /// The longest step of a level [s] with the scene's multiplier. Throws NumericalError if it is far below the rest of
-  /// the coarser one.
+  /// The longest step of a level [s] with the scene's multiplier. Throws NumericalError if it is far shorter than the
+  /// rest of the coarser one.
   double longestStep(double rest, const tasks::StepInfo& next) const;
   int levelsWithCells() const;
   int number(const data::Label& label) { return run_.table.number(label, -1); }
 
   RunState& run_;
-  std::optional<grid::BlockTree> tree_;               ///< of the state that `stable_` is of
-  int levels_ = 1;                                    ///< that have cells
-  std::vector<std::optional<data::Minimum>> stable_;  ///< by level, s: for its current state, if known
+  std::optional<grid::BlockTree> tree_;               ///< tree of blocks for which `stable_` was computed
+  int levels_ = 1;                                    ///< number of levels that have cells
+  std::vector<std::optional<data::Minimum>> stable_;  ///< stable step of each level [s] for its current state, if known
   std::vector<int> steps_;
 };
 

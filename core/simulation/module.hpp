@@ -5,7 +5,7 @@
 
 namespace tushar::simulation {
 
-/// Why this program cannot load a module with this ABI; empty if it can.
+/// The reason why this program cannot load a module with this ABI; empty if it can.
 std::string misfitOf(const ModuleAbi& module);
 
 /// A catalogue of all modules of this program and of the user, each loaded when it is first needed. Those of the user

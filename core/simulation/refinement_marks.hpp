@@ -14,13 +14,14 @@ struct BoundCriterion {
   Criterion criterion;
   const data::Label* label;
   bool isDiagnosed;
-  std::vector<std::string> materials = {};  ///< the materials that have the variable; empty if it belongs to none
+  /// Names of the materials that have the variable; empty if it does not belong to materials.
+  std::vector<std::string> materials = {};
 };
 
-/// The materials for which tasks write a variable; empty if it belongs to none.
+/// The materials for which tasks write a variable; empty if it does not belong to materials.
 std::vector<std::string> materialsOf(const std::vector<tasks::Task>& tasks, const data::Label& label);
 
-/// The numbers of a cell's variable and those of its two neighbours along an axis; null if there is none.
+/// The values of a variable in a cell and in its two neighbours along an axis; null if there is no neighbour.
 struct Neighbours {
   const double *below, *middle, *above;
 };

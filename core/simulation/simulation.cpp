@@ -21,7 +21,7 @@ std::string hostName() {
   return name;
 }
 
-/// Settings, missing in the scene, that would keep particles in the finest cells.
+/// Advice naming the settings, missing in the scene, that would keep particles in the finest cells.
 std::string adviceNearCoarser(const RegridSettings& regrid) {
   if (!regrid.adaptive)
     return "<adaptive>true</adaptive> in <AMR>, so that the finest cells follow; or a larger <Level>";
@@ -29,7 +29,8 @@ std::string adviceNearCoarser(const RegridSettings& regrid) {
   return "a smaller <min_timestep_interval> in <AMR>, so that the finest cells follow in time";
 }
 
-/// Throws NumericalError, on all ranks, if so many particles were removed that the rest says little about the scene.
+/// Throws NumericalError, on all ranks, if so many particles were removed that the result no longer represents the
+/// scene.
 void refuseLosses(RunState& run) {
   constexpr double most = 0.01;
   const long removed = run.scheduler.relocation().lost().removed;
@@ -133,8 +134,8 @@ void Simulation::resume() {
   run_.setTimeOfAnalyses();  // what was due up to now, the run before has sampled
 }
 
-/// Initialises the state on successively finer cells, as far as it requires them: finer cells resolve more of the
-/// initial state.
+/// Initialises the state on successively finer cells, as far as the state requires them: finer cells resolve more of
+/// the initial state.
 void Simulation::initialize() {
   do {
     initializeOnce();

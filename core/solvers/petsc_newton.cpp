@@ -12,7 +12,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds(Clock::duration time) { return std::chrono::duration<double>(time).count(); }
 
-/// The context of PETSc's callbacks.
+/// The data that PETSc's callbacks need.
 struct Newton {
   NonlinearProblem& problem;
   const NewtonSettings& settings;
@@ -36,7 +36,7 @@ PetscErrorCode evaluateResidual(SNES, Vec u, Vec r, void* context) {
   });
 }
 
-/// Evaluates the tangent, and makes the preconditioner at once, so that its time can be measured.
+/// Evaluates the tangent, and sets up the preconditioner at once, so that its time can be measured.
 PetscErrorCode evaluateTangent(SNES snes, Vec, Mat, Mat, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
   return guarded(newton.thrown, [&] {

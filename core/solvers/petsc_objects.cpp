@@ -12,7 +12,7 @@ namespace tushar::solvers {
 
 namespace {
 
-/// The message of the error that PETSc is about to return.
+/// The message of the last error in PETSc.
 std::string& lastMessage() {
   static std::string message;
   return message;
@@ -37,7 +37,7 @@ class KeptTermination {
   struct sigaction before_ {};
 };
 
-/// The PETSc session, from the first solve to the end of the program.
+/// PETSc from the first solve to the end of the program.
 class Session {
  public:
   Session() {

@@ -23,7 +23,7 @@ inline void addTimes(const Outcome& outcome, data::Maximum& assembly, data::Maxi
   solve.add(outcome.solve);
 }
 
-/// The ratio of the final residual to the largest during the solve; 0 if there was none.
+/// The ratio of the final residual to the largest one during the solve; 0 if there was none.
 inline double remainderOf(const Outcome& outcome) {
   const double greatest =
       outcome.residuals.empty() ? 0 : *std::max_element(outcome.residuals.begin(), outcome.residuals.end());

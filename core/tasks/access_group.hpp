@@ -32,7 +32,7 @@ struct Blank<data::GridView<C, T>> {
   static data::GridView<C, T> make() { return {nullptr, grid::Box{}}; }
 };
 
-/// Declares the accesses of a group, in their order. `makesParticles`: for a task of `newParticles`.
+/// Declares the accesses of a group in order. `makesParticles`: for a task of `newParticles`.
 template <bool makesParticles>
 class DeclareEach {
  public:
@@ -53,7 +53,7 @@ class DeclareEach {
   std::vector<Access>* accesses_;
 };
 
-/// Returns the views of the same accesses, in the same order.
+/// Returns the views of the same accesses in the same order.
 class BindEach {
  public:
   BindEach(const TaskContext& context, int first) : context_(&context), next_(first) {}
@@ -87,11 +87,11 @@ class BindEach {
   int next_;
 };
 
-/// The argument that `all` makes.
+/// The argument made by the function `all`.
 template <class Group, class... Settings>
 struct GroupArgument {
   std::tuple<Settings...> settings;
-  int first = 0;  ///< index of its first access among those of the task
+  int first = 0;  ///< index of the group's first access among those of the task
 
   template <bool makesParticles>
   void declareFor(std::vector<Access>& accesses) {
@@ -107,11 +107,11 @@ struct GroupArgument {
 template <class Group, class... Settings>
 inline constexpr bool isOfMaterialAndPatch<GroupArgument<Group, Settings...>> = true;
 
-/// The argument that `totals` makes.
+/// The argument made by the function `totals`.
 template <class Group, class... Settings>
 struct TotalsArgument : GroupArgument<Group, Settings...> {};
 
-/// Accesses that the body gets as one `Group`: an aggregate of views whose `static Group from(auto& take, const
+/// Accesses that the body receives as one `Group`: an aggregate of views whose `static Group from(auto& take, const
 /// Settings&... settings)` gives each member its access by designated initialisers, `.mass =
 /// take(requiresOld(p::mass))`. For bodies that touch more than about eight variables. Groups nest: `.particles =
 /// Placed<Shape>::from(take, settings)`. A task that sees several materials or patches gets a std::vector<Group>. An
@@ -122,8 +122,8 @@ GroupArgument<Group, Settings...> all(Settings... settings) {
   return {{std::move(settings)...}};
 }
 
-/// Reducers that the body gets as one `Group` of references. Totals belong to no patch and no material: the body gets
-/// one group whichever of them its task sees.
+/// Reducers that the body receives as one `Group` of references. Totals belong to no patch and no material: the body
+/// gets one group whichever of them its task sees.
 template <class Group, class... Settings>
 TotalsArgument<Group, Settings...> totals(Settings... settings) {
   static_assert(!(std::is_base_of_v<data::Label, Settings> || ...), "pass a label to totals<Group>(...) by pointer");

@@ -56,7 +56,8 @@ void Exchange::begin(bool hasStopped) {
   fillFromHere();
 }
 
-/// Finds the nodes near particles. Runs before the exchange resolves ghosts, as the nodes were computed without these.
+/// Finds the nodes near particles. Runs before the exchange determines ghost particles, because the nodes were computed
+/// without these.
 void Exchange::settleNear() {
   for (const BoundGhostFill& fill : fills_)
     if (isNear(fill)) near_.settle(fill.set, warehouse_->table()[fill.variable].material);
@@ -97,7 +98,8 @@ void Exchange::forEach(const Work& work) {
   threads_->forEach(static_cast<int>(patches.size()), workOn, trace::Kind::message);
 }
 
-/// Fills ghosts from this rank. All patches resolve theirs at once; copies then get their places one after the other.
+/// Fills ghosts from this rank. All patches determine their ghost particles at once; copies then get their indices one
+/// after the other.
 void Exchange::fillFromHere() {
   for (std::size_t k = 0; k < fills_.size(); ++k)
     if (resolves_[k]) linkLocalGhosts(fills_[k]);
@@ -117,8 +119,8 @@ void Exchange::fillFromHere() {
   });
 }
 
-/// Notes which sets are unresolved. A set is resolved on all patches of all ranks or on none, so sets resolved by a
-/// stopped graph are discarded.
+/// Records which sets have no ghost particles yet. A set has them on all patches of all ranks or on none, so sets
+/// resolved by a stopped graph are discarded.
 void Exchange::noteUnresolved() {
   resolves_.assign(fills_.size(), false);
   std::set<std::pair<Generation, int>> settled;
@@ -201,8 +203,8 @@ void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, con
   });
 }
 
-/// Fills ghosts in coarser cells, once these are complete. If there are messages, all ghosts that the patch gets from
-/// other ranks.
+/// Fills ghosts in coarser cells, once these cells are complete. If there are messages, all ghosts that the patch gets
+/// from other ranks.
 void Exchange::fillFromCoarser(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages) {
   const GhostPlan& plan = planOf(fill);
   const data::Label& label = *warehouse_->table()[fill.variable].label;

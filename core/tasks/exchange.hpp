@@ -34,7 +34,7 @@ class Exchange {
     level_ = level;
     part_ = part;
   }
-  /// Posts messages. A rank on which a task failed says so in place of its values (`hasStopped`).
+  /// Posts messages. A rank on which a task has failed sends a notice of this instead of its values (`hasStopped`).
   void send(std::span<const BoundGhostFill> fills, bool hasStopped);
   /// Sends messages, and fills the ghosts that need no messages from other ranks, unless a task has failed.
   void begin(bool hasStopped);
@@ -43,14 +43,14 @@ class Exchange {
   bool finish();
   /// Whether no patch has ghosts at all, so that there is nothing to exchange.
   bool movesNothing() const;
-  /// Between begin and finish: whether there are messages to wait for.
+  /// Between begin and finish: whether messages are still awaited.
   bool isUnderWay() const { return !senders_.empty(); }
-  /// Between begin and finish: whether the patch with this index on the rank has all its ghosts.
+  /// Between begin and finish: whether the patch with this index on the rank has received all its ghosts.
   bool isReady(std::size_t place);
   /// Copies the new values of a node variable between patches of this rank, from owners to patches that share the node;
   /// `set` contains the particles near which the values are defined, if this matters.
   void shareFaces(int variable, data::Generation set);
-  /// Must be called when a list begins, and after tasks that change particles.
+  /// Must be called when a task list begins, and after tasks that change particles.
   void forgetParticles() { near_.forget(); }
   /// Must be called when the distribution of patches has changed.
   void forgetLayout() {
@@ -83,7 +83,7 @@ class Exchange {
   void fillCopies(const BoundGhostFill& fill, const grid::Patch& patch, ReceivedMessages* messages);
   bool isHere(const GhostCopy& copy) const { return copy.rank == warehouse_->ranks().rank(); }
   void noteUnresolved();
-  /// Calls `work(fill, patch, its index)` on several threads at once.
+  /// Calls `work(fill, patch, index of the patch)` on several threads at once.
   template <class Work>
   void forEach(const Work& work);
   const GhostPlan& planOf(const BoundGhostFill& fill) {
@@ -97,14 +97,14 @@ class Exchange {
   mpi::Outbox outbox_;
   NearRows near_;
   GhostPlans plans_;
-  std::vector<std::vector<GhostCopy>> faces_;  ///< by index of the patch on this rank; planned on first use
+  std::vector<std::vector<GhostCopy>> faces_;  ///< copies for each patch of this rank; planned on first use
   int level_ = -1;
   double part_ = 0;
   // The exchange that was sent:
   std::span<const BoundGhostFill> fills_;
   bool has_stopped_ = false;
   std::set<int> senders_;       ///< ranks whose messages are awaited
-  std::vector<bool> resolves_;  ///< by fill: whether it determines which particles are ghosts
+  std::vector<bool> resolves_;  ///< for each fill: whether it determines which particles are ghosts
 };
 
 }  // namespace tushar::tasks

@@ -12,7 +12,7 @@ using data::Variable;
 
 namespace {
 
-/// A row of nodes, or the particles of a cell, in a message: their position and number.
+/// A row of nodes, or the particles of a cell, in a message: their position and their number.
 struct PackedRun {
   Index3 first;
   std::int32_t count;

@@ -23,7 +23,7 @@ void forEachPartOutside(Box box, const Box& hole, Visit&& visit) {
   }
 }
 
-/// The nodes that other patches copy from a patch: a node between patches comes from the upper one. On an image the
+/// The nodes that other patches copy from a patch: a node between patches is copied from the upper one. On an image the
 /// last node of a periodic axis is left to the next image.
 Box nodesGiven(const Patch& patch, const Index3& shift) {
   const Level& level = patch.level();
@@ -35,8 +35,8 @@ Box nodesGiven(const Patch& patch, const Index3& shift) {
   return nodes;
 }
 
-/// The largest distance from a patch, in its cells, of the values that it exchanges for ghosts of a width. Where there
-/// are levels: twice the width for a coarser neighbour, and two coarse cells for slopes.
+/// The largest distance from a patch, in its cells, of the values that it exchanges for ghosts of a given width. Where
+/// there are levels: twice the width for a coarser neighbour, and two coarse cells for slopes.
 int neighbourhoodOf(const Grid& grid, const GhostReach& reach) {
   if (grid.levels() > 1) return 2 * reach.width + 4;
   return reach.width + (reach.centring == data::Centring::node ? 1 : 0);
@@ -97,7 +97,7 @@ class PlannerOfPatch {
         });
   }
 
-  /// Adds copies of means, for the refined cells in a box of a level, except for those in a hole.
+  /// Adds copies of means for the refined cells in a box of a level, except for those in a hole.
   void addMeans(const Level& level, const Box& wanted, const Box& hole, int coarseCells) {
     if (level.number() + 1 == grid_.levels()) return;
     const int dimension = level.dimension();
@@ -110,7 +110,7 @@ class PlannerOfPatch {
         });
   }
 
-  /// Adds ghosts in coarser cells, and copies of these cells and their neighbours.
+  /// Adds ghosts that lie in coarser cells, and copies of these cells and their neighbours.
   void addCoarse() {
     if (level_.number() == 0) return;
     const Level& below = grid_.level(level_.number() - 1);

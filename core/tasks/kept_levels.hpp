@@ -28,7 +28,7 @@ class KeptLevels {
   void forEach(const Visit& visit) const;
 
   data::Warehouse* warehouse_;
-  std::vector<int> variables_;  ///< variables with old values
+  std::vector<int> variables_;  ///< indices of the variables with old values
   std::vector<std::byte> kept_;
 };
 

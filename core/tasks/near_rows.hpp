@@ -10,7 +10,7 @@
 
 namespace tushar::tasks {
 
-/// The nodes of this rank's patches that are near particles: for variables that are defined only there
+/// The nodes of this rank's patches that are near particles; used for variables that are defined only there
 /// (data::Counts::nearParticles), patches exchange no other nodes.
 ///
 /// A patch that computes a node sees all particles that touch it, so it alone can decide whether any does. Where ghosts
@@ -19,14 +19,14 @@ class NearRows {
  public:
   NearRows(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}
 
-  /// Whether patches exchange only some nodes of a new variable.
+  /// Whether patches exchange only nodes near particles for a new variable.
   bool concern(int variable) const {
     const auto [label, material] = warehouse_->table()[variable];
     return label->counts == data::Counts::nearParticles && material >= 0;
   }
-  /// Finds the rows of all patches for the particles of a material, unless that has been done.
+  /// Finds the rows of all patches for the particles of a material, unless they have been found already.
   void settle(data::Generation set, int material);
-  /// The rows of a patch, once they have been found.
+  /// The rows of a patch, after they have been found.
   const data::TouchedRows& of(data::Generation set, int material, int patch) const {
     return *rows_.at({set, material})[patch - warehouse_->grid().firstPatch()];
   }
@@ -37,14 +37,15 @@ class NearRows {
   }
 
  private:
-  /// The rows of the particle set, or `whole`.
+  /// The rows near the particle set, or `whole`.
   const data::TouchedRows& rowsOf(data::Generation set, int material, const grid::Patch& patch,
                                   data::TouchedRows& whole) const;
 
   data::Warehouse* warehouse_;
   Threads* threads_;
-  std::map<std::pair<data::Generation, int>, std::vector<const data::TouchedRows*>> rows_;  ///< by index of the patch
-  std::vector<data::TouchedRows> whole_;  ///< all nodes of a patch, by its index, if needed
+  /// Rows of each patch, for each generation and material.
+  std::map<std::pair<data::Generation, int>, std::vector<const data::TouchedRows*>> rows_;
+  std::vector<data::TouchedRows> whole_;  ///< all nodes of each patch, if needed
 };
 
 }  // namespace tushar::tasks

@@ -7,7 +7,7 @@
 
 namespace tushar::tasks {
 
-/// A task that a scene does not need, and why.
+/// A task that a scene does not need, and the reason.
 struct LeftOut {
   std::string task;
   std::string reason;
@@ -20,7 +20,7 @@ struct Pruned {
   /// Variables that must exist at the end: the requested ones and, if the list is repeated, those that it reads from
   /// the previous run.
   Names needed;
-  /// `liveAfter[t]`: variables of the current step that are read after kept task t.
+  /// `liveAfter[t]`: variables of the current step that are read after task t, one of the kept tasks.
   std::vector<Names> liveAfter;
 };
 

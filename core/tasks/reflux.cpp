@@ -8,10 +8,10 @@ namespace tushar::tasks {
 
 namespace {
 
-/// Accesses of the task that changes a variable: the fluxes or their register, the variable, the time step.
+/// Accesses of the task that corrects a variable: the fluxes or their register, the variable, the time step.
 enum { fluxes, variable, timeStep };
 
-/// U += ± dt (F - mean of the finer F) / h; `dt` is 1 if the register contains dt F.
+/// Corrects U += ± dt (F - mean of the finer F) / h; `dt` is 1 if the register contains dt F.
 void reflux(const TaskContext& context, int components, double dt) {
   const grid::Patch& patch = context.patch();
   const data::Variable rim = context.variable(fluxes), cells = context.variable(variable);
@@ -28,7 +28,7 @@ void reflux(const TaskContext& context, int components, double dt) {
   }
 }
 
-/// A variable with stored fluxes, and its materials, which are empty if it belongs to none.
+/// A variable with stored fluxes, and its materials; the list is empty if it does not belong to materials.
 struct Flowing {
   const data::Label* label;
   std::vector<std::string> materials;
@@ -49,8 +49,8 @@ Task refluxTask(const Flowing& flowing) {
   return task;
 }
 
-/// The label of the register of a variable: the sums of dt F through the rims of patches, called `rim.sum.` and the
-/// name of the variable.
+/// The label of the register of a variable: the sums of dt F through the rims of patches, named `rim.sum.` and the name
+/// of the variable.
 const data::Label& registerOf(const data::Label& label) { return data::rimLabelOf(data::rimLabelOf(label)); }
 
 /// Accesses of the task that adds to a register.
@@ -94,7 +94,7 @@ Task refluxTaskOfSteps(const Flowing& flowing) {
   return task;
 }
 
-/// The list in which the first task that stores the fluxes of a variable sets them, and the others add to them. Calls
+/// The list in which the first task that stores the fluxes of a variable sets them, and later tasks add to them. Calls
 /// `behind(list, flowing)` after the last one.
 template <class Behind>
 TaskList withTasksBehindFluxes(const TaskList& list, const Behind& behind) {

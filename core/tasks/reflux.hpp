@@ -6,7 +6,7 @@
 
 namespace tushar::tasks {
 
-/// Adds a task to the list for each variable whose fluxes are kept, after the last task that keeps them. In a coarse
+/// Adds to the list a task for each variable whose fluxes are kept, after the last task that stores them. In a coarse
 /// cell next to finer ones, it replaces the flux through the face between them by the mean of the finer fluxes,
 ///
 ///     U += ± dt / h (F - mean of the finer F),  + at upper faces,
@@ -19,9 +19,9 @@ TaskList withRefluxing(const TaskList& list);
 inline constexpr data::ReductionLabel<data::Minimum> partOfStep{
     "partOfStep", "1", "fraction of the next coarser level's step that has elapsed"};
 
-/// The lists of a step in which finer levels take several smaller steps.
+/// The task lists of a step in which finer levels take several smaller steps.
 struct SteppedByLevel {
-  /// The step of a level: after the last task that keeps the fluxes of a variable, a task adds the fluxes times the
+  /// The step of one level: after the last task that keeps the fluxes of a variable, a task adds the fluxes times the
   /// step to a register, which sums over all steps within one step of the next coarser level.
   TaskList advance;
   /// Runs on the coarser level after those steps: U += ± 1 / h (dt F - mean of the sums of dt F of the finer level).
@@ -29,7 +29,7 @@ struct SteppedByLevel {
 };
 SteppedByLevel withRegisters(const TaskList& list);
 
-/// The registers of a list, by name.
+/// The names of the registers used in a list.
 Names registersOf(const TaskList& list);
 
 }  // namespace tushar::tasks

@@ -59,7 +59,7 @@ void wrap(const grid::Level& level, Vec<D>& x) {
   }
 }
 
-/// Whether a particle may leave the grid to `cell`, which is allowed through a free face.
+/// Whether a particle may leave the grid towards `cell`: only through a free face.
 template <int D>
 bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
   bool may = true;
@@ -132,7 +132,7 @@ void Relocation::findMoves(int material, int position, int id) {
   });
 }
 
-/// Discards the entries of the last moves, even if they have not been made.
+/// Discards the records of the last relocation, even if its moves have not been made.
 void Relocation::forgetIncoming(const Patch& patch, PatchMoves& moves) {
   const grid::Box& cells = patch.cells();
   moves.firstIncoming.resize(cells.size(), -1);

@@ -16,7 +16,7 @@ using data::Generation;
 
 namespace {
 
-/// Every label that the tasks name.
+/// All labels that are used by the tasks.
 std::map<std::string, const data::Label*, std::less<>> labelsOf(const std::vector<Task>& tasks) {
   std::map<std::string, const data::Label*, std::less<>> labels;
   for (const Task& task : tasks) {

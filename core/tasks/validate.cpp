@@ -87,7 +87,7 @@ class Validator {
 
   const Names& state_;
   Names produced_;
-  Names carried_;  ///< variables that a relocation transferred from the old state
+  Names carried_;  ///< names of variables that a relocation transferred from the old state
   std::map<std::string, bool> per_material_;
   std::string complaints_;
 };

@@ -14,7 +14,7 @@ namespace tushar::input {
 
 namespace {
 
-constexpr double polygonHalf = 1e-5;  ///< m, around the plane and the box of a polygon, as in Uintah
+constexpr double polygonHalf = 1e-5;  ///< half the thickness of a polygon and of its bounding box [m], as in Uintah
 
 double crossZ(const Vec3& a, const Vec3& b) { return a[0] * b[1] - a[1] * b[0]; }
 

@@ -12,7 +12,7 @@ namespace tushar::input {
 
 namespace {
 
-/// The schema of a shape with a label, which readGeometry itself reads.
+/// The schema of a shape with a label; the label is read by readGeometry.
 template <class T>
 Schema<T> shapeSchema(const std::string& name, const std::string& sentence) {
   Schema<T> schema(name, sentence);

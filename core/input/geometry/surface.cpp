@@ -12,7 +12,7 @@ namespace tushar::input {
 
 namespace {
 
-/// A point in the plane z = const: y and x.
+/// The coordinates y and x of a point in a plane z = const.
 struct Cut {
   double y, x;
 };
@@ -38,7 +38,7 @@ std::optional<double> crossingOf(const Vec3& point, const std::array<Vec3, 3>& c
   return cuts[0].x + share * (cuts[1].x - cuts[0].x);
 }
 
-/// The same point with cyclically permuted coordinates, so that the one along `axis` comes first.
+/// The same point with cyclically permuted coordinates, so that the coordinate along `axis` comes first.
 Vec3 turned(const Vec3& point, int axis) { return {point[axis], point[(axis + 1) % 3], point[(axis + 2) % 3]}; }
 
 using Corner = std::array<double, 3>;

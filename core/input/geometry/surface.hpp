@@ -12,7 +12,7 @@
 
 namespace tushar::input {
 
-/// Corners of triangles (m).
+/// The corners of triangles [m].
 using Triangles = std::vector<std::array<Vec3, 3>>;
 
 /// The points inside a surface of triangles.
@@ -23,7 +23,8 @@ using Triangles = std::vector<std::array<Vec3, 3>>;
 /// along x, y and z, decide.
 class Surface : public GeometryPiece {
  public:
-  /// At least one triangle. `isClosed`: whether each edge belongs to an even number of them.
+  /// Constructs a surface from at least one triangle. `isClosed`: whether each edge belongs to an even number of
+  /// triangles.
   explicit Surface(Triangles triangles, bool isClosed = true);
   bool contains(const Vec3& point) const override;
   Box3 bounds() const override { return bounds_; }
@@ -36,10 +37,10 @@ class Surface : public GeometryPiece {
   /// is the first.
   struct Lines {
     Triangles triangles;
-    std::vector<std::vector<int>> crossing;  ///< triangles in each bin
+    std::vector<std::vector<int>> crossing;  ///< indices of the triangles in each bin
   };
   Lines linesAlong(int axis) const;
-  /// Number of times that the line along an axis through a point crosses the surface.
+  /// Number of times that a line along an axis through a point crosses the surface.
   struct Crossings {
     std::size_t ahead = 0, behind = 0;
   };
@@ -48,8 +49,8 @@ class Surface : public GeometryPiece {
 
   Triangles triangles_;
   Box3 bounds_;
-  std::size_t bins_;          ///< across lines, along each axis
-  std::vector<Lines> lines_;  ///< along x; where the surface is open along y and z, too
+  std::size_t bins_;          ///< number of bins across the lines, along each axis
+  std::vector<Lines> lines_;  ///< lines along x; where the surface is open, also along y and z
 };
 
 /// Why triangles do not form a closed surface: a sentence about an edge that an odd number of them share; otherwise
