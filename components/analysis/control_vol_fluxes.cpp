@@ -54,7 +54,7 @@ const input::Schema<FluxSettings>& fluxSchema() {
   return schema;
 }
 
-/// The velocity along the axis, at a side of a cell that is also a side of the grid.
+/// The velocity component along the axis, at a side of a cell that lies on a side of the grid.
 template <int D>
 double velocityAtEnd(const Level& level, int d, int side, int material, const Vec<D>& inside) {
   if (level.isSymmetry(d, side, material)) return 0;
@@ -129,11 +129,13 @@ class ControlVolFluxes : public Analysis {
   std::vector<Extent> boxes_;
   std::vector<Box> cells_;
   Location where_;
-  std::array<bool, 2> derived_;  ///< whether diagnostics compute density and velocity
+  /// Whether diagnostics compute density and velocity (otherwise they are part of the state).
+  std::array<bool, 2> derived_;
   CellLabel<double> density_{densityName, "kg/m^3", "density"};
   CellLabel<Vec<D>> velocity_{velocityName, "m/s", "velocity"};
   int material_;
-  std::deque<std::string> names_;  ///< their addresses must not change, because labels refer to them
+  /// Names of the variables; their addresses must not change, because labels refer to them.
+  std::deque<std::string> names_;
   std::deque<ReductionLabel<BoxFlow>> labels_;
   SampleTimes times_;
   SampleFiles files_;

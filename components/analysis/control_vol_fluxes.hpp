@@ -8,9 +8,10 @@
 
 namespace tushar::analysis {
 
-/// `controlVolFluxes`: the mass of a gas in boxes of cells over time, and the mass flow through their sides, one file
-/// per box: `<label>.dat` in the archive, where Uintah writes them. A line has the time [s], the mass [kg], what flows
-/// in along x, y and z less what flows out, and the flux through each side, x- x+ y- y+ z- z+, along the axis [kg/s].
+/// `controlVolFluxes`: writes the mass of a gas in boxes of cells over time, and the mass flow through their sides, one
+/// file per box: `<label>.dat` in the archive, where Uintah writes them. A line has the time [s], the mass [kg], what
+/// flows in along x, y and z less what flows out, and the flux through each side, x- x+ y- y+ z- z+, along the axis
+/// [kg/s].
 simulation::AnalysisKind controlVolFluxesKind();
 
 /// The mass in a box, and the flux through each side: 2 * axis + side, along x, y and z.
@@ -22,7 +23,7 @@ struct BoxFlow {
   std::vector<double> values() const;
 };
 
-/// Adds a patch's share of a box of cells. Through a side flows the density of the cell upwind times the mean velocity
+/// Adds a patch's share of a box of cells. The density of the upwind cell flows through a side with the mean velocity
 /// of the two cells; where the grid ends, that of the gas inside, nothing through planes of symmetry, and with a given
 /// velocity where the side has one. Density and velocity have a layer of ghosts.
 template <int D>

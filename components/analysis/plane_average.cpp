@@ -92,7 +92,7 @@ class PlaneAverage : public SamplingModule {
   }
 
  private:
-  /// Of several levels: coarsest cells. Finer ones count by their volume.
+  /// Number of cells per plane; on several levels, of coarsest cells (finer ones count by their volume).
   int cellsPerPlane() const {
     int cells = 1;
     for (int d = 0; d < level_->dimension(); ++d)
@@ -134,8 +134,8 @@ class PlaneAverage : public SamplingModule {
   const Level* level_;
   int across_ =
       -1;  ///< kernel axis perpendicular to the planes; -1 if the grid does not use it, so that there is one plane
-  std::map<std::string, Weighting> weightings_;  ///< ordered by the position of the variable in the scene
-  std::string weight_;                           ///< position of the variable of <weight>
+  std::map<std::string, Weighting> weightings_;  ///< weighting of each variable, in the order of the scene
+  std::string weight_;                           ///< position of the variable named in <weight>
 };
 
 }  // namespace

@@ -7,12 +7,12 @@
 
 namespace tushar::analysis {
 
-/// `slice`: cell and node variables on planes, saved more often than the rest. Each plane has a separate archive in
+/// `slice`: saves cell and node variables on planes, more often than the rest. Each plane has a separate archive in
 /// that of the run, `sod.uda/slice/z=0`, with a grid that is one cell thick. It shows the cells that the plane cuts,
 /// and the nodes nearest to it, as they are; of two at the same distance those with the smaller coordinate.
 simulation::AnalysisKind sliceKind();
 
-/// A plane perpendicular to an axis of the scene (0 for x, 1 for y, 2 for z), at the coordinate `at` [m].
+/// A plane perpendicular to an axis of the scene (0: x, 1: y, 2: z), at the coordinate `at` [m].
 struct Plane {
   int axis;
   double at;
@@ -21,8 +21,8 @@ struct Plane {
 /// Parses a plane such as `z = 0.5`; none for any other text.
 std::optional<Plane> planeOf(const std::string& text);
 
-/// The layer of the grid at a plane; `level` is the finest. The grid uses the plane's axis, and the plane is within its
-/// sides.
+/// The layer of the grid at a plane; `level` is the finest level. The grid uses the plane's axis, and the plane is
+/// within its sides.
 collect::Layer layerAt(const Plane& plane, const grid::Level& level);
 
 }  // namespace tushar::analysis

@@ -9,10 +9,11 @@ namespace tushar::burgers {
 
 /// An initial profile for Burgers' equation.
 struct BurgersProblem {
-  std::function<double(double)> velocity;  ///< u at t = 0, m/s, over x in m; bounded
-  double viscosity = 0;                    ///< nu, m²/s
-  double lower = 0, upper = 1;             ///< beginning and end of the profile, m
-  bool periodic = false;                   ///< whether it is periodic; otherwise it is constant beyond its ends
+  std::function<double(double)> velocity;  ///< u [m/s] at t = 0 as a function of x [m]; must be bounded
+  double viscosity = 0;                    ///< viscosity nu [m²/s]
+  double lower = 0, upper = 1;             ///< beginning and end of the profile [m]
+  /// Whether the profile is periodic; otherwise it is constant beyond its ends.
+  bool periodic = false;
 };
 
 /// The exact solution of Burgers' equation in one dimension, including shocks.
@@ -27,18 +28,20 @@ struct BurgersProblem {
 /// Comm. Pure Appl. Math. 10 (1957) 537.
 class BurgersWave {
  public:
-  /// Throws std::invalid_argument where nu < 0, upper <= lower or the profile is not finite.
+  /// Throws std::invalid_argument if nu < 0, if upper <= lower, or if the profile is not finite.
   explicit BurgersWave(BurgersProblem problem);
 
-  /// u at `x` (m) and time `t` (s). On a shock: one of its sides. Throws std::domain_error where holdsAt is false.
+  /// The value of u at `x` [m] and time `t` [s]; on a shock, the value on one of its sides. Throws std::domain_error
+  /// where holdsAt is false.
   double at(double x, double t) const;
-  /// Mean of u over [lower, upper], m. Throws as at() does.
+  /// Mean of u over [lower, upper] [m]. Throws the same exceptions as at().
   double average(double lower, double upper, double t) const;
-  /// False before t = 0, and while viscosity has spread less than the table resolves, (2 nu t)^(1/2) < 2 steps.
+  /// Whether the solution is available: false before t = 0, and while viscosity has spread less than the table
+  /// resolves, (2 nu t)^(1/2) < 2 steps.
   bool holdsAt(double t) const;
 
  private:
-  /// A point y, and the value of U(y) + (x-y)²/2t there.
+  /// The point y of a minimum, and the value of U(y) + (x-y)²/2t there.
   struct Least {
     double place, value;
   };
@@ -55,12 +58,13 @@ class BurgersWave {
   long nodeBelow(double y) const;
 
   BurgersProblem problem_;
-  double step_ = 0;                  ///< m
-  double least_ = 0, greatest_ = 0;  ///< u of the profile, m/s
-  std::vector<double> integrals_;    ///< U at the places of the table, m²/s
+  double step_ = 0;                  ///< step of the table [m]
+  double least_ = 0, greatest_ = 0;  ///< smallest and largest u of the profile [m/s]
+  std::vector<double> integrals_;    ///< U at the points of the table [m²/s]
 };
 
-/// `burgersWave`: errors of the component burgers, in one dimension, relative to the exact solution of the scene.
+/// `burgersWave`: computes errors of the component burgers, in one dimension, relative to the exact solution of the
+/// scene.
 simulation::AnalysisKind waveKind();
 
 }  // namespace tushar::burgers

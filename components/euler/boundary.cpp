@@ -6,7 +6,7 @@ namespace tushar::euler {
 
 namespace {
 
-/// Adds to a rule the values that density, pressure and temperature prescribe for a gas with its own law.
+/// Adds to a rule what density, pressure and temperature prescribe for a gas with its own law.
 template <int D>
 void prescribeByLaw(const Place& place, const Gas& gas, std::optional<double> density,
                     const std::optional<double>& pressure, GhostRule<D>& rule) {
@@ -28,7 +28,7 @@ void prescribeByLaw(const Place& place, const Gas& gas, std::optional<double> de
   }
 }
 
-/// The relaxation at a side that lets waves out; none at other sides.
+/// The relaxation at a side that lets waves out; no relaxation at other sides.
 Relaxation relaxationAt(const Place& place, const Gas& gas) {
   const auto given = givenAt(place, gas, boundary::waves);
   if (!given) return {};
@@ -78,7 +78,7 @@ GhostRule<D> ghostRule(const Place& place, const Gas& gas) {
   return rule;
 }
 
-/// The temperature [K] at a place, as given or from a given density and pressure.
+/// The temperature [K] at a place: the given one, or the one that follows from a given density and pressure.
 std::optional<double> temperatureAt(const Place& place, const Gas& gas) {
   if (const auto given = givenAt(place, gas, boundary::temperature)) return given;
   const auto density = givenAt(place, gas, boundary::density), pressure = pressureAt(place, gas);
@@ -138,7 +138,7 @@ void checkGiven(const Place& place, const Gas& gas, std::uint64_t cell) {
   require(!velocity || velocity->allFinite(), boundary::velocity, "not finite");
 }
 
-/// The rules of all sides: `makeRule(place, gas)` makes one, and `pointAt(axis, side, cell)` is the point at which
+/// The rules of all sides: `makeRule(place, gas)` makes a rule, and `pointAt(axis, side, cell)` is the point at which
 /// formulas are evaluated.
 template <int D, class MakeRule, class PointAt>
 GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, MakeRule makeRule, PointAt pointAt) {
@@ -163,13 +163,13 @@ GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, MakeRule 
   return rules;
 }
 
-/// The cell, along an axis of `cells` cells, from which a cell beyond its ends is computed.
+/// The index of the cell, on an axis with `cells` cells, from which a cell beyond the ends of the axis is computed.
 int sourceOf(int cell, int cells, bool mirrored) {
   const int inside = cell < 0 ? (mirrored ? -1 - cell : 0) : (mirrored ? 2 * cells - 1 - cell : cells - 1);
   return std::clamp(inside, 0, cells - 1);
 }
 
-/// The distance, in cells, of a cell outside an axis of `cells` cells from the end of this axis.
+/// The distance of a cell outside an axis with `cells` cells from the end of this axis, in cells.
 int depthOf(int cell, int cells) { return cell < 0 ? -cell : cell - cells + 1; }
 
 /// The cell of the grid from which a cell outside it is computed, along the axes before `axis`.
@@ -183,7 +183,7 @@ Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, i
   return cell;
 }
 
-/// Weakens the incoming wave of a state at constant entropy, to let waves out; the wave decays over `cells` cells.
+/// Weakens the incoming wave of a state at constant entropy, so that waves leave; the wave decays over `cells` cells.
 template <int D, std::size_t N>
 void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
   const Relaxation& side = rule.relaxes;
@@ -195,7 +195,7 @@ void relax(const GhostRule<D>& rule, int cells, std::array<double, N>& w) {
   w[kPressure<D>] -= half;
 }
 
-/// The state of a cell `cells` cells beyond a side, by a rule and the state of the cell from which it is computed.
+/// The state `cells` cells beyond a side, from a rule and the state of the cell from which it is computed.
 template <int D, std::size_t N>
 std::array<double, N> beyondSide(const GhostRule<D>& rule, int cells, std::array<double, N> w) {
   for (std::size_t k = 0; k < rule.factor.size(); ++k) w[k] = rule.factor[k] * w[k] + rule.value[k];

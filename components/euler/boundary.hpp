@@ -17,9 +17,9 @@ namespace tushar::euler {
 /// T. Poinsot & S. K. Lele, J. Comput. Phys. 101 (1992) 104; D. H. Rudy & J. C. Strikwerda, J. Comput. Phys. 36 (1980)
 /// 55, for K.
 struct Relaxation {
-  double farPressure = 0;  ///< Pa; 0: none
+  double farPressure = 0;  ///< far-field pressure [Pa]; 0: none
   double sigma = 0;
-  double thickness = 0;  ///< h / L
+  double thickness = 0;  ///< ratio h / L
   int axis = 0, outwards = 0;
 
   bool acts() const { return farPressure > 0; }
@@ -37,10 +37,10 @@ template <int D>
 struct GhostRule {
   bool mirrored = false;
   State<D> factor, value;
-  double densityOfPressure = 0;  ///< if above 0, rho is this times p + p_inf, kg/(m³ Pa)
-  double pInfinity = 0;          ///< Pa
-  double temperature = 0;        ///< if above 0, the temperature of a gas with its own law, K
-  const Gas* gas = nullptr;      ///< that gas
+  double densityOfPressure = 0;  ///< if greater than 0, rho is this number times p + p_inf [kg/(m³ Pa)]
+  double pInfinity = 0;          ///< p_inf [Pa]
+  double temperature = 0;        ///< if greater than 0, the temperature of a gas with its own law [K]
+  const Gas* gas = nullptr;      ///< the gas with its own law
   Relaxation relaxes = {};       ///< relaxation at a side that lets waves out
 };
 
@@ -48,10 +48,10 @@ struct GhostRule {
 template <int D>
 struct SideRules : GhostRule<D> {
   std::vector<GhostRule<D>> parts = {};
-  /// If the scene gives formulas: the rule for a cell beyond a part of the side; otherwise empty.
+  /// If the scene gives formulas, the rule for a cell beyond a part of the side; otherwise empty.
   std::function<GhostRule<D>(int part, const Index<D>& cell)> varying = {};
 
-  /// Whether the side has the same rule for all cells.
+  /// Whether the same rule applies to all cells of the side.
   bool areOne() const { return parts.empty() && !varying; }
 };
 
@@ -74,28 +74,28 @@ std::optional<T> givenAt(const Place& place, const Gas& gas, const BoundaryLabel
   const auto condition = place.level.boundary(place.axis, place.side, label, gas.material, place.part);
   return condition && condition->isDirichlet() ? std::optional(condition->at(place.x, place.time)) : std::nullopt;
 }
-/// The same for the pressure, which all materials share: Uintah's scenes give it for material 0.
+/// The pressure that a scene gives at a place, if any. All materials share it: Uintah's scenes give it for material 0.
 std::optional<double> pressureAt(const Place& place, const Gas& gas);
 
-/// Whether there is a wall: Symmetric, or with only a Velocity that is tangential to the side.
+/// Whether a place is a wall: it has the condition Symmetric, or only a Velocity that is tangential to the side.
 template <int D>
 bool isWall(const Place& place, const Gas& gas);
 
-/// From the scene's conditions: a wall mirrors the gas. Where Density, Velocity or Pressure is given, gas of these
-/// values flows in; a Temperature and one of density and pressure determine the other. Whatever is not given continues
-/// with no gradient, so that a side without conditions is an outflow.
+/// The rules that follow from the scene's conditions: a wall mirrors the gas. Where Density, Velocity or Pressure is
+/// given, gas of these values flows in; a Temperature and one of density and pressure determine the other. Whatever is
+/// not given continues with no gradient, so that a side without conditions is an outflow.
 ///
 /// Formulas count at `time` [s], in the middle of each cell beyond the side, and mean there what their values would.
 /// Throws NumericalError where one gives a density, or a p + p_inf, that cannot be.
 template <int D>
 GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time = 0);
 
-/// The same for differences across the sides, of velocities and temperatures (which replace the densities): given
+/// The rules for differences across the sides, of velocities and temperatures (which replace the densities): given
 /// values apply at the side itself, and the others are mirrored. Formulas count in the middle of each face.
 template <int D>
 GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time = 0);
 
-/// The rule for a cell beyond a side, or for the adjacent cell inside: that of the part to which the face belongs.
+/// The rule for a cell beyond a side, or for the adjacent cell inside: the rule of the part to which the face belongs.
 template <int D>
 GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, int side, const Index<D>& cell);
 

@@ -12,7 +12,7 @@ struct ColdCurve {
   enum class Kind { jwl, murnaghan, linear };
 
   Kind kind = Kind::jwl;
-  double density = 1;  ///< rho_0, kg/m³
+  double density = 1;  ///< density rho_0 [kg/m³]
   /// p = A exp(-R1 V) + B exp(-R2 V) + C V^-(1 + omega), V = rho_0 / rho; the energy is 0 at V = infinity.
   /// Source: E. L. Lee, H. C. Hornig & J. W. Kury, Adiabatic expansion of high explosive detonation products,
   /// UCRL-50422 (1968).
@@ -39,7 +39,7 @@ struct ColdCurve {
     const double perMass = a / r1 * std::exp(-r1 * volume) + b / r2 * std::exp(-r2 * volume);
     return rho / density * (perMass + volume / omega * tail(volume));
   }
-  /// dp/drho, m²/s².
+  /// The slope dp/drho [m²/s²].
   double slope(double rho) const {
     if (kind == Kind::linear) return a / density;
     if (kind == Kind::murnaghan) {
@@ -59,13 +59,13 @@ struct ColdCurve {
     if (ratio < 1) return pressureThere * std::pow(ratio, 1 / (compressibility * pressureThere));
     return pressureThere + (std::pow(ratio, exponent) - 1) / (exponent * compressibility);
   }
-  /// Energy per volume at rho_0.
+  /// The energy per volume at rho_0.
   double murnaghanEnergy(double ratio) const {
     if (ratio < 1) return pressureThere * rise(ratio, 1 / (compressibility * pressureThere));
     const double bulk = 1 / (exponent * compressibility);
     return (pressureThere - bulk) * (1 - 1 / ratio) + bulk * rise(ratio, exponent);
   }
-  /// Integral of x^(m - 2) from 1.
+  /// The integral of x^(m - 2) from 1.
   static double rise(double ratio, double m) {
     return m == 1 ? std::log(ratio) : (std::pow(ratio, m - 1) - 1) / (m - 1);
   }
@@ -82,7 +82,8 @@ struct ColdCurve {
 /// of possible states is positive.
 class CurvedGas {
  public:
-  /// `gamma` is the Grüneisen parameter, at least 0, with a linear cold curve that at rho_0; the specific heat is c_v,
+  /// `gamma` is the Grüneisen parameter, at least 0; with a linear cold curve it is the value at rho_0. The specific
+  /// heat is c_v,
   /// J/(kg K).
   CurvedGas(const ColdCurve& cold, double gamma, double specificHeat)
       : cold_(cold), gamma_(gamma), specificHeat_(specificHeat) {}
@@ -90,23 +91,24 @@ class CurvedGas {
   const ColdCurve& cold() const { return cold_; }
   bool isBarotropic() const { return gamma_ == 0; }
 
-  /// p [Pa] for an internal energy per volume [J/m³].
+  /// The pressure p [Pa] for an internal energy per volume [J/m³].
   double pressure(double rho, double energy) const {
     return cold_.pressure(rho) + (isBarotropic() ? 0.0 : gammaAt(rho) * (energy - cold_.energy(rho)));
   }
-  /// The last number of a state for an internal energy per volume.
+  /// The last component of a state, for an internal energy per volume.
   double last(double rho, double energy) const {
     return isBarotropic() ? energy - cold_.energy(rho) : pressure(rho, energy);
   }
   double pressureOf(double rho, double last) const { return isBarotropic() ? cold_.pressure(rho) : last; }
   double energyOf(double rho, double last) const { return cold_.energy(rho) + heat(rho, last); }
-  /// c² = p_cold' + (1 + Gamma) (p - p_cold) / rho; with a constant Gamma rho, Gamma in place of 1 + Gamma.
+  /// The squared speed of sound, c² = p_cold' + (1 + Gamma) (p - p_cold) / rho; if Gamma rho is constant, Gamma
+  /// replaces 1 + Gamma.
   double soundSpeedSquared(double rho, double last) const {
     const double factor = isLinear() ? gammaAt(rho) : 1 + gamma_;
     const double thermal = isBarotropic() ? 0.0 : factor * (last - cold_.pressure(rho)) / rho;
     return cold_.slope(rho) + thermal;
   }
-  /// The heat per volume, which must be above 0.
+  /// The thermal energy per volume, which must be greater than 0.
   double heat(double rho, double last) const {
     return isBarotropic() ? last : (last - cold_.pressure(rho)) / gammaAt(rho);
   }
@@ -115,12 +117,12 @@ class CurvedGas {
   static double greatestEnergy(double) { return std::numeric_limits<double>::infinity(); }
 
   double temperature(double rho, double energy) const { return (energy - cold_.energy(rho)) / (rho * specificHeat_); }
-  /// The last number of a state for a temperature [K].
+  /// The last component of a state, for a temperature [K].
   double lastAt(double rho, double temperature) const {
     const double heat = rho * specificHeat_ * temperature;
     return isBarotropic() ? heat : cold_.pressure(rho) + gammaAt(rho) * heat;
   }
-  /// rho for a pressure and a temperature, by bisection to round-off.
+  /// The density rho for a pressure and a temperature, by bisection to round-off.
   double densityAt(double pressure, double temperature) const {
     const auto below = [&](double rho) { return pressureOf(rho, lastAt(rho, temperature)) < pressure; };
     double least = cold_.density, most = cold_.density;
@@ -133,11 +135,11 @@ class CurvedGas {
     }
     return most;
   }
-  /// Entropy per mass over c_v, except for a constant: ln T minus the integral of Gamma d(ln rho).
+  /// The entropy per mass over c_v, up to a constant: ln T minus the integral of Gamma d(ln rho).
   double entropy(double rho, double energy) const {
     return std::log(temperature(rho, energy)) + (isLinear() ? gammaAt(rho) : -gamma_ * std::log(rho));
   }
-  /// Approximately p / (rho u²) behind a strong shock, which accelerates gas at rest to the speed u.
+  /// The approximate ratio p / (rho u²) behind a strong shock that accelerates gas at rest to the speed u.
   double shockSlope() const {
     return 0.5 * (cold_.kind == ColdCurve::Kind::murnaghan ? cold_.exponent + 1 : gamma_ + 2);
   }
@@ -202,7 +204,7 @@ class Water {
     const double perHeat = expansion(x), perPressure = n_.volume * (2 * n_.bend * n_.a * x - n_.stiffness);
     return -1 / (rho * rho * (perPressure + t * perHeat * perHeat / heatOfPressure(last, t)));
   }
-  /// Greater than 0 in possible states.
+  /// The heat; it is greater than 0 in possible states.
   double heat(double rho, double last) const {
     const double square = xSquared(rho, last);
     return std::min(square, greatestX_ * greatestX_ - square);
@@ -241,7 +243,7 @@ class Water {
     return (n_.bend * x * x + 1 - volume / n_.volume) / n_.stiffness;
   }
   double temperatureAt(double p, double x) const { return n_.temperature - n_.a * p + x; }
-  /// dv/dT at constant p.
+  /// The expansion dv/dT at constant p.
   double expansion(double x) const { return 2 * n_.volume * n_.bend * x; }
   double heatOfPressure(double p, double t) const {
     return n_.heat + n_.b * (n_.temperature - t) - 2 * n_.volume * n_.bend * p * t;
@@ -250,7 +252,8 @@ class Water {
     const double perPressure = n_.volume * (2 * n_.bend * n_.a * x - n_.stiffness);
     return heatOfPressure(p, t) + t * expansion(x) * expansion(x) / perPressure;
   }
-  /// e = c_0 w - b w² / 2 + v_0 (k_0 p² / 2 + L (a p (a p + ... ) ...)): h - p v, of dh = c_p dT + (v - T dv/dT) dp.
+  /// The energy per mass, e = c_0 w - b w² / 2 + v_0 (k_0 p² / 2 + L (a p (a p + ... ) ...)): h - p v, of dh = c_p dT +
+  /// (v - T dv/dT) dp.
   double energyPerMass(double p, double t) const {
     const double w = t - n_.temperature, shift = n_.a * p;
     // (x³ - w³) / (3 a) and (x² - w²) / a with x = w + a p, without cancellation.

@@ -13,7 +13,7 @@ inline constexpr std::array<CellLabel<Vec<D>>, 2> massFlux{
      {"c.massFluxAbove", "kg/(m^2 s)", "mass through the upper faces"}}};
 }  // namespace c
 
-/// The mass that flows through the faces of cells in a step, per area and time; empty if nothing needs it.
+/// The mass flux through the faces of cells in a step, per area and time; empty if nothing needs it.
 template <int D>
 struct FaceMasses {
   std::optional<CellView<Vec<D>>> below = {}, above = {};
@@ -22,7 +22,7 @@ struct FaceMasses {
     if (!areKept) return {};
     return {.below = take(computes(c::massFlux<D>[0])), .above = take(computes(c::massFlux<D>[1]))};
   }
-  /// Stores the mass fluxes of the cells of a block across an axis.
+  /// Stores the mass fluxes across an axis for the cells of a block.
   template <int K>
   void keep(const Box& block, int axis, const Rows<D, K>& flux) const {
     if (!below) return;

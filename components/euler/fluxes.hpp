@@ -5,15 +5,15 @@
 
 namespace tushar::euler {
 
-/// The gas at a face at which two states meet: rho, v, the pressure, and total energy per volume.
+/// The state of the gas at a face where two states meet: rho, v, the pressure, and total energy per volume.
 template <int D, int K = 1>
 struct FaceState {
   State<D, K> w;
   double energy;
 };
 
-/// F = (m, m v + p n, (E + p) v_n) through a face across `Axis`, m = rho v_n; for several gases, also each mass and
-/// volume fraction times v_n.
+/// The flux F = (m, m v + p n, (E + p) v_n) through a face across `Axis`, m = rho v_n; for several gases, also each
+/// mass and volume fraction times v_n.
 template <int D, int Axis, int K>
 State<D, K> fluxOf(const FaceState<D, K>& face) {
   const double normal = face.w[kVelocity(Axis)];
@@ -78,7 +78,8 @@ struct Hllc {
   }
 };
 
-/// The exact solution at x/t = 0 (Toro, chapter 4), for an ideal gas with the pressure p + p_inf.
+/// The exact solution of the Riemann problem at x/t = 0 (Toro, chapter 4), for an ideal gas with the pressure p +
+/// p_inf.
 struct ExactFlux {
   template <int D, int Axis, class G>
   static FaceState<D> solve(const G& gas, const State<D>& left, const State<D>& right) {

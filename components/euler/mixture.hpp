@@ -19,13 +19,13 @@ struct MixedGas {
     softness += share / (gamma - 1);
     stiffness += share * gamma * pInfinity / (gamma - 1);
   }
-  /// c² [m²/s²], from rho c² = (p (1 + G) + S) / G.
+  /// Squared speed of sound c² [m²/s²], from rho c² = (p (1 + G) + S) / G.
   double soundSpeedSquared(double density, double pressure) const {
     return (pressure * (1 + softness) + stiffness) / (softness * density);
   }
   /// Internal energy per volume [J/m³].
   double energyOf(double, double pressure) const { return pressure * softness + stiffness; }
-  /// Pressure [Pa] of an internal energy per volume [J/m³].
+  /// Pressure [Pa] for an internal energy per volume [J/m³].
   double pressure(double, double internalEnergyPerVolume) const {
     return (internalEnergyPerVolume - stiffness) / softness;
   }
@@ -36,9 +36,9 @@ struct MixedGas {
   /// p + p_inf [Pa] of the stiffened gas with the same G and S, which must be greater than 0.
   double heat(double, double pressure) const { return pressure + leastPressure(); }
   double leastPressure() const { return stiffness / (1 + softness); }
-  /// (gamma + 1) / 2 of that gas.
+  /// (gamma + 1) / 2 of the equivalent stiffened gas.
   double shockSlope() const { return 1 + 0.5 / softness; }
-  /// The equivalent stiffened gas; its numbers are NaN for impossible shares.
+  /// The equivalent stiffened gas; its parameters are NaN for impossible volume fractions.
   Gas alike() const {
     Gas gas;
     gas.gamma = softness > 0 ? 1 + 1 / softness : std::nan("");
@@ -47,7 +47,7 @@ struct MixedGas {
   }
 };
 
-/// The laws of K gases.
+/// The laws of K gases that share cells.
 template <int K>
 struct Mixture {
   std::array<double, K> softness{}, stiffness{};
@@ -55,7 +55,7 @@ struct Mixture {
 template <int K>
 inline constexpr int kGases<Mixture<K>> = K;
 
-/// The law for the shares of the gases in a state.
+/// The law that applies to a state, given the volume fractions of the gases in it.
 template <int D, int K>
 MixedGas lawIn(const Mixture<K>& gases, const State<D, K>& w) {
   MixedGas mixed;

@@ -10,7 +10,7 @@
 
 namespace tushar::euler {
 
-/// The address of a row of `count` cells of a view; in builds with checks, both ends are checked.
+/// The address of a row of `count` cells in a view; in builds with checks, both ends are checked.
 template <int D, class T>
 T* rowOf(const CellView<T>& view, Index<D> first, int count) {
   T* row = &view[first];
@@ -19,7 +19,7 @@ T* rowOf(const CellView<T>& view, Index<D> first, int count) {
   return row;
 }
 
-/// Largest number of cells of a block of work: the block and its surroundings fit into the second-level cache.
+/// Largest number of cells in a block of work: the block and its surroundings fit into the second-level cache.
 template <int D>
 inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
                                  : D == 2 ? Index3{{128, 16, 1}}
@@ -29,14 +29,14 @@ inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
 /// second-level cache.
 inline constexpr int kColumnCells = 2400;
 
-/// A box as large as the largest block of a box.
+/// A box with the size of the largest block of a box.
 template <int D>
 Box largestBlock(Box box) {
   for (int d = 0; d < D; ++d) box.upper[d] = std::min(box.lower[d] + kBlock<D>[d], box.upper[d]);
   return box;
 }
 
-/// Calls `visit(block)` for boxes that tile the box, none larger than `extents`.
+/// Calls `visit(block)` for blocks that tile the box, none larger than `extents`.
 template <int D, class Visit>
 void forEachBlock(const Box& box, const Index3& extents, Visit&& visit) {
   Box blocks{{}, Index3::filled(1)};
@@ -50,7 +50,7 @@ void forEachBlock(const Box& box, const Index3& extents, Visit&& visit) {
     visit(block);
   });
 }
-/// The same for boxes no larger than kBlock.
+/// Calls `visit(block)` for blocks that tile the box, none larger than kBlock.
 template <int D, class Visit>
 void forEachBlock(const Box& box, Visit&& visit) {
   forEachBlock<D>(box, kBlock<D>, std::forward<Visit>(visit));
@@ -63,7 +63,7 @@ inline Index3 columnOf(const Box& box, int reach) {
   return {{width, std::clamp(kColumnCells / (width + 2 * reach) - 2 * reach, 1, box.extent(1)), box.extent(2)}};
 }
 
-/// Uninitialised memory, for numbers that are all written before they are read.
+/// Uninitialised memory for numbers that are all written before they are read.
 template <class T>
 struct Unfilled : std::allocator<T> {
   template <class U>
@@ -79,7 +79,7 @@ struct Unfilled : std::allocator<T> {
   }
 };
 
-/// One State of K gases per cell of a box, each number in an array of its own, the first axis fastest.
+/// One State of K gases per cell of a box; each component is in an array of its own, the first axis fastest.
 ///
 /// Of a box of three dimensions it may hold some planes of z alone: as many consecutive ones as it has room for. A
 /// plane takes the place of the one that is as many before it or behind.
@@ -89,8 +89,8 @@ class Rows {
   static constexpr std::size_t numbers = std::tuple_size_v<State<D, K>>;
   using Pointers = std::array<double*, numbers>;
 
-  /// Space for boxes of up to `cells` cells or, in three dimensions, for a number of planes of z with up to `cells`
-  /// cells each. All values are 0 at first, or anything.
+  /// Allocates space for boxes of up to `cells` cells or, in three dimensions, for a number of planes of z with up to
+  /// `cells` cells each. The initial values are 0 or undefined.
   explicit Rows(std::size_t cells, int planes = 0) : Rows(cells, planes, Values(room(cells, planes), 0.0)) {}
   static Rows unfilled(std::size_t cells, int planes = 0) { return {cells, planes, Values(room(cells, planes))}; }
 
@@ -103,14 +103,14 @@ class Rows {
   /// Distance in memory between neighbours along an axis; undefined along z if only some planes are stored.
   std::ptrdiff_t stride(int axis) const { return stride_[axis]; }
 
-  /// Pointers to the numbers of a cell; those of the next cell of its row follow them in memory.
+  /// Pointers to the components of a cell; those of the next cell of its row follow in memory.
   Pointers at(const Index<D>& cell) {
     const std::ptrdiff_t offset = offsetOf(cell);
     Pointers pointers;
     for (std::size_t k = 0; k < numbers; ++k) pointers[k] = values_.data() + k * cells_ + offset;
     return pointers;
   }
-  /// One number of a cell, and all of them.
+  /// One component of a cell, and all components.
   double number(const Index<D>& cell, std::size_t k) const { return values_[k * cells_ + offsetOf(cell)]; }
   State<D, K> state(const Index<D>& cell) const {
     State<D, K> state;
@@ -135,12 +135,12 @@ class Rows {
 
   std::size_t cells_;
   Values values_;
-  int planes_ = 0;  ///< that it holds; 0: all
+  int planes_ = 0;  ///< number of planes stored; 0: all
   Box box_;
   std::array<std::ptrdiff_t, 3> stride_{};
 };
 
-/// The State at place `i` of rows.
+/// The State at position `i` of rows.
 template <int D, std::size_t N>
 std::array<double, N> load(const std::array<double*, N>& rows, std::ptrdiff_t i) {
   std::array<double, N> state;

@@ -32,13 +32,14 @@ struct SpongeLayer {
 
 /// Viscosity and conduction that vary in space or with the flow.
 struct VaryingDiffusion {
-  Diffusion uniform = {};                     ///< used where none of the following applies
-  std::optional<Sutherland> sutherland = {};  ///< instead of the uniform viscosity
-  std::vector<SpongeLayer> sponges = {};      ///< instead of both; the last one applies
-  double smagorinsky = 0;                     ///< C of eddies: mu + rho (C Delta)² sqrt(2 S : S)
+  Diffusion uniform = {};                     ///< used where none of the following settings applies
+  std::optional<Sutherland> sutherland = {};  ///< replaces the uniform viscosity
+  std::vector<SpongeLayer> sponges = {};      ///< replaces both; where several boxes overlap, the last one applies
+  /// Smagorinsky's constant C for eddies: mu + rho (C Delta)² sqrt(2 S : S)
+  double smagorinsky = 0;
 
   bool varies() const { return sutherland || !sponges.empty() || smagorinsky > 0; }
-  /// The coefficients of the gas at a point [m] with a temperature [K], without eddies.
+  /// The coefficients of the gas, without eddies, at a point [m] with a temperature [K].
   Diffusion at(const Vec3& point, double temperature) const {
     Diffusion here = uniform;
     if (sutherland) here.viscosity = sutherland->viscosity(temperature);

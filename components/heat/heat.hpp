@@ -22,8 +22,9 @@ struct Settings {
   double density = 1;                   ///< rho, kg/m³
   double specificHeat = 1;              ///< c, J/(kg K)
   double cfl = 0.9;                     ///< fraction of the largest stable time step
-  input::Expression temperature{0.0};   ///< at the start, K
-  double refinementTolerance = 0;       ///< interpolation error between cells above which they are refined, K; 0: never
+  input::Expression temperature{0.0};   ///< initial temperature [K]
+  /// Interpolation error between cells above which they are refined [K]; 0: never.
+  double refinementTolerance = 0;
 
   double capacity() const { return density * specificHeat; }  ///< rho c, J/(m³ K)
 };
@@ -48,16 +49,16 @@ class Heat : public Component {
   Settings settings_;
 };
 
-/// T at the centre of each cell, from the scene's formula. Throws InputError if it is not finite, or k is not greater
-/// than 0.
+/// Sets T at the centre of each cell from the scene's formula. Throws InputError if it is not finite, or if k is not
+/// greater than 0.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature) {
   numerics::CheckedFormula{settings.temperature, "Heat/temperature", "K"}.fill<D>(patch, temperature);
   numerics::CheckedFormula{settings.conductivity, "Heat/thermal_conductivity", "W/(m K)"}.requirePositive<D>(patch);
 }
 
-/// dt = cfl rho c / max(sum over the cell's faces of k / h_d²), which for a uniform k is von Neumann's limit: no cell
-/// overshoots its neighbours.
+/// Computes dt = cfl rho c / max(sum over the cell's faces of k / h_d²), which for a uniform k is von Neumann's limit:
+/// no cell overshoots its neighbours.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum& dt) {
   const numerics::Diffusion<D> diffusion(patch.level(), settings.conductivity, boundary::temperature);
@@ -66,8 +67,8 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum
   });
 }
 
-/// One explicit step; the kept fluxes are those of T, K m/s. T' = T + dt sum_d (k_{i-1/2} (T_{i-1} - T_i) + k_{i+1/2}
-/// (T_{i+1} - T_i)) / (rho c h_d²), k at faces as in Diffusion.
+/// Performs one explicit step; the stored fluxes are those of T [K m/s]. T' = T + dt sum_d (k_{i-1/2} (T_{i-1} - T_i) +
+/// k_{i+1/2} (T_{i+1} - T_i)) / (rho c h_d²), k at faces as in Diffusion.
 template <int D>
 void conduct(const Patch& patch, const Settings& settings, CellView<const double> temperature, double dt,
              CellView<double> newTemperature, RimFlux<double> flux = {}) {
@@ -80,7 +81,7 @@ void conduct(const Patch& patch, const Settings& settings, CellView<const double
   });
 }
 
-/// Marks cells at which the error of linear interpolation between cells exceeds `tolerance` [K]: |T_{i-1} - 2 T_i +
+/// Marks cells in which the error of linear interpolation between cells exceeds `tolerance` [K]: |T_{i-1} - 2 T_i +
 /// T_{i+1}| / 8 along the worst axis, which is h² |T''| / 8. It is four times as much on cells twice as wide, so that
 /// those with more than a quarter stay. At a side of the grid the inner neighbour decides.
 template <int D>
@@ -99,14 +100,14 @@ void estimateError(const Patch& patch, double tolerance, CellView<const double> 
   });
 }
 
-/// Heat in the patch's cells [J].
+/// Computes the heat in the patch's cells [J].
 template <int D>
 void sumEnergy(const Patch& patch, const Settings& settings, CellView<const double> temperature, Sum& energy) {
   const double capacity = settings.capacity() * patch.level().cellVolume();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { energy.add(capacity * temperature[cell]); });
 }
 
-/// The description of this component for sus.
+/// Describes this component to sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::heat

@@ -17,7 +17,7 @@ void addMaterials(Schema<Section>& tags) {
       .required("toMaterial", &Section::to, "1", "name of the gas into which it is converted");
 }
 
-/// The numbers of a steady deflagration; `pressure` is the tag of the threshold.
+/// Declares the parameters of a steady deflagration; `pressure` is the name of the tag with the threshold.
 template <class Section>
 void addSteadyBurn(Schema<Section>& tags, const char* pressure) {
   const auto of = [](double SteadyBurn::*number) -> double Section::* { return number; };

@@ -17,7 +17,7 @@ using input::Schema;
 
 namespace {
 
-/// The attribute `type` of a <Model>.
+/// The values of the attribute `type` of a <Model>.
 const std::vector<std::string> modelTypes{"PassiveScalar", "Test",      "Simple_Burn",     "Steady_Burn",
                                           "DDT1",          "LightTime", "BinaryProperties"};
 
@@ -124,14 +124,14 @@ const Schema<MassExchange>& massExchangeSchema() {
   return schema;
 }
 
-/// Older scenes give the numbers without a <Test> around them.
+/// Reads a mass exchange. Older scenes give the numbers without a <Test> around them.
 void readExchange(const Element& model, ModelsSection& models, Diagnostics& diagnostics) {
   const auto given = model.child("Test");
   if (!given && !model.child("fromMaterial")) return diagnostics.error(model, "missing tag <Test> in <Model>");
   models.massExchanges.push_back(massExchangeSchema().read(given.value_or(model), diagnostics));
 }
 
-/// Reads a body that burns from the tag with the name of the model.
+/// Reads the burn model of a body from the tag that has the name of the model.
 template <class Section>
 void readBurning(const Element& model, const Schema<Section>& schema, ModelsSection& models, Diagnostics& diagnostics) {
   const auto given = model.child(schema.name());

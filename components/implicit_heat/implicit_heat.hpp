@@ -37,8 +37,8 @@ class ImplicitHeat : public Component {
   Settings settings_;
 };
 
-/// rho c (T' - T) / dt = div(k grad T*) with T* = theta T' + (1 - theta) T: a linear system for T* in all cells, from
-/// which T' = T + (T* - T) / theta. theta = 1: backward Euler, of first order in time, and on one level no T' is
+/// Solves rho c (T' - T) / dt = div(k grad T*) with T* = theta T' + (1 - theta) T: a linear system for T* in all cells,
+/// from which T' = T + (T* - T) / theta. theta = 1: backward Euler, of first order in time, and on one level no T' is
 /// outside the range of T and the faces; theta = 1/2: Crank & Nicolson, Proc. Camb. Phil. Soc. 43 (1947) 50, of second
 /// order. Both are stable for any dt. Throws NumericalError if the solver gives up.
 template <int D>
@@ -47,7 +47,7 @@ void conduct(const RankPatches& patches, const mpi::Communicator& ranks, const S
              const std::vector<CellView<double>>& newTemperature, Maximum& iterationsTaken, Maximum& assembly,
              Maximum& setup, Maximum& solution);
 
-/// The description of this component for sus.
+/// Describes this component to sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::implicit_heat

@@ -15,7 +15,7 @@ class BodiesAtNodes {
 
   BodiesAtNodes(const Level& level, const Records& records) : level_(&level), records_(&records) {}
 
-  /// The nodes on the grid of the cells on both sides of the lower face of a cell across an axis.
+  /// The nodes of the cells on both sides of the lower face of a cell across an axis, as far as they are on the grid.
   Box nodesAt(const Index<D>& cell, int axis) const {
     Box nodes{{}, Index3::filled(1)};
     for (int d = 0; d < D; ++d) {
@@ -27,13 +27,14 @@ class BodiesAtNodes {
     nodes.upper[axis] = std::min(nodes.upper[axis], level_->cells().upper[axis] + 1);
     return nodes;
   }
-  /// Mass of all solids at these nodes, kg.
+  /// Mass of all solids at the nodes of such a face [kg].
   double massAt(const Index<D>& cell, int axis) const {
     double mass = 0;
     forEachAt(cell, axis, [&](const mpm::solid::NodeRecord& record) { mass += record[mpm::solid::lane::mass]; });
     return mass;
   }
-  /// Their mass-weighted mean velocity, m/s; 0 without mass. `lane` is that of the record: before the step, or after.
+  /// Mass-weighted mean velocity of all solids at these nodes [m/s]; 0 without mass. `lane` selects the velocity in the
+  /// record: before the step, or after.
   Vec<D> velocityAt(const Index<D>& cell, int axis, int lane) const {
     double mass = 0;
     Vec<D> momentum = Vec<D>::Zero();

@@ -15,10 +15,10 @@ inline double openShare(double coverage, double below, double above, bool thinWa
   return std::max(0.0, std::min(1 - coverage, most));
 }
 
-/// The two faces of a cell across an axis, as fractions of their area.
+/// The open fractions and walls at the two faces of a cell across an axis, as fractions of the face area.
 struct OpenFaces {
   std::array<double, 2> open{};
-  double area = 0;  ///< open and wall together, the same for both; 0 if the cell has no gas
+  double area = 0;  ///< open part and wall together, equal for both faces; 0 if the cell has no gas
 
   double wall(int side) const { return area - open[side]; }
 };
@@ -37,7 +37,7 @@ double facingOneWay(const Level& level, const std::array<OpenFaces, D>& faces) {
   return all > 0 ? std::min(1.0, std::sqrt(open / all)) : 0;
 }
 
-/// The cell itself or, beyond the grid, the nearest on it.
+/// The cell itself or, beyond the grid, the nearest cell on it.
 template <int D>
 Index<D> nearestOnGrid(const Level& level, Index<D> cell) {
   for (int d = 0; d < D; ++d)
@@ -45,7 +45,7 @@ Index<D> nearestOnGrid(const Level& level, Index<D> cell) {
   return cell;
 }
 
-/// The space for the gas: free volumes of cells, and open fractions of faces, which bodies do not cover.
+/// The space available to the gas: free volumes of cells, and open fractions of faces, which bodies do not cover.
 ///
 /// A face is open in part, or closed: then there is a wall. Areas close in each cell: along each axis it has the same
 /// area on both sides, open or wall, so that a gas at rest exerts no force.
@@ -62,7 +62,7 @@ class FreeSpace {
     return side == 0 ? cell[axis] == level_->cells().lower[axis] : cell[axis] == level_->cells().upper[axis] - 1;
   }
 
-  /// The cell itself or, beyond the grid, the nearest on it.
+  /// The cell itself or, beyond the grid, the nearest cell on it.
   Index<D> onGrid(const Index<D>& cell) const { return nearestOnGrid(*level_, cell); }
 
   /// Open fraction of a face.
@@ -79,8 +79,8 @@ class FreeSpace {
     return both;
   }
 
-  /// Unit vector into the body: the gradient of 1 - free volume over the cells around, weighted 1 2 1 across; 0 where
-  /// it has none. Source: D. L. Youngs, AWRE report 44/92/35 (1984).
+  /// Unit vector into the body: the gradient of 1 - free volume over the surrounding cells, weighted 1 2 1 across; 0
+  /// where it has none. Source: D. L. Youngs, AWRE report 44/92/35 (1984).
   Vec<D> normal(const Index<D>& cell) const {
     Vec<D> gradient = Vec<D>::Zero();
     Box around{{}, Index3::filled(1)};

@@ -22,7 +22,7 @@ inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "fraction of the 
 template <int D>
 inline constexpr CellLabel<Vec<D>> swept{
     "c.swept", "1", "volume of bodies that moved upwards through the lower faces, divided by that of a cell"};
-/// A number on the walls at the lower faces of cells, and one on those at the upper faces.
+/// A number for the walls at the lower face of a cell along each axis, and one for those at the upper face.
 template <int D>
 using OnWalls = std::array<CellLabel<Vec<D>>, 2>;
 template <int D>
@@ -31,7 +31,7 @@ inline constexpr OnWalls<D> wallPressure{{{"c.wallPressureBelow", "Pa", "pressur
 template <int D>
 inline constexpr CellLabel<Vec<D>> wallFriction{"c.wallFriction", "N/m^3",
                                                 "force per volume of walls on the gas of the cell"};
-/// Variables of an implicit step.
+/// Labels of an implicit step.
 template <int D>
 inline constexpr euler::StateLabels<D> alone{
     {"c.aloneDensity", "kg/m^3", "density of the gas, per volume of the gas"},
@@ -44,7 +44,7 @@ template <int D>
 inline constexpr OnWalls<D> wallYield{
     {{"c.wallYieldBelow", "m/(s^2 Pa)", "acceleration per pressure of walls at the lower faces"},
      {"c.wallYieldAbove", "m/(s^2 Pa)", "acceleration per pressure of walls at the upper faces"}}};
-/// The state before small cells are merged with others.
+/// Labels of the state before small cells are merged with others.
 inline constexpr CellLabel<double> unsharedDensity{"c.unsharedDensity", "kg/m^3",
                                                    "before small cells are merged with others"};
 template <int D>
@@ -52,7 +52,8 @@ inline constexpr CellLabel<Vec<D>> unsharedMomentum{"c.unsharedMomentum", "kg/(m
                                                     "before small cells are merged with others"};
 inline constexpr CellLabel<double> unsharedEnergy{"c.unsharedEnergy", "J/m^3",
                                                   "before small cells are merged with others"};
-/// For each of several gases, by its number: its mass per volume of the cell, its volume fraction of the gas and,
+/// Labels of each of several gases, indexed by the gas: its mass per volume of the cell, its volume fraction of the gas
+/// and,
 /// before small cells are merged, its mass and volume per volume of the cell.
 inline constexpr std::array<CellLabel<double>, 3> massOfGas{{{"c.massOfGas0", "kg/m^3", "mass of the first gas"},
                                                              {"c.massOfGas1", "kg/m^3", "mass of the second gas"},
@@ -69,7 +70,7 @@ inline constexpr std::array<CellLabel<double>, 3> unsharedVolume{
     {{"c.unsharedVolume0", "1", "volume of the first gas, before small cells are merged"},
      {"c.unsharedVolume1", "1", "volume of the second gas, before small cells are merged"},
      {"c.unsharedVolume2", "1", "volume of the third gas, before small cells are merged"}}};
-/// The exchange of the gas with bodies in a step, per volume of the cell, and since the start.
+/// Labels of the exchange of the gas with bodies: in a step, per volume of the cell, and since the start.
 template <int D>
 inline constexpr CellLabel<Vec<D>> impulse{"c.impulseOnBodies", "N s/m^3", "impulse of the gas on walls in the step"};
 inline constexpr CellLabel<double> work{"c.workOnBodies", "J/m^3", "work of the gas on walls in the step"};
@@ -91,7 +92,7 @@ inline constexpr CellLabel<Vec<D>> massFlow{
     "c.massFlow", "kg/m^3", "gas that passed bodies upwards through the open lower faces, per volume of a cell"};
 inline constexpr CellLabel<double> leakSinceStart{"c.leakSinceStart", "kg/m^3",
                                                   "gas that leaked through bodies in the cell"};
-/// Of a body that burns.
+/// Labels of a body that burns.
 inline constexpr CellLabel<double> reactantMass{"c.reactantMass", "kg/m^3", "of the body that burns"};
 inline constexpr CellLabel<double> reactantVolume{"c.reactantVolume", "1", "fraction of the cell that it fills"};
 inline constexpr CellLabel<double> reactantTemperature{"c.reactantTemperature", "K", "of the body that burns"};
@@ -109,7 +110,7 @@ inline constexpr CellLabel<Vec<D>> recoil{"c.recoil", "Pa",
                                           "of new gas on walls at the lower faces; negative where the gas is above"};
 inline constexpr CellLabel<double> burnRateWithin{
     "c.burnRateWithin", "kg/(m^3 s)", "mass that burns in a cell with a remnant of a body, per cell volume"};
-/// Of one with cracks.
+/// Labels of a body with cracks that burns.
 inline constexpr CellLabel<double> bodyPressure{"c.bodyPressure", "Pa", "mean pressure of the body that burns"};
 inline constexpr CellLabel<double> crackRadius{"c.crackRadius", "m", "radius of its widest cracks"};
 inline constexpr CellLabel<double> burnMode{"c.burnMode", "1",
@@ -134,7 +135,7 @@ namespace g {
 using namespace mpm::solid::g;
 }
 
-/// Totals. Those of `euler` and of the solids that have the same name add up.
+/// Labels of totals. Those of `euler` and of the solids that have the same name add up.
 namespace total {
 inline constexpr ReductionLabel<Sum> gasMass{"GasMass", "kg", "mass of the gas"};
 inline constexpr ReductionLabel<VectorSum> gasMomentum{"GasMomentum", "kg m/s", "momentum of the gas"};

@@ -99,7 +99,7 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials,
       computes(total::forceOnBodies), computes(g::surroundingForce<D>));
 }
 
-/// The mass that burns in the step, according to the state at its start.
+/// Adds the tasks that find the mass that burns in the step, given the state at its start.
 template <int D>
 void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials,
                                    const ParticleLabel<double>& state) const {
@@ -121,7 +121,7 @@ void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials,
                  computes(c::burntShare));
 }
 
-/// The pressure at the end of the step, including that on walls.
+/// Adds the tasks for the pressure at the end of the step, including that on walls.
 template <int D>
 void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials) const {
   constexpr typename GasInCells<D>::Reach reach{.mass = 3, .room = 3};
@@ -137,7 +137,7 @@ void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials)
                         withoutMaterial(all<WallPressures<D>>()));
 }
 
-/// The volume that bodies fill at the end of the step, and the volume that they swept.
+/// Adds the tasks for the volume that bodies fill at the end of the step, and the volume that they swept.
 template <int D>
 void GasAround<D>::scheduleBoxes(TaskList& tasks, const Materials& materials) const {
   if (burns())
@@ -190,7 +190,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                       modifies(p::x<D>), when(keepsStrain(materials), modifies(p::strainEnergy)));
 }
 
-/// Heat by exchange coefficients, and from outside.
+/// Adds heat exchange by coefficients, and heat from outside.
 template <int D>
 void GasAround<D>::scheduleHeat(TaskList& tasks, const Materials& materials) const {
   const std::size_t gases = settings_.gases.size();
@@ -208,7 +208,7 @@ void GasAround<D>::scheduleHeat(TaskList& tasks, const Materials& materials) con
                    requiresOld(delT), modifies(c::totalEnergy));
 }
 
-/// Heat through the walls of bodies, according to the state at the start of the step.
+/// Adds the heat conducted through the walls of bodies, given the state at the start of the step.
 template <int D>
 void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& materials) const {
   constexpr typename GasInCells<D>::Reach reach{.state = 1, .mass = 2, .room = 2};
@@ -221,7 +221,8 @@ void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& material
                         requiresOld(delT), modifies(p::temperature));
 }
 
-/// The exchange of the gas with bodies since the start, and its leak through them; each only if something needs it.
+/// Adds the totals since the start of the exchange with bodies and of the leak through them; each only if something
+/// needs it.
 template <int D>
 void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) const {
   tasks.perPatch("mpmice::addImpulse", addToSum<D, Vec<D>>, requiresNew(c::impulse<D>),
@@ -256,7 +257,7 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
   scheduleStepsOfDiffusion(tasks, 1);
 }
 
-/// The limit of a varying viscosity, together with this fraction of the speed of sound.
+/// Adds the time-step limit of a varying viscosity, together with the given fraction of the speed of sound.
 template <int D>
 void GasAround<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
   if (settings_.diffusion.acts() && settings_.diffusion.varies())

@@ -8,7 +8,7 @@
 
 namespace tushar::mpmice {
 
-/// A gas in the space around bodies of particles, in D dimensions: finite volumes with walls.
+/// A gas in the space around bodies of particles, in D dimensions, by finite volumes with walls.
 ///
 /// The schedule of the solids calls its functions, which add its tasks among theirs. mpmice.cpp has the schedule.
 template <int D>
@@ -32,7 +32,7 @@ class GasAround : public mpm::solid::Surroundings {
   bool waitsForFlames() const { return hasCracks() && settings_.burning->model.ddt()->induction; }
 
  private:
-  /// The gas in cells; `reads` gives the access.
+  /// The gas in cells; `reads` selects the kind of access.
   auto gasIn(auto reads, typename GasInCells<D>::Reach reach) const {
     reach.gases = settings_.gases.size();
     return all<GasInCells<D>>(reads, reach);
@@ -46,17 +46,17 @@ class GasAround : public mpm::solid::Surroundings {
   void schedulePressure(TaskList& tasks, const Materials& materials) const;
   bool burns() const { return settings_.burning.has_value(); }
   bool hasCracks() const { return burns() && settings_.burning->model.ddt(); }
-  /// Whether the burning body has strain energy, which is added to the gas.
+  /// Whether the burning body has strain energy, which must be added to the gas.
   bool keepsStrain(const Materials& materials) const;
   void scheduleBurning(TaskList& tasks, const Materials& materials, const ParticleLabel<double>& state) const;
   void scheduleBoxes(TaskList& tasks, const Materials& materials) const;
   void scheduleSums(TaskList& tasks, const Materials& materials) const;
 
   Settings settings_;
-  std::vector<std::shared_ptr<const ice::GasTotal>> totals_;  ///< of each of several gases
+  std::vector<std::shared_ptr<const ice::GasTotal>> totals_;  ///< totals of each gas, if there are several
 };
 
-/// Solids and a gas on one grid.
+/// Solids and a gas on the same grid.
 template <int D>
 class MpmIce : public Component {
  public:

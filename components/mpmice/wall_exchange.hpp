@@ -7,7 +7,7 @@
 
 namespace tushar::mpmice {
 
-/// The effect of the bodies on the gas in a step: walls, and the changes of free volume and faces.
+/// The effect of the bodies on the gas in a step: by walls, and by changes of free volume and faces.
 template <int D>
 struct BodiesInStep {
   KnownWalls<D> walls;
@@ -24,14 +24,14 @@ struct BodiesInStep {
 /// The transfer from the gas of a cell to walls in a step, per volume of the cell.
 template <int D>
 struct Given {
-  Vec<D> impulse = Vec<D>::Zero();  ///< N s/m³
-  double work = 0;                  ///< J/m³
+  Vec<D> impulse = Vec<D>::Zero();  ///< impulse per volume of the cell [N s/m³]
+  double work = 0;                  ///< work per volume of the cell [J/m³]
 };
 
-/// The smallest fraction that a donor keeps, so that round-off makes nothing negative.
+/// The smallest fraction of its gas that a donor keeps, so that round-off makes nothing negative.
 inline constexpr double roundOffOfShares = 1e-12;
 
-/// The exchange of the gas with walls in a step.
+/// Computes the exchange of the gas with walls in a step.
 template <int D>
 class WallExchange {
  public:
@@ -49,7 +49,7 @@ class WallExchange {
 
   const Level& level() const { return level_; }
   const euler::Gas& gas() const { return gas_; }
-  /// Rules for ghost states beyond the sides of the grid.
+  /// The rules for ghost states beyond the sides of the grid.
   const euler::GhostRules<D>& rules() const { return rules_; }
   const FreeSpace<D>& space() const { return space_; }
   /// Open fraction of the lower face of a cell, which may be outside an upper side of the grid.
@@ -80,8 +80,8 @@ class WallExchange {
     return given;
   }
 
-  /// Mass of gas, per cell volume, that would flow up through the open fraction of the lower face of a cell if it moved
-  /// with the bodies there.
+  /// Mass of gas per cell volume that would flow up through the open fraction of the lower face of a cell if the gas
+  /// moved with the bodies there.
   double carriedThrough(const Index<D>& cell, int axis) const {
     const double open = space_.aperture(cell, axis, 0);
     if (!(open > 0)) return 0;
@@ -92,13 +92,13 @@ class WallExchange {
   }
 
  private:
-  /// For several gases, converts volume fractions into volumes, which fill the free volume of the cell after the step.
+  /// Converts volume fractions of several gases into volumes, which fill the free volume of the cell after the step.
   void fillRoom(const Index<D>& cell, const euler::MixtureViews<D, double>& held) const {
     for (std::size_t k = 0; k < held.shares.size(); ++k)
       held.shares[k][cell] += cells_.held.shares[k][cell] * (step_.newFree[cell] - 1);
   }
 
-  /// Momentum and work of a wall: its pressure, at the mean of its velocities before and after the step.
+  /// Adds momentum and work of a wall: due to its pressure, at the mean of its velocities before and after the step.
   void push(const Index<D>& cell, int axis, int side, double wall, const Vec<D>& after,
             const euler::StateViews<D, double>& held, Given<D>& given) const {
     const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(axis);
@@ -112,7 +112,7 @@ class WallExchange {
     given.work -= work;
   }
 
-  /// Friction, and its work at the mean of the walls' velocities before and after the step.
+  /// Adds friction, and its work at the mean of the walls' velocities before and after the step.
   void drag(const Index<D>& cell, const euler::StateViews<D, double>& held, Given<D>& given) const {
     const CellFriction<D> weights = frictionWeights<D>(level_, settings_, cells_, space_, nodes_, cell);
     for (int a = 0; a < D; ++a)
@@ -131,7 +131,7 @@ class WallExchange {
       }
   }
 
-  /// Whether bodies are at the face below a cell, or have passed through it.
+  /// Whether bodies are at the face below a cell, or have passed through the face.
   bool mayFlow(const Index<D>& face, int axis) const {
     const Index<D> below = face - Index<D>::unit(axis);
     return cells_.free[face] < 1 || cells_.free[below] < 1 || step_.swept[face][axis] != 0;
@@ -144,7 +144,8 @@ class WallExchange {
            step_.swept[above][axis];
   }
 
-  /// Gas follows a receding wall and is displaced by an approaching one, together with its mass, momentum and energy.
+  /// Adds the gas that follows a receding wall or is displaced by an approaching one, with its mass, momentum and
+  /// energy.
   void flow(const Index<D>& cell, int axis, int side, double wallVelocity,
             const euler::MixtureViews<D, double>& held) const {
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
@@ -164,14 +165,15 @@ class WallExchange {
     }
   }
 
-  /// The contribution of a donor: a gas, and the fraction of the requested volume.
+  /// The contribution of a donor: its gas, and the fraction of the requested volume that it can give.
   struct Gift {
     Parcel<D> of;
     double share = 1;
   };
 
-  /// If a donor has too little gas, the rest comes from the neighbour with which it will be merged, if this is mostly
-  /// free. Elsewhere a donor gives of what it holds, as dense as the gas asked for, and at most all of it.
+  /// What a donor can give. If it has too little gas, the rest comes from the neighbour with which it will be merged,
+  /// if this is mostly free. Otherwise a donor gives of what it has, as dense as the gas asked for, and at most all of
+  /// it.
   std::optional<Gift> givenBy(const Index<D>& donor, const Index<D>& receiver) const {
     const std::optional<Parcel<D>> wanted = stateOf(donor, receiver);
     if (!wanted) return std::nullopt;
@@ -229,7 +231,7 @@ class WallExchange {
     mean.add(sum, 1.0 / count);
     return mean;
   }
-  /// `part` times the state of one cell, plus the rest of the state of another.
+  /// The sum of `part` times the state of one cell and 1 - `part` times the state of another.
   Parcel<D> mixed(double part, const Index<D>& of, const Index<D>& rest) const {
     Parcel<D> sum;
     if (part > 0) sum.add(cells_.parcel(of), part);
@@ -237,7 +239,7 @@ class WallExchange {
     return sum;
   }
 
-  /// A hole in a body: it has little free volume, and no cell within two cells is mostly free.
+  /// Whether a cell is a hole in a body: it has little free volume, and no cell within two cells is mostly free.
   bool isClosedPore(const Index<D>& cell) const {
     if (!(step_.newFree[cell] < narrowFreeVolume)) return false;
     bool closed = true;

@@ -53,7 +53,7 @@ inline double fanPressure(const euler::Gas& gas, double density, double last, do
   return gas.pressureOf(rho, of);
 }
 
-/// Pressure [Pa] of a gas on a wall that approaches it at the speed `closing` [m/s]: behind a shock if the wall
+/// Pressure [Pa] of a gas on a wall that approaches the gas at the speed `closing` [m/s]: behind a shock if the wall
 /// approaches, behind a fan if it recedes, and p + p_inf = 0 if there is no gas left. The gas is given by its density
 /// and the last number of its primitive state. Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid
 /// Dynamics, 3rd ed., section 4.3, with the wall's speed given.

@@ -19,8 +19,8 @@ inline constexpr ReductionLabel<Maximum> finalResidual{"KrylovResidual", "1",
 
 /// The `Poisson` section.
 struct Settings {
-  input::Expression coefficient{1.0};  ///< k
-  input::Expression source{0.0};       ///< f
+  input::Expression coefficient{1.0};  ///< coefficient k
+  input::Expression source{0.0};       ///< source f
   solvers::LinearSettings solver;
 };
 
@@ -41,11 +41,11 @@ class Poisson : public Component {
   Settings settings_;
 };
 
-/// phi = 0, the initial guess for the first solve. Throws InputError where k is not greater than 0.
+/// Sets phi = 0, the initial guess for the first solve. Throws InputError where k is not greater than 0.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> phi);
 
-/// How the last solve went.
+/// References to the totals of the last solve.
 struct SolveTotals {
   Maximum &iterations, &finalResidual, &assembly, &preconditioner, &solution;
 
@@ -58,13 +58,14 @@ struct SolveTotals {
   }
 };
 
-/// Solves for phi in the cells of all patches, from the old one. Throws NumericalError if the solver gives up.
+/// Solves for phi in the cells of all patches, starting from the old phi. Throws NumericalError if the solver does not
+/// converge.
 template <int D>
 void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double time, double dt,
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
            const SolveTotals& totals);
 
-/// The description of this component for sus.
+/// Describes this component to sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::poisson

@@ -15,7 +15,7 @@ double leastStiffnessOf(const RiemannProblem& problem) {
   return std::min(problem.gas.stiffness, problem.rightGas.value_or(problem.gas).stiffness);
 }
 
-/// The problem with the same waves in which the softer gas is an ideal one.
+/// Solves the problem with the same waves in which the softer gas is an ideal one.
 RiemannSolution solveShifted(const RiemannProblem& problem) {
   const double shift = leastStiffnessOf(problem);
   const auto shifted = [&](RiemannState state) {

@@ -20,11 +20,11 @@ using ReferencePointer = std::shared_ptr<const GasReference>;
 simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const grid::Level&)> build, const GasTags& tags,
                                         const std::vector<GasLaw>& gases, const input::Element& module);
 
-/// The gas of a solution that has one alone: that of the tags.
+/// The gas of a solution with a single gas, as given by the tags.
 inline std::vector<GasLaw> gasOfTags(const GasTags& read) { return {{read.gamma, read.pInfinity}}; }
 
-/// The module `name`: measures against the solution `build(read, level)` for the gases `gasesOf(read)`. `schema()`, of
-/// an S derived from GasTags, reads it and lives as long as the program.
+/// Describes the module `name`: it measures errors relative to the solution `build(read, level)` for the gases
+/// `gasesOf(read)`. `schema()`, of an S derived from GasTags, reads it and lives as long as the program.
 template <class S, class Build, class GasesOf = decltype(&gasOfTags)>
 simulation::AnalysisKind gasModule(std::string name, std::string sentence, const input::Schema<S>& (*schema)(),
                                    Build build, GasesOf gasesOf = gasOfTags) {

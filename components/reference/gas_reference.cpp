@@ -15,13 +15,13 @@ namespace {
 constexpr double kTolerance = 1e-12;
 constexpr int kMostHalvings = 40;
 
-/// Means over a box, one axis inside the other.
+/// Computes means over a box by nested quadrature, one axis inside the other.
 class BoxMean {
  public:
   BoxMean(const GasReference& gas, const Vec3& lower, const Vec3& upper, double t)
       : gas_(gas), lower_(lower), upper_(upper), time_(t) {}
 
-  /// Mean over the axes from `axis` on, the earlier coordinates being those of `x`.
+  /// Mean over the axes from `axis` on; the earlier coordinates are those of `x`.
   Fields over(int axis, Vec3 x) const {
     if (axis == 3) return toFields(gas_.at(x, time_));
     if (upper_[axis] > lower_[axis]) return overPieces(axis, x);
@@ -43,7 +43,7 @@ class BoxMean {
     return sum / (upper_[axis] - lower_[axis]);
   }
 
-  /// Mean over [a, b], for which Gauss's rule gives `whole`. Halves the interval as long as this changes the mean over
+  /// Mean over [a, b]; `whole` is its value by Gauss's rule. Halves the interval as long as this changes the mean over
   /// the undivided piece, of which [a, b] is the part 2^-depth. Values too large for a number have no better mean.
   Fields adaptive(int axis, const Vec3& x, double a, double b, const Fields& whole, int depth) const {
     const double middle = 0.5 * (a + b);

@@ -4,14 +4,14 @@
 
 namespace tushar::reference {
 
-/// A vortex of two rings in which the pressure balances the turning, carried by a uniform flow.
+/// A vortex of two rings in which pressure balances the centrifugal force, moving with a uniform flow.
 struct GreshoProblem : VortexProblem {
-  /// A radius of 0.2 m and 5 Pa in the middle; beyond twice the radius the gas does not turn.
+  /// The default problem: a radius of 0.2 m and 5 Pa in the middle; beyond twice the radius the gas does not rotate.
   GreshoProblem() {
     pressure = 5;
     radius = 0.2;
   }
-  double speed = 1;  ///< the greatest around the centre, m/s
+  double speed = 1;  ///< largest speed around the centre [m/s]
 };
 
 /// The Gresho vortex. With s = distance from the axis / radius the velocity around it is speed (s; 2 - s; 0) and
@@ -22,11 +22,11 @@ struct GreshoProblem : VortexProblem {
 /// SIAM J. Sci. Comput. 25 (2003) 995, section 4.
 class GreshoVortex : public GasReference {
  public:
-  /// Throws std::invalid_argument where a setting is out of range, or two images overlap.
+  /// Throws std::invalid_argument if a setting is out of range, or if two images overlap.
   explicit GreshoVortex(const GreshoProblem& problem);
 
   GasState at(const Vec3& x, double t) const override;
-  /// By piecewiseMean, cut at the two radii: to 1e-10 of the speed in boxes no wider than half the radius.
+  /// Uses piecewiseMean, split at the two radii: accurate to 1e-10 of the speed in boxes no wider than half the radius.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
  private:

@@ -4,9 +4,9 @@
 
 namespace tushar::reference {
 
-/// A smooth vortex that a uniform flow carries along.
+/// A smooth vortex that moves with a uniform flow.
 struct IsentropicVortexProblem : VortexProblem {
-  double strength = 5;  ///< beta, m/s: the greatest speed around the centre is beta / 2 pi
+  double strength = 5;  ///< beta [m/s]: the largest speed around the centre is beta / 2 pi
 };
 
 /// The exact solution of the isentropic vortex.
@@ -17,11 +17,11 @@ struct IsentropicVortexProblem : VortexProblem {
 /// units.
 class IsentropicVortex : public GasReference {
  public:
-  /// Throws std::invalid_argument where a setting is out of range, or the vortex so strong that its centre is empty.
+  /// Throws std::invalid_argument if a setting is out of range, or if the vortex is so strong that its centre is empty.
   explicit IsentropicVortex(const IsentropicVortexProblem& problem);
 
   GasState at(const Vec3& x, double t) const override;
-  /// By piecewiseMean, split half-way between images: to 1e-12 in boxes no wider than a third of the radius.
+  /// Uses piecewiseMean, split half-way between images: accurate to 1e-12 in boxes no wider than a third of the radius.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
  private:

@@ -6,9 +6,9 @@ namespace tushar::reference {
 
 /// `exactRiemann`: compares a run with the exact solution of a shock tube.
 simulation::AnalysisKind exactRiemannKind();
-/// `simpleWave`: compares a run with a right-running simple wave.
+/// `simpleWave`: compares a run with a simple wave that runs to the right.
 simulation::AnalysisKind simpleWaveKind();
-/// `isentropicVortex`: compares a run with a smooth vortex carried by a uniform flow.
+/// `isentropicVortex`: compares a run with a smooth vortex in a uniform flow.
 simulation::AnalysisKind isentropicVortexKind();
 /// `gresho`: compares a run with a steady vortex that consists of two rings.
 simulation::AnalysisKind greshoKind();

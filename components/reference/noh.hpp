@@ -4,14 +4,14 @@
 
 namespace tushar::reference {
 
-/// Cold gas that falls into a plane, a line or a point.
+/// Cold gas that moves into a plane, a line or a point.
 struct NohProblem {
-  double density = 1;          ///< at t = 0, kg/m^3
-  double speed = 1;            ///< inwards, m/s
-  double pressure = 0;         ///< at t = 0, Pa; small beside density speed²
+  double density = 1;          ///< density at t = 0 [kg/m^3]
+  double speed = 1;            ///< inward speed [m/s]
+  double pressure = 0;         ///< pressure at t = 0 [Pa]; must be small compared with density speed²
   double gamma = 5.0 / 3;      ///< ratio of specific heats
   Vec3 centre = Vec3::Zero();  ///< m
-  Vec3 round = Vec3(1, 0, 0);  ///< 1 along the axes that the distance from the centre is taken in: 1, 2 or 3 of them
+  Vec3 round = Vec3(1, 0, 0);  ///< 1 along the 1, 2 or 3 axes in which the distance from the centre is measured
 };
 
 /// The exact solution of Noh's problem in d = 1, 2 or 3 dimensions: a shock of speed s = (gamma-1)/2 u0 runs outwards.
@@ -22,7 +22,7 @@ struct NohProblem {
 /// (1987) 78.
 class Noh : public RadialReference {
  public:
-  /// Throws std::invalid_argument where a setting is out of range.
+  /// Throws std::invalid_argument if a setting is out of range.
   explicit Noh(const NohProblem& problem);
 
   double shockRadius(double t) const override { return 0.5 * (problem_.gamma - 1) * problem_.speed * t; }

@@ -10,22 +10,22 @@ namespace tushar::reference {
 /// A plane across which fields or their slopes jump.
 struct Plane {
   static constexpr bool curved = false;
-  Vec3 normal;          ///< of any length but 0
+  Vec3 normal;          ///< normal of any length except 0
   double distance = 0;  ///< the plane is where normal . x = distance
 
-  /// Whether it runs through the inside of the box [lower, upper], m.
+  /// Whether the plane passes through the inside of the box [lower, upper] [m].
   bool cuts(const Vec3& lower, const Vec3& upper) const;
-  /// Adds the positions along `axis` where it enters or leaves the rest of the box: that part of it whose earlier
-  /// coordinates are those of `x`.
+  /// Adds the positions along `axis` where the plane enters or leaves the rest of the box: that part of it whose
+  /// earlier coordinates are those of `x`.
   void addBreaks(int axis, const Vec3& lower, const Vec3& upper, const Vec3& x, std::vector<double>& breaks) const;
 };
 
-/// A sphere, or a circle or a pair of points drawn out along the other axes, across which fields or their slopes jump.
+/// A sphere, or a circle or a pair of points extended along the other axes, across which fields or their slopes jump.
 struct Sphere {
   static constexpr bool curved = true;
   Vec3 centre;        ///< m
   double radius = 0;  ///< m
-  Vec3 round;         ///< 1 along the axes that count, 0 along the others
+  Vec3 round;         ///< 1 along the axes in which the distance from the centre is measured, 0 along the others
 
   bool cuts(const Vec3& lower, const Vec3& upper) const;
   void addBreaks(int axis, const Vec3& lower, const Vec3& upper, const Vec3& x, std::vector<double>& breaks) const;
@@ -80,8 +80,8 @@ class PiecewiseMean {
     return sum / (upper_[axis] - lower_[axis]);
   }
 
-  /// The point after the substitution x = s²(3 - 2s), dx = 6s(1 - s) ds: a function that behaves like a root of x at an
-  /// end is smooth in s.
+  /// The quadrature point after the substitution x = s²(3 - 2s), dx = 6s(1 - s) ds: a function that behaves like a root
+  /// of x at an end is smooth in s.
   static QuadraturePoint smoothEnds(const QuadraturePoint& point) {
     const double s = point.at;
     return {s * s * (3 - 2 * s), 6 * s * (1 - s) * point.weight};
@@ -93,7 +93,7 @@ class PiecewiseMean {
   double time_;
 };
 
-/// Mean of each field over the box [lower, upper] (m) at time `t` (s) of a gas that is smooth except for `surfaces`; an
+/// Mean of each field over the box [lower, upper] [m] at time `t` [s] for a gas that is smooth except at `surfaces`; an
 /// axis with no extent is a point. Gauss-Legendre with 5 points per axis, in a box that a surface cuts 8 in each piece:
 /// exact for polynomials cut by planes up to degree 13 over all axes, to about 1e-8 of what jumps where spheres cut.
 /// Throws std::invalid_argument where upper < lower.

@@ -4,15 +4,15 @@
 
 namespace tushar::reference {
 
-/// The state of a gas at a distance from a centre; it flows along the radius.
+/// The state of a gas at a distance from a centre; the gas flows along the radius.
 struct RadialState {
   double density = 0;   ///< kg/m^3
-  double velocity = 0;  ///< outwards, m/s
+  double velocity = 0;  ///< outward velocity [m/s]
   double pressure = 0;  ///< Pa
   double energy = 0;    ///< internal energy per mass, J/kg
 };
 
-/// A gas whose state depends on the distance from a centre alone, with one shock: between planes, around a line or
+/// A gas whose state depends only on the distance from a centre, with one shock: between planes, around a line or
 /// around a point.
 class RadialReference : public GasReference {
  public:
@@ -20,17 +20,17 @@ class RadialReference : public GasReference {
   /// Uses piecewiseMean with one piece on each side of the shock.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
-  /// Where the shock is, m.
+  /// The position of the shock [m].
   virtual double shockRadius(double t) const = 0;
-  /// The state at a distance `r` >= 0 from the centre, m.  Throws std::invalid_argument where t < 0.
+  /// The state at a distance `r` >= 0 from the centre [m].  Throws std::invalid_argument if t < 0.
   virtual RadialState atRadius(double r, double t) const = 0;
 
  protected:
-  /// `round`: 1 along the axes that the distance is taken in, 0 along the others. Throws std::invalid_argument for
-  /// others than these, or if all are 0.
+  /// `round` is 1 along the axes in which the distance is measured, 0 along the others. Throws std::invalid_argument
+  /// for others than these, or if all are 0.
   RadialReference(const Vec3& centre, const Vec3& round);
 
-  /// 1, 2 or 3.
+  /// The number of these axes: 1, 2 or 3.
   int dimension() const { return static_cast<int>(round_.sum()); }
 
  private:

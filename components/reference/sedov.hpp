@@ -9,11 +9,11 @@ namespace tushar::reference {
 /// Energy released instantaneously in a plane, along a line or at a point of a uniform gas at rest.
 struct SedovProblem {
   double density = 1;   ///< density of the gas at rest, kg/m^3
-  double pressure = 0;  ///< pressure of the gas, Pa; it has no effect on the blast, so it must be negligible
-  double energy = 1;    ///< energy in all space: J/m² of a plane (both sides of it), J/m of a line, J of a point
+  double pressure = 0;  ///< pressure of the gas [Pa]; it has no effect on the blast, so it must be negligible
+  double energy = 1;    ///< total energy: of a plane (both sides of it) [J/m²], of a line [J/m], of a point [J]
   double gamma = 1.4;   ///< ratio of specific heats
   Vec3 centre = Vec3::Zero();  ///< m
-  Vec3 round = Vec3(1, 1, 1);  ///< 1 along the 1, 2 or 3 axes of the distance from the centre
+  Vec3 round = Vec3(1, 1, 1);  ///< 1 along the 1, 2 or 3 axes in which the distance from the centre is measured
 };
 
 /// The self-similar blast wave of Sedov, Taylor and von Neumann in d = 1, 2 or 3 dimensions.
@@ -27,20 +27,20 @@ struct SedovProblem {
 /// Lifshitz, Fluid Mechanics, section 106; J. Kamm & F. Timmes, LA-UR-07-2849 (2007).
 class Sedov : public RadialReference {
  public:
-  /// Throws std::invalid_argument where a setting is out of range; in three dimensions also where gamma >= 7, which
-  /// leaves a void in the middle.
+  /// Throws std::invalid_argument if a setting is out of range; in three dimensions also if gamma >= 7, which leaves a
+  /// void in the middle.
   explicit Sedov(const SedovProblem& problem);
 
   double shockRadius(double t) const override;
   RadialState atRadius(double r, double t) const override;
-  /// As for any reference, except that the internal energy is weighted with the mass, mean p / ((gamma-1) mean rho): it
-  /// grows so fast towards the centre that its plain mean is infinite there.
+  /// Like averages of other references, except that the internal energy is weighted with the mass, mean p / ((gamma-1)
+  /// mean rho): it grows so fast towards the centre that its plain mean is infinite there.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
   double alpha() const { return alpha_; }
 
  private:
-  /// ln(gamma w - 1) and ln G at a ln lambda, or their derivatives.
+  /// ln(gamma w - 1) and ln G at a given ln lambda, or their derivatives.
   struct Shape {
     double y = 0, density = 0;
   };
@@ -54,8 +54,8 @@ class Sedov : public RadialReference {
   double findAlpha() const;
 
   SedovProblem problem_;
-  double step_ = 0;          ///< of ln lambda from one node to the next, inwards: negative
-  std::vector<Node> nodes_;  ///< from the shock inwards
+  double step_ = 0;          ///< step of ln lambda from one node to the next, inwards: negative
+  std::vector<Node> nodes_;  ///< nodes from the shock inwards
   double alpha_ = 0;
 };
 

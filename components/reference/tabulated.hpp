@@ -10,9 +10,10 @@ namespace tushar::reference {
 /// Cell means of a gas at one time on a uniform grid.
 struct GasTable {
   Vec3 lower, upper;            ///< m
-  Index3 cells;                 ///< along x, y, z; along an axis with one the gas is the same without end
+  /// Number of cells along x, y, z; along an axis with one cell, the gas is uniform without end.
+  Index3 cells;
   double time = 0;              ///< s
-  std::vector<GasState> means;  ///< x fastest, z slowest
+  std::vector<GasState> means;  ///< cell means, x fastest, z slowest
 };
 
 /// The cells of a gas in an output of an archive (`t00042.h5`) that contains c.density, c.velocity and c.pressure, or
@@ -24,20 +25,21 @@ GasTable readGasTable(const std::filesystem::path& file, double gamma);
 /// holds at the time of the table and within its box.
 class Tabulated : public GasReference {
  public:
-  /// Throws std::invalid_argument where the table has no cells, no extent or another number of means than cells.
+  /// Throws std::invalid_argument if the table has no cells, no extent, or a number of means that differs from the
+  /// number of cells.
   explicit Tabulated(GasTable table);
 
-  /// Linear interpolation between the centres of cells, which smears shocks over two of them. Throws std::domain_error
+  /// Interpolates linearly between the centres of cells, which smears shocks over two of them. Throws std::domain_error
   /// at another time.
   GasState at(const Vec3& x, double t) const override;
   bool holdsAt(double t) const override;
   bool covers(const Vec3& x, double t) const override;
-  /// Mean of the cells, each weighted by how much of it is in the box: exact for boxes made of whole cells.
+  /// Mean of the cells, each weighted by the part of it that is in the box: exact for boxes made of whole cells.
   /// Throws std::invalid_argument where upper < lower or the box leaves the table.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
  private:
-  /// Cells along an axis, and their shares of a sum.
+  /// Cells along an axis, and their weights in a sum.
   struct Share {
     int cell;
     double part;

@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// The diffusive fluxes through the rim of the level, Pa and W/m².
+/// The diffusive fluxes through the rim of the level [Pa and W/m²].
 template <int D>
 struct DiffusionRims {
   RimFlux<Vec<D>> momentum;
@@ -17,23 +17,24 @@ struct DiffusionRims {
   }
 };
 
-/// Computes T [K], instead of the density, and v, for the cells of `rows` that are on the grid or are images of such
-/// cells.
+/// Computes T [K] (in place of the density) and v for the cells of `rows` that are on the grid or are periodic images
+/// of such cells.
 template <int D>
 void findTemperature(const Gas& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& rows);
 
-/// The diffusive fluxes through the lower faces of `faces` across an axis, Pa and W/m², of T and v around them.
+/// Computes the diffusive fluxes through the lower faces of `faces` across an axis [Pa and W/m²], from T and v around
+/// them.
 template <int D>
 void computeDiffusiveFluxes(const Diffusion& diffusion, const Level& level, const Box& faces, int axis, Rows<D>& w,
                             Rows<D>& flux);
 
-/// Adds the inflow to the cells of a block across an axis; `ratio` is dt / h [s/m].
+/// Adds the net inflow to the cells of a block across an axis; `ratio` is dt / h [s/m].
 template <int D>
 void addDiffused(double ratio, const Box& block, int axis, Rows<D>& flux, CellView<Vec<D>> momentum,
                  CellView<double> energy);
 
-/// Adds the changes due to viscosity and heat conduction in a step, from the state [kg/m³, kg/(m² s), J/m³] and the
-/// time at its start.
+/// Adds the changes due to viscosity and heat conduction in a step, given the state [kg/m³, kg/(m² s), J/m³] and the
+/// time at the start of the step.
 ///
 /// Through a face across d flow -tau_d of momentum and -(tau_d . v + k dT/dx_d) of energy, tau = mu (grad v +
 /// (grad v)^T - 2/3 div v I): Newton's and Fourier's laws, by centred differences. What leaves a cell enters its
@@ -45,7 +46,7 @@ void addDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion
                   double dt, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy,
                   const DiffusionRims<D>& rims);
 
-/// dt = cfl / max(sum_d (|v_d| + c) / h_d + 2 nu / h_d²), where nu is the largest diffusivity.
+/// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d + 2 nu / h_d²), where nu is the largest diffusivity.
 template <int D>
 void limitDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion, double cfl,
                     CellView<const double> density, CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,

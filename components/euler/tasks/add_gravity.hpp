@@ -4,7 +4,7 @@
 
 namespace tushar::euler {
 
-/// The change of a cell by gravity g [m/s²] in a step: rho g dt is added to the momentum and g . (m + m') / 2 dt to the
+/// Changes a cell by gravity g [m/s²] in a step: rho g dt is added to the momentum and g . (m + m') / 2 dt to the
 /// energy, m and m' the momentum before and after. The kinetic energy changes by the work of gravity, the internal
 /// energy does not.
 template <int D>
@@ -14,7 +14,7 @@ void fall(const Vec<D>& gravity, double density, double dt, Vec<D>& momentum, do
   momentum += 2 * half;
 }
 
-/// Adds gravity in all cells.
+/// Adds gravity to all cells.
 template <int D>
 void addGravity(const Patch& patch, const Vec3& gravity, CellView<const double> density, double dt,
                 CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
@@ -23,7 +23,7 @@ void addGravity(const Patch& patch, const Vec3& gravity, CellView<const double> 
              [&](const Index<D>& cell) { fall<D>(g, density[cell], dt, momentum[cell], totalEnergy[cell]); });
 }
 
-/// Adds a force per volume [N/m³], the same in all cells.
+/// Adds a force per volume [N/m³] that is the same in all cells.
 template <int D>
 void addForce(const Patch& patch, const Vec3& force, CellView<const double> density, double dt,
               CellView<Vec<D>> momentum, CellView<double> totalEnergy) {

@@ -5,7 +5,7 @@
 
 namespace tushar::euler {
 
-/// A function that returns the diffusing gas of each cell.
+/// A function that returns the diffusion properties of each cell.
 template <int D>
 auto diffusingCells(const Level& level, const Gas& gas, const VaryingDiffusion& how,
                     const StateViews<D, const double>& old) {
@@ -32,8 +32,8 @@ void addVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffus
   diffuse<D>(patch, diffuser, dt, diffusingCells<D>(patch.level(), gas, how, old), newMomentum, newTotalEnergy, rims);
 }
 
-/// dt is cfl divided by the largest combined rate of crossing cells and of diffusion. `soundSpeedKnob`: how much of the
-/// speed of sound counts.
+/// Computes dt as cfl over the largest combined rate of crossing cells and of diffusion. `soundSpeedKnob`: how much of
+/// the speed of sound counts.
 template <int D>
 void limitVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffusion& how, double cfl,
                            double soundSpeedKnob, const OldState<D>& old, double time, Minimum& dt) {

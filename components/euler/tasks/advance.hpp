@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// The fluxes of one of several gases through the rim of the level: of its mass, kg/(m² s), and its volume fraction,
+/// The fluxes of one of several gases through the rim of the level: of its mass [kg/(m² s)] and its volume fraction,
 /// m/s.
 struct GasRims {
   RimFlux<double> mass, share;
@@ -33,7 +33,7 @@ struct RimFluxes {
   }
 };
 
-/// One step on a patch: the body of the task, with the gas, the old state [kg/m³, kg/(m² s), J/m³], its time, the time
+/// One step on a patch, as the body of the task: the gas, the old state [kg/m³, kg/(m² s), J/m³], its time, the time
 /// step [s], the new state, and its fluxes through the rim of the level.
 ///
 /// U' = U - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, all axes at once (unsplit). First order: F of the cells on

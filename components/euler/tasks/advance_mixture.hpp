@@ -4,7 +4,7 @@
 
 namespace tushar::euler {
 
-/// The variables of each of several gases that a step reads.
+/// Views of the variables of one of several gases that a step reads.
 struct OldGas {
   CellView<const double> mass, share;
 
@@ -12,14 +12,14 @@ struct OldGas {
     return {.mass = take(requiresOld(c::gasMass, ghost)), .share = take(requiresOld(c::gasShare, ghost))};
   }
 };
-/// The variables of each of several gases that a step computes.
+/// Views of the variables of one of several gases that a step computes.
 struct NewGas {
   CellView<double> mass, share;
 
   static NewGas from(auto& take) { return {.mass = take(computes(c::gasMass)), .share = take(computes(c::gasShare))}; }
 };
 
-/// The law of the gases in a cell: `gases` have the laws, `held` the volume fractions.
+/// The law of the gases in a cell: `gases` contains their laws, `held` the volume fractions.
 template <class Held, int D>
 MixedGas mixedAt(const std::vector<Settings>& gases, const std::vector<Held>& held, const Index<D>& cell) {
   MixedGas mixed;
@@ -41,13 +41,13 @@ Mixture<K> mixtureOf(const std::vector<Settings>& gases) {
   return mixture;
 }
 
-/// Throws NumericalError for the first cell of the patch with an impossible state, if there is one; `held` has the
+/// Throws NumericalError for the first cell of the patch with an impossible state, if there is one; `held` contains the
 /// shares of each gas.
 template <int D, class Held, class T>
 void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Held>& held,
                          const StateViews<D, T>& state);
 
-/// The views of the state of all gases together, and of each.
+/// The views of the joint state of all gases, and of the state of each.
 template <class T, int D, class Held>
 MixtureViews<D, T> viewsOf(const StateViews<D, T>& all, const std::vector<Held>& held) {
   MixtureViews<D, T> views{all, {}, {}};
@@ -72,16 +72,16 @@ using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>&
 /// The largest number of gases.
 inline constexpr int kMostGases = 3;
 
-/// The body for a method and a number of gases: HLLC's flux, van Leer's slopes or none.
+/// The body for a method and a number of gases, with the HLLC flux and van Leer's slopes or none.
 template <int D>
 AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
 
 /// Rescales volume fractions where fluxes through the rim of a level were corrected, because there they no longer add
-/// up to 1. Divides them by their sum, the correction of the flux of volume. Other cells stay as they are.
+/// up to 1. Divides them by their sum, the correction of the flux of volume. Other cells are unchanged.
 template <int D>
 void closeShares(const Patch& patch, const std::vector<Settings>& gases, const std::vector<CellView<double>>& shares);
 
-/// The variables of each of several gases that a regridding changes.
+/// Views of the variables of one of several gases that regridding changes.
 struct ChangedGas {
   CellView<double> mass, share;
 
@@ -96,7 +96,7 @@ template <int D>
 void mendNewMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& newCells,
                     const ChangedState<D>& state, const std::vector<ChangedGas>& held);
 
-/// dt = cfl / max(sum_d (|v_d| + c) / h_d), with rho c² = (p (1 + G) + S) / G.
+/// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d), with rho c² = (p (1 + G) + S) / G.
 /// Throws NumericalError where a state is impossible.
 template <int D>
 void limitMixtureStep(const Patch& patch, const std::vector<Settings>& gases, double cfl, const OldState<D>& old,

@@ -11,7 +11,7 @@
 
 namespace tushar::euler {
 
-/// Whether the states of a row of cells are valid: rho > 0 and, p + p_inf > 0, checked without division as rho (E -
+/// Whether the states of a row of cells are valid: rho > 0 and p + p_inf > 0, checked without division as rho (E -
 /// p_inf) > |rho v|² / 2; all values must be finite.
 template <int D>
 bool canBe(const StiffenedGas& gas, const double* density, const double* momentum, const double* totalEnergy,
@@ -26,7 +26,7 @@ bool canBe(const StiffenedGas& gas, const double* density, const double* momentu
   }
   return broken == 0;
 }
-/// The same for a gas with its own law, whose heat must be positive.
+/// The same check for a gas with its own law, whose heat must be positive.
 template <int D, class Law>
 bool canBe(const Law& law, const double* density, const double* momentum, const double* totalEnergy, int count) {
   for (int i = 0; i < count; ++i) {
@@ -42,13 +42,13 @@ bool canBe(const Gas& gas, const double* density, const double* momentum, const 
   return gas.withLaw([&](const auto& law) { return canBe<D>(law, density, momentum, totalEnergy, count); });
 }
 
-/// E - rho v² / 2 of a cell [J/m³].
+/// Internal energy per volume of a cell, E - rho v² / 2 [J/m³].
 template <int D, class T>
 double internalEnergyIn(const StateViews<D, T>& state, const Index<D>& cell) {
   return state.totalEnergy[cell] - 0.5 * state.momentum[cell].squaredNorm() / state.density[cell];
 }
 
-/// p of a cell [Pa].
+/// Pressure of a cell [Pa].
 template <int D, class T>
 double pressureIn(const Gas& gas, const StateViews<D, T>& state, const Index<D>& cell) {
   return gas.pressure(state.density[cell], internalEnergyIn<D, T>(state, cell));

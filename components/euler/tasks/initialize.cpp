@@ -23,7 +23,7 @@ void checkState(const Settings& settings, const GasObject& object, const Vec3& p
                     density, pressure, velocity[0], velocity[1], velocity[2], point[0], point[1], point[2])}});
 }
 
-/// The last object that owns a point, or null.
+/// The last object that owns a point; null if no object does.
 const GasObject* objectAt(const Settings& settings, const Vec3& point) {
   const auto& objects = settings.objects;
   const auto object =

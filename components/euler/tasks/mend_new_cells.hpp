@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// The children of a cell that has been refined.
+/// The children of a refined cell.
 template <int D>
 class Children {
  public:

@@ -28,7 +28,7 @@ void recoverRow(const G& gas, const double* density, const double* momentum, con
   }
 }
 
-/// w -+ slope / 2 of one number, with limited slopes, from the rows of neighbours below and above.
+/// Computes w -+ slope / 2 for one component, with limited slopes, from the rows of neighbours below and above.
 template <class Limited>
 void reconstructRow(const double* below, const double* w, const double* above, int count, double* lower,
                     double* upper) {
@@ -40,7 +40,7 @@ void reconstructRow(const double* below, const double* w, const double* above, i
   }
 }
 
-/// F of primitive values, across an axis.
+/// Computes F of primitive values, across an axis.
 template <int D, int Axis, class G>
 State<D, kGases<G>> fluxOf(const G& gas, const State<D, kGases<G>>& w) {
   FaceState<D, kGases<G>> face{w, conserved<D>(gas, w)[kPressure<D>]};
@@ -68,8 +68,8 @@ void halfStepRow(const G& gas, const Pointers<D, kGases<G>>& lower, const Pointe
   }
 }
 
-/// Changes primitive values by a change of the conserved ones; lowers `least` to the density and p + p_inf (or, for a
-/// law, its heat) found, and below 0 if one of several gases has a negative amount.
+/// Changes primitive values according to a change of the conserved ones; lowers `least` to the density and p + p_inf
+/// (or, for a law, its heat) found, and below 0 if one of several gases has a negative amount.
 template <int D, class G>
 void changeRow(const G& gas, const Pointers<D, kGases<G>>& change, int count, const Pointers<D, kGases<G>>& values,
                double* least) {
@@ -86,7 +86,8 @@ void changeRow(const G& gas, const Pointers<D, kGases<G>>& change, int count, co
   }
 }
 
-/// For several gases, whose limited slopes need not add up: scales masses and shares so that the shares add up to 1,
+/// For several gases, whose limited slopes need not be consistent: scales masses and volume fractions so that the
+/// fractions add up to 1,
 /// and the density is the sum of the masses.
 template <int D, int K>
 void closeRow(int count, const Pointers<D, K>& values) {
@@ -100,7 +101,7 @@ void closeRow(int count, const Pointers<D, K>& values) {
   }
 }
 
-/// Treats cells whose `least` is not positive as constant: sets the values at both faces to those of the cell.
+/// Makes cells constant in which `least` is not positive: sets the values at both faces to those of the cell.
 template <int D, int K = 1>
 void flattenRow(const double* least, const Pointers<D, K>& w, int count, const Pointers<D, K>& lower,
                 const Pointers<D, K>& upper) {
@@ -117,15 +118,15 @@ void fluxRow(const G& gas, const Pointers<D, kGases<G>>& below, const Pointers<D
     store<D>(flux, i, fluxOf<D, Axis>(Flux::template solve<D, Axis>(gas, load<D>(below, i), load<D>(above, i))));
 }
 
-/// new = old - ratio (flux of the upper face - flux of the lower face) of one number, `step` apart in old and new,
-/// which may be the same.
+/// Computes new = old - ratio (flux of the upper face - flux of the lower face) for one component; old and new are
+/// `step` numbers apart and may be the same array.
 inline void updateRow(const double* old, const double* below, const double* above, double ratio, int step, int count,
                       double* result) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) result[i * step] = old[i * step] - ratio * (above[i] - below[i]);
 }
 
-/// The update of a volume fraction, which is not conserved as mass is: z' = z - ratio (F_upper - F_lower - z (v_upper -
+/// Updates a volume fraction, which is not conserved as mass is: z' = z - ratio (F_upper - F_lower - z (v_upper -
 /// v_lower)), where the velocity of a face follows from the fluxes of all volume fractions, which add up to 1. So equal
 /// shares stay equal.
 template <int K>

@@ -13,20 +13,21 @@ namespace tushar::ice {
 /// negligible and its values are too small to divide by.
 inline constexpr double leastPartOfMass = 1e-30;
 
-/// The participants in the heat exchange of a cell, at most `Most` or any number: bodies in their order, then gases.
+/// The participants in the heat exchange of a cell, at most `Most` or any number: first the bodies in their order, then
+/// the gases.
 /// All is per volume of the cell; what is absent has the capacity 0.
 template <int Most = Eigen::Dynamic>
 struct WarmThings {
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Most, 1>;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Most, Most>;
 
-  Vector mass;           ///< kg/m³
-  Vector capacity;       ///< at constant volume, J/(m³ K)
+  Vector mass;           ///< mass per volume of the cell [kg/m³]
+  Vector capacity;       ///< heat capacity at constant volume, per volume of the cell [J/(m³ K)]
   Vector temperature;    ///< K
-  Vector volume;         ///< share of the cell
-  Vector expansion;      ///< m R of gases that share their volume, J/(m³ K); 0 for bodies
-  Vector stiffPressure;  ///< p + p_inf of these gases, Pa
-  Vector given;          ///< additional heat for each, J/m³
+  Vector volume;         ///< volume fraction of the cell
+  Vector expansion;      ///< m R of gases that share their volume [J/(m³ K)]; 0 for bodies
+  Vector stiffPressure;  ///< p + p_inf of the gases that share their volume [Pa]
+  Vector given;          ///< heat added to each, per volume of the cell [J/m³]
 
   explicit WarmThings(Eigen::Index count)
       : mass(Vector::Zero(count)),
@@ -51,8 +52,8 @@ struct WarmThings {
   }
 };
 
-/// The increase d of the common pressure after which gases fill the same volume as before: the root of sum (a_k + b_k
-/// d) / (P_k + d) above the least -P_k. That is unique, as each term of the sum of volumes falls with the pressure.
+/// The increase d of the common pressure with which the gases fill the same volume as before: the root of sum (a_k +
+/// b_k d) / (P_k + d) above the least -P_k. That is unique, as each term of the sum of volumes falls with the pressure.
 /// Newton's method within bounds.
 template <class Vector>
 double pressureRise(const Vector& a, const Vector& b, const Vector& stiffPressure) {
@@ -83,13 +84,14 @@ double pressureRise(const Vector& a, const Vector& b, const Vector& stiffPressur
   return rise;
 }
 
-/// Changes in a step of heat exchange.
+/// The changes of the participants in one step of heat exchange.
 template <int Most>
 struct HeatChanges {
-  typename WarmThings<Most>::Vector temperature, volume;  ///< K; share of the cell
+  typename WarmThings<Most>::Vector temperature, volume;  ///< changes of temperature [K] and of volume fraction
 };
 
-/// The changes in dt by C_a dT_a/dt = sum_b H_ab theta_a theta_b (T_b - T_a), implicit: however stiff the exchange is,
+/// Computes the changes in a time dt from C_a dT_a/dt = sum_b H_ab theta_a theta_b (T_b - T_a), implicitly: however
+/// stiff the exchange is,
 /// all end at one temperature.
 ///
 /// Gases that share a volume expand at their common pressure p', that at the end: m c_v dT + (p' + p_inf) dV is the
@@ -136,7 +138,7 @@ HeatChanges<Most> changesByHeat(const WarmThings<Most>& things, const HeatCoeffi
   return changes;
 }
 
-/// Adds heat to several gases; those of a cell expand.
+/// Adds heat to several gases; the gases of a cell expand.
 template <int Most>
 void giveHeat(WarmThings<Most>& things, const Heating& heating, double time, double dt, Eigen::Index first) {
   for (std::size_t k = 0; k < heating.perMass.size(); ++k) {
@@ -145,7 +147,7 @@ void giveHeat(WarmThings<Most>& things, const Heating& heating, double time, dou
   }
 }
 
-/// The volume fractions of gases whose volumes change.
+/// The volume fractions of the gases after their volumes have changed.
 template <int Most, class Shares>
 void changeShares(const HeatChanges<Most>& changes, Eigen::Index first, double room, Shares&& shares) {
   double sum = 0;
@@ -158,7 +160,7 @@ void changeShares(const HeatChanges<Most>& changes, Eigen::Index first, double r
   for (Eigen::Index k = 0; k < count; ++k) shares(k) /= sum;
 }
 
-/// The variables of each gas that the heat exchange reads and changes.
+/// The variables of one gas that the heat exchange reads and changes.
 struct WarmGas {
   CellView<const double> mass;
   CellView<double> share;
@@ -168,7 +170,8 @@ struct WarmGas {
   }
 };
 
-/// Heat exchange between several gases in the cells that they share, with Uintah's coefficients, and heat from outside.
+/// Exchanges heat between several gases in the cells that they share, with Uintah's coefficients, and adds heat from
+/// outside.
 /// Masses and momentum stay, energy changes by what comes from outside; shares and the pressure change.
 template <int D>
 void exchangeHeat(const Patch& patch, const Gases& gases, const HeatCoefficients& coefficients, const Heating& heating,

@@ -11,21 +11,21 @@ namespace tushar::ice {
 
 namespace c {
 
-/// The law of the gases of a cell before a step, for the solve.
+/// The law of the gases in a cell before a step, used by the solve.
 inline constexpr CellLabel<double> softness{"c.softness", "1", "sum of z / (gamma - 1) of several gases"};
 inline constexpr CellLabel<double> stiffness{"c.stiffness", "J/m^3",
                                              "sum of z gamma p_inf / (gamma - 1) of several gases"};
 
 }  // namespace c
 
-/// The share of a gas.
+/// The new share of a gas.
 struct NewShare {
   CellView<const double> share;
 
   static NewShare from(auto& take) { return {.share = take(requiresNew(euler::c::gasShare))}; }
 };
 
-/// The pressure with which the first step starts [Pa]: that of the gases.
+/// Computes the initial pressure for the first step [Pa]: that of the gases.
 template <int D>
 void initializeMixedPressure(const Patch& patch, const Gases& gases, CellView<const double> density,
                              CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
@@ -47,7 +47,7 @@ void computeLaw(const Patch& patch, const Gases& gases, const std::vector<euler:
   });
 }
 
-/// What the solve reads of several gases: their state together, with two ghosts, and their law.
+/// What the solve reads of several gases: their joint state, with two ghost layers, and their law.
 template <int D>
 struct LawfulState : euler::OldState<D> {
   CellView<const double> softness, stiffness;
@@ -55,14 +55,14 @@ struct LawfulState : euler::OldState<D> {
   static LawfulState from(auto& take) {
     return {{euler::OldState<D>::from(take, 2)}, take(requiresNew(c::softness, 2)), take(requiresNew(c::stiffness, 2))};
   }
-  /// As two gases whose shares are G and S themselves, by lawsOfShares.
+  /// Views as of two gases whose shares are G and S themselves, as lawsOfShares expects.
   euler::MixtureViews<D, const double> views() const {
     return {*this, {this->density, this->density}, {softness, stiffness}};
   }
 };
 inline constexpr euler::Mixture<2> lawsOfShares{.softness = {1, 0}, .stiffness = {0, 1}};
 
-/// Like solvePressure, for several gases; `gas` is the first, whose method and conditions at sides hold for all.
+/// Like solvePressure, for several gases; `gas` is the first one, whose method and boundary conditions apply to all.
 template <int D>
 void solveMixedPressure(const RankPatches& patches, const mpi::Communicator& ranks, const euler::Settings& gas,
                         const IceSettings& settings, double time, double dt, const std::vector<LawfulState<D>>& before,
@@ -112,7 +112,7 @@ void advanceMixtureImplicitly(const Patch& patch, const Gases& gases, const IceS
   refuseCrossing(most, dt);
 }
 
-/// Like limitImplicitStep, for several gases; what diffuses has a limit of its own.
+/// Like limitImplicitStep, for several gases; diffusion has a limit of its own.
 template <int D>
 void limitImplicitMixture(const Patch& patch, const Gases& gases, double cfl, const IceSettings& settings,
                           const euler::OldState<D>& before, const std::vector<euler::OldGas>& held, double time,

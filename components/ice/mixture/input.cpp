@@ -14,10 +14,10 @@ using input::Element;
 
 namespace {
 
-/// Uintah's momentum exchange coefficients from this value on mean a common velocity.
+/// Momentum exchange coefficients of Uintah from this value on are taken to mean a common velocity.
 constexpr double oneForAll = 1e9;
 
-/// Uintah's name of the mass fraction of BinaryProperties.
+/// Uintah's name of the mass fraction in BinaryProperties.
 constexpr std::string_view fractionLabel = "scalar-f";
 
 void checkSubstance(const GasMaterial& material, const Element& element, Diagnostics& diagnostics) {

@@ -4,7 +4,7 @@
 
 namespace tushar::ice {
 
-/// The name of the total of a gas; its address must not change while tasks refer to it.
+/// The label of a total of one gas; the address of its name must not change while tasks refer to it.
 class GasTotal {
  public:
   explicit GasTotal(const std::string& gas) : name_("TotalMass-" + gas) {}
@@ -24,7 +24,7 @@ namespace c {
 inline constexpr CellLabel<double> ownDensity{"c.ownDensity", "kg/m^3",
                                               "mass of a gas per volume of that gas; 0 where there is none"};
 
-/// Of BinaryProperties.
+/// Variables of BinaryProperties.
 inline constexpr CellLabel<double> massFraction{"c.massFraction", "1",
                                                 "mass of the second of two gases over that of both"};
 

@@ -17,18 +17,18 @@ struct ProgrammedBurn {
   std::string from, to;
   double speed = 0;               ///< D, m/s
   double heat = 0;                ///< J/kg
-  Vec3 start = Vec3::Zero();      ///< m
-  Vec3 direction = Vec3::Zero();  ///< normal of the plane; 0: a point
-  bool burnsInMixedCells = true;  ///< whether cells burn that contain another gas
+  Vec3 start = Vec3::Zero();      ///< point of ignition [m]
+  Vec3 direction = Vec3::Zero();  ///< normal of the plane of ignition; 0 for ignition at a point
+  bool burnsInMixedCells = true;  ///< whether cells that contain another gas burn
 
-  /// The fraction of a cell that has burned at a time [s], for its centre [m] and its width h [m].
+  /// The fraction of a cell that has burned at a time [s], given its centre [m] and its width h [m].
   double reached(const Vec3& point, double time, double width) const {
     const double across = direction.norm();
     const double distance = across > 0 ? std::abs(direction.dot(point - start)) / across : (point - start).norm();
     const double fraction = (time * speed - distance) / (1.5 * width);
     return fraction > 0.96 ? 1 : std::max(fraction, 0.0);
   }
-  /// Whether a cell may burn, of which both gases fill this part.
+  /// Whether a cell may burn, given the part of it that both gases fill.
   bool takesCell(double share) const { return burnsInMixedCells || share > 0.99; }
 };
 

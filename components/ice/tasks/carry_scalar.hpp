@@ -7,7 +7,7 @@
 
 namespace tushar::ice {
 
-/// The scalar at the start, times the density, from the last region that owns the centre of a cell. Throws InputError
+/// Sets the initial scalar, times the density, from the last region that owns the centre of a cell. Throws InputError
 /// where none does.
 template <int D>
 void initializeScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const double> density,
@@ -97,7 +97,7 @@ class ScalarAtFaces {
   double perMass(const Index<D>& cell, int axis) const {
     return dt_ * level_.inverseSpacing(axis) / before_.density[cell];
   }
-  /// The factor on the differences that keeps the remainder of the cell within the limits.
+  /// The factor for the differences that keeps the rest of the cell within the limits.
   double shrinkage(const Index<D>& cell, const Faces& change, double least, double most) const {
     double rest = 1, gone = 0;
     for (int d = 0; d < D; ++d)
@@ -122,7 +122,7 @@ class ScalarAtFaces {
   std::vector<Faces> values_;
 };
 
-/// The flux of a scalar through the faces of cells, kg/(m² s).
+/// Computes the flux of a scalar through the faces of cells [kg/(m² s)].
 template <int D>
 class ScalarFlux {
  public:
@@ -130,7 +130,7 @@ class ScalarFlux {
              const ScalarAtFaces<D>& faces, double time)
       : level_(level), gas_(gas), scalar_(scalar), before_(before), faces_(faces), time_(time) {}
 
-  /// Through the lower (0) or upper (1) face of a cell: f of the gas that flows through it, and -rho D df/dx.
+  /// The flux through the lower (0) or upper (1) face of a cell: f of the gas that flows through it, and -rho D df/dx.
   double operator()(const Index<D>& cell, int axis, int side) const {
     const double mass = side == 0 ? before_.below[cell][axis] : before_.above[cell][axis];
     const Index<D> next = side == 0 ? cell - Index<D>::unit(axis) : cell + Index<D>::unit(axis);
@@ -169,9 +169,9 @@ class ScalarFlux {
   double time_;
 };
 
-/// A scalar f is advected with the mass of the gas: (rho f)' = rho f - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, with
-/// the mass fluxes of the step times f at the faces. So what cells hold of it changes by what flows through sides of
-/// the grid alone, a uniform f stays as it is, and no value leaves the range of those before, except for round-off.
+/// Advects a scalar f with the mass of the gas: (rho f)' = rho f - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, with the
+/// mass fluxes of the step times f at the faces. So what cells hold of it changes by what flows through sides of the
+/// grid alone, a uniform f stays as it is, and no value leaves the range of those before, except for round-off.
 template <int D>
 void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::Gas& gas, bool hasSlopes,
                  const ScalarBefore<D>& before, double time, double dt, CellView<double> held,
@@ -212,7 +212,7 @@ void raiseScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const
   }
 }
 
-/// dt = cfl / (4 sum_d D / h_d²), so that diffusion and flow together create no new extrema.
+/// Computes dt = cfl / (4 sum_d D / h_d²), so that diffusion and flow together create no new extrema.
 template <int D>
 void limitScalarDiffusion(const Patch& patch, double diffusivity, double cfl, CellView<const double>, Minimum& dt) {
   double rate = 0;
@@ -227,7 +227,7 @@ void computeScalar(const Patch& patch, CellView<const double> density, CellView<
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { value[cell] = held[cell] / density[cell]; });
 }
 
-/// The amount of a scalar on the patch [kg].
+/// Computes the amount of a scalar on the patch [kg].
 template <int D>
 void sumScalar(const Patch& patch, CellView<const double> held, Sum& total) {
   WideSum sum(total);

@@ -4,7 +4,7 @@
 
 namespace tushar::ice {
 
-/// The pressure with which the first step starts [Pa]: that of the gas.
+/// Sets the initial pressure for the first step [Pa]: that of the gases.
 template <int D>
 void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<const double> density,
                         CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
@@ -13,12 +13,12 @@ void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<cons
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { pressure[cell] = euler::pressureIn(gas, state, cell); });
 }
 
-/// s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2, r = sum_d (|v_d| + k c) / h_d + 2 nu / h_d²: the rate at which gas
-/// crosses a cell, with its acceleration a_d = |g_d - (dp/dx_d) / rho|, so that gas at rest does not cross cells within
-/// the step. |v_d| is the greatest of the cell and of what sides give at its faces. `pushing` has the pressure that the
-/// last step ended with: the pressure of the gas also has what conduction brought in, which sound evens out before it
-/// moves anything. k is Uintah's `knob_for_speedSound`, `diffusivity(rho)` nu [m²/s]. Returns the greatest s of the
-/// patch, 1/s. Source: N. Kwatra & al., J. Comput. Phys. 228 (2009) 4146, section 3.3.
+/// Computes s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2, r = sum_d (|v_d| + k c) / h_d + 2 nu / h_d²: the rate at which
+/// gas crosses a cell, with its acceleration a_d = |g_d - (dp/dx_d) / rho|, so that gas at rest does not cross cells
+/// within the step. |v_d| is the greatest of the cell and of what sides give at its faces. `pushing` has the pressure
+/// that the last step ended with: the pressure of the gas also has what conduction brought in, which sound evens out
+/// before it moves anything. k is Uintah's `knob_for_speedSound`, `diffusivity(rho)` nu [m²/s]. Returns the greatest s
+/// of the patch, 1/s. Source: N. Kwatra & al., J. Comput. Phys. 228 (2009) 4146, section 3.3.
 template <int D, int K, class Diffusivity>
 double greatestImplicitRate(const Patch& patch, const GasBefore<D, K>& gas, const euler::Rows<D, K>& pushing,
                             double soundSpeedKnob, Diffusivity&& diffusivity) {
@@ -52,8 +52,8 @@ double greatestImplicitRate(const Patch& patch, const GasBefore<D, K>& gas, cons
   return greatest;
 }
 
-/// dt = cfl / s, with the rate of greatestImplicitRate, nu the greatest diffusivity. Throws NumericalError where a
-/// density, or p + p_inf, is not positive.
+/// Computes dt = cfl / s, with the rate of greatestImplicitRate, nu the largest diffusivity. Throws NumericalError
+/// where a density, or p + p_inf, is not positive.
 template <int D>
 void limitImplicitStep(const Patch& patch, const euler::Settings& method, const IceSettings& settings,
                        const euler::OldState<D>& before, double time, CellView<const double> pressure, Minimum& dt) {

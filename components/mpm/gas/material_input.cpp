@@ -100,7 +100,7 @@ const Schema<GasSection>& materialSchema() {
   return schema;
 }
 
-/// The pressure of a body: as given, or (gamma - 1) rho c_v T - p_inf if its temperature is given.
+/// The initial pressure of a body: as given, or (gamma - 1) rho c_v T - p_inf if its temperature is given.
 input::Expression pressureOf(const GasObjectSection& object, const input::Expression& density,
                              const GasModelSection& model) {
   if (object.pressure) return *object.pressure;

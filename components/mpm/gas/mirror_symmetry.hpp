@@ -17,7 +17,7 @@ inline double middleOf(const Level& level, int kernelAxis) {
                        : lower + 0.5 * level.cells().upper[kernelAxis] * level.spacing(kernelAxis);
 }
 
-/// The distance, in cells, of a cell's centre from the middle of the grid; exactly opposite for the mirror image of the
+/// The distance of a cell's centre from the middle of the grid, in cells; exactly opposite for the mirror image of the
 /// cell.
 template <class Number>
 Number fromMiddle(const Level& level, int kernelAxis, const Number& cell) {

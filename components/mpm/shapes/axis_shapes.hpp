@@ -10,10 +10,11 @@ namespace tushar::mpm {
 // where 0 is the lower node of the cell. A Real is a number, or a Quad of one for each axis, for all axes at once. No
 // particle touches a node that is `support` cells away or more.
 
-/// Piecewise linear ("tent") functions.
+/// Piecewise linear shape functions ("tent" functions).
 struct LinearAxis {
   static constexpr int nodes = 2;
-  static constexpr int ghostNodes = 0;  ///< number of layers of nodes beyond those of its cell that a particle touches
+  /// Number of layers of nodes beyond those of its cell to which a particle contributes.
+  static constexpr int ghostNodes = 0;
   static constexpr bool hasSize = false;
   static double support(double) { return 1; }
 
@@ -62,7 +63,7 @@ struct GimpAxis {
   }
 };
 
-/// Quadratic B-splines about the nodes; Steffen, Kirby & Berzins, Int. J. Numer. Meth. Engng 76 (2008) 922.
+/// Quadratic B-splines centred at the nodes; Steffen, Kirby & Berzins, Int. J. Numer. Meth. Engng 76 (2008) 922.
 struct QuadraticAxis {
   static constexpr int nodes = 3;
   static constexpr int ghostNodes = 1;
@@ -80,7 +81,7 @@ struct QuadraticAxis {
   }
 };
 
-/// Cubic B-splines about the nodes; same source.
+/// Cubic B-splines centred at the nodes; same source.
 struct CubicAxis {
   static constexpr int nodes = 4;
   static constexpr int ghostNodes = 1;

@@ -22,7 +22,8 @@ struct RadialAxis<LinearAxis> {
   }
 };
 
-/// Means over the particle's extent weighted by the radius; Nairn & Guilkey, Int. J. Numer. Meth. Engng 101 (2015) 127.
+/// Means over the particle's extent, weighted with the radius; Nairn & Guilkey, Int. J. Numer. Meth. Engng 101 (2015)
+/// 127.
 template <>
 struct RadialAxis<GimpAxis> {
   static int fill(double r, double lowerNode, double size, std::array<double, 3>& s, std::array<double, 3>& ds,

@@ -22,13 +22,13 @@ using input::Schema;
 
 namespace {
 
-/// Calls `visit` with a model of each type.
+/// Calls `visit` with one model of each type.
 template <class Visit>
 void forEachModel(Visit&& visit) {
   std::apply([&](const auto&... model) { (visit(model), ...); }, AllModels{});
 }
 
-/// A model's own tags, and the attribute that selects it.
+/// The tags of a model, and the attribute that selects the model.
 template <class M>
 const Schema<M>& modelSchema() {
   static const Schema<M> schema =
@@ -42,11 +42,11 @@ std::vector<std::string> modelNames() {
   return names;
 }
 
-/// Uintah's older names of models that are available.
+/// Uintah's older names for models that are available.
 const std::map<std::string, std::string> otherWords{
     {"arenisca", "Arenisca"}, {"cnh_damage", "UCNH"}, {"cnhp_damage", "comp_neo_hook_plastic"}};
 
-/// Models of Uintah that are not available, and the most similar ones.
+/// Models of Uintah that are not available, each with the most similar one.
 const std::vector<std::pair<std::string, std::string>> lackingModels{
     {"membrane", "comp_neo_hook, with bodies as thick as a cell"},
     {"three_factor_mooney", "comp_mooney_rivlin"},
@@ -71,10 +71,10 @@ void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagn
   diagnostics.error(tag, "attribute 'type': " + input::choiceProblem(type, modelNames()));
 }
 
-/// Whether a tag that names Arenisca3 has the tags of Arenisca alone, as some scenes of Uintah do.
+/// Whether a tag that names Arenisca3 has the tags of Arenisca, as in some scenes of Uintah.
 bool hasOlderTags(const Element& tag) { return tag.child("p4_fluid_effect") && !tag.child("STREN"); }
 
-/// The model of a tag, by its name in Tushar.
+/// The type of the model in a tag, as Tushar's name.
 std::string typeOf(const Element& tag) {
   const std::string type = tag.attribute("type").value_or("");
   const auto yields = tag.child("usePlasticity");
@@ -87,12 +87,12 @@ std::string typeOf(const Element& tag) {
   return other == otherWords.end() ? type : other->second;
 }
 
-/// Whether a model has thermal expansion: as in Uintah, only neo-Hookean ones.
+/// Whether a model supports thermal expansion: as in Uintah, only neo-Hookean ones do.
 template <class M>
 inline constexpr bool expands =
     std::is_same_v<M, CompNeoHook> || std::is_same_v<M, Ucnh> || std::is_same_v<M, CompNeoHookPlastic>;
 
-/// Thermal expansion of a model with this bulk modulus, Pa.
+/// Adds thermal expansion to a model with this bulk modulus [Pa].
 template <class M>
 std::shared_ptr<const Model> expandingIfAsked(const M& model, double bulkModulus, const Material& material) {
   if (material.thermalExpansion > 0)
@@ -101,7 +101,7 @@ std::shared_ptr<const Model> expandingIfAsked(const M& model, double bulkModulus
   return std::make_shared<ModelOf<M>>(model);
 }
 
-/// The model of a material for use by its particles.
+/// Constructs the model of a material, for use by its particles.
 template <class M>
 std::shared_ptr<const Model> modelFrom(const M& model, const Material& material) {
   if constexpr (requires { model.yieldSpreads; })
@@ -136,7 +136,7 @@ void readModel(Material& material, const Element& parent, Diagnostics& diagnosti
   if (!material.model) refuseModel(*tag, type, diagnostics);
 }
 
-/// The tag, read as each of the models.
+/// The schemas of the tag, one for each model.
 std::vector<input::Alternative> modelAlternatives() {
   std::vector<input::Alternative> alternatives;
   forEachModel([&]<class M>(const M&) {
@@ -198,7 +198,7 @@ const Schema<Body>& bodySchema() {
   return schema;
 }
 
-/// Uintah's tags in a material that have no effect here, and those that are not available.
+/// Accepts Uintah's tags in a material that have no effect in Tushar, and refuses those that are not available.
 void acceptUintahsTags(Schema<Material>& tags) {
   for (const char* tag : {"water_density", "porosity", "permeability", "initial_pore_pressure"})
     tags.ignored(tag, "belongs to coupled_flow_analysis");
@@ -262,7 +262,7 @@ void noteCommonNames(const MaterialProperties::List& list, const Element& elemen
                        fmt::format("another material is also called '{0}': this one is saved as '{0}.{1}'", name, m));
 }
 
-/// Checks that contacts name existing materials; excess numbers in <materials> are ignored, as in Uintah.
+/// Checks that contacts name existing materials; indices in <materials> that are too large are ignored, as in Uintah.
 void checkContacts(const MaterialProperties::List& list, const Element& element, Diagnostics& diagnostics) {
   const int count = static_cast<int>(list.materials.size());
   for (const Element& tag : element.children("contact"))

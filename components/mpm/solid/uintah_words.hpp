@@ -39,7 +39,7 @@ inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"auto_cycle_min", "belongs to do_scalar_diffusion"},
 };
 
-/// Variables that Uintah's MPM computes, as its scenes save them.
+/// Variables that Uintah's MPM computes, under the names with which scenes save them.
 inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "g.surfnorm",
                                                     "g.normtraction",
@@ -83,7 +83,8 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "BndyContactCellArea_zminus",
                                                     "BndyContactCellArea_zplus"};
 
-/// Particle variables that Uintah's MohrCoulomb saves under names without p., and older names of variables of Arenisca.
+/// Particle variables that Uintah's MohrCoulomb saves under names without `p.`, and older names of variables of
+/// Arenisca.
 inline const simulation::OtherNames soilNames{
     {"Suction", "p.Suction"},        {"SpecificVol", "p.SpecificVol"}, {"c", "p.cohesion"},
     {"p.plasticStrainVol", "p.evp"}, {"p.elasticStrainVol", "p.eve"},  {"p.kappa", "p.Kappa"},

@@ -11,12 +11,12 @@ namespace tushar::mpmice {
 template <int D>
 class BurntMass {
  public:
-  /// `rate` is the rate at faces, `within` the rate in cells (see NewBurning).
+  /// `rate` is the rate of burning at faces, `within` the rate in cells (see NewBurning).
   BurntMass(const Level& level, CellView<const Vec<D>> rate, CellView<const double> within, CellView<const double> mass,
             double dt)
       : level_(level), rate_(rate), within_(within), mass_(mass), dt_(dt) {}
 
-  /// The fraction of the mass in a cell that burns.
+  /// The fraction of the body's mass in a cell that burns.
   double shareOf(const Index<D>& cell) const {
     if (!(mass_[cell] > 0)) return 0;
     double wanted = wantedFrom(cell);
@@ -27,8 +27,8 @@ class BurntMass {
   }
 
  private:
-  /// Calls `visit(neighbour, mass)` for the faces of a cell, with the mass that burns there: positive if the gas of
-  /// this cell burns it.
+  /// Calls `visit(neighbour, mass)` for the faces of a cell, with the mass that burns at the face: positive if the gas
+  /// of this cell burns it.
   template <class Visit>
   void forEachFace(const Index<D>& cell, Visit&& visit) const {
     for (int d = 0; d < D; ++d) {
@@ -54,7 +54,7 @@ class BurntMass {
   double dt_;
 };
 
-/// Finds the fraction of the mass in each cell that burns in a step.
+/// Computes the fraction of the mass in each cell that burns in a step.
 template <int D>
 void findBurntShare(const Patch& patch, const Settings& settings, double start, double dt, CellView<const Vec<D>> rate,
                     CellView<const double> within, CellView<const double> mass, CellView<double> share) {
@@ -68,7 +68,7 @@ void findBurntShare(const Patch& patch, const Settings& settings, double start, 
   });
 }
 
-/// The mass of particles after a step: the same fraction of all particles of a cell burns.
+/// Computes the mass of particles after a step: the same fraction of all particles of a cell burns.
 template <int D>
 void burnParticles(const Patch& patch, const mpm::solid::Material& material, const Settings& settings,
                    CellView<const double> share, ParticleView<const double> mass, ParticleView<const double> unburned,

@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// The particles of a body at the start of a step, with their stress and internal variables.
+/// Views of the particles of a body at the start of a step, with their stress and internal variables.
 struct StressedParticles {
   ParticleView<const double> mass;
   ParticleView<const mpm::solid::Matrix3> deformation, stress;
@@ -19,7 +19,7 @@ struct StressedParticles {
   }
 };
 
-/// Finds the mean pressure, Pa, of the body that burns in each cell, and its widest cracks, m; 0 where it is not.
+/// Computes the mean pressure [Pa] of the body that burns in each cell, and its widest cracks [m]; 0 without the body.
 template <int D>
 void measureLoad(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                  int stateSize, const std::vector<StressedParticles>& bodies, CellView<double> pressure,
@@ -40,7 +40,7 @@ void measureLoad(const Patch& patch, const std::vector<mpm::solid::Material>& ma
   });
 }
 
-/// What measureLoad finds.
+/// Views of the results of measureLoad.
 struct Load {
   CellView<const double> pressure, crackRadius;
 
@@ -50,7 +50,7 @@ struct Load {
   }
 };
 
-/// How cells waited for their flame before the step; only with an induction time.
+/// How long cells had waited for a flame before the step; only with an induction time.
 struct Waited {
   std::optional<CellView<const double>> mode, time, induction;
 
@@ -76,8 +76,8 @@ struct NewBurnModes {
   }
 };
 
-/// The modes in which cells of an explosive burn, by the state at the start of the step, as Uintah's DDT1 decides
-/// them. Pressures of a cell are those of gas and explosive together, by volume; that of the product is the gas's in
+/// Determines in which mode each cell of an explosive burns, given the state at the start of the step, as Uintah's DDT1
+/// does. Pressures of a cell are those of gas and explosive together, by volume; that of the product is the gas's in
 /// the cell around with most room.
 template <int D>
 class BurnModes {
@@ -94,10 +94,10 @@ class BurnModes {
 
   struct Found {
     BurnMode mode = BurnMode::none;
-    double pressure = 0;               ///< at which the cell burns, Pa
-    double waited = 0, induction = 0;  ///< s
+    double pressure = 0;               ///< pressure at which the cell burns [Pa]
+    double waited = 0, induction = 0;  ///< time that the cell has waited, and its induction time [s]
   };
-  /// `before`: only with an induction time. `dt` in s.
+  /// Determines the mode of a cell. `before`: only with an induction time; `dt` [s].
   Found find(const Index<D>& cell, const Waited& before, double dt) const {
     if (!(reactant_.mass[cell] > 0)) return {};
     const double own = pressureOf(cell);
@@ -123,16 +123,16 @@ class BurnModes {
         "weaker confinement, or a shorter <maxTime>", "c.burnPressure", level_.cellNumber<D>(cell));
   }
   struct Around {
-    double product = 0;  ///< pressure, Pa
+    double product = 0;  ///< pressure of the product gas [Pa]
     bool isHot = false;
   };
   struct Conditions {
     bool isSurface, lights, cracked, isHot;
     double pressure;
   };
-  /// The way of a flame into a cell.
+  /// The path of a flame into a cell.
   struct Flame {
-    double part = std::numeric_limits<double>::infinity();  ///< of the time along a surface
+    double part = std::numeric_limits<double>::infinity();  ///< ratio of the time to the time along a surface
     BurnMode from = BurnMode::none;
   };
 
@@ -167,7 +167,8 @@ class BurnModes {
     });
     return found;
   }
-  /// Whether the surface of the body goes through a face of the cell: its nodes would differ in mass by more than 30 %.
+  /// Whether the surface of the body passes through a face of the cell: the masses at its nodes differ by more than 30
+  /// %.
   bool isExposed(const Index<D>& cell) const {
     constexpr double least = 0.3;
     for (int d = 0; d < D; ++d) {
@@ -179,7 +180,7 @@ class BurnModes {
   }
   static bool burns(BurnMode mode) { return mode == BurnMode::surface || mode == BurnMode::cracks; }
 
-  /// With an induction time: a cell waits from the first step with a flame beside it.
+  /// With an induction time, a cell waits from the first step in which there is a flame beside it.
   Found wait(const Index<D>& cell, const Conditions& now, const Waited& before, double dt) const {
     const bool burned = burns(before.modeIn(cell));
     const Flame flame = burned ? Flame{1, before.modeIn(cell)} : flameInto(cell, now, before);
@@ -200,7 +201,7 @@ class BurnModes {
       found.mode = BurnMode::waiting;
     return found;
   }
-  /// s
+  /// The induction time [s].
   double inductionTime(double part, double pressure) const {
     double width = 0;
     for (int d = 0; d < D; ++d) width += level_.spacing(d) / D;
@@ -224,7 +225,8 @@ class BurnModes {
     });
     return best;
   }
-  /// Between the way from a cell beside and the normal of the surface; 0 where that has none.
+  /// Cosine of the angle between the direction from a neighbouring cell and the normal of the surface; 0 where there is
+  /// no normal.
   double cosineOf(const Index<D>& cell, const Index<D>& from) const {
     const Vec<D> way = level_.cellCentre<D>(cell) - level_.cellCentre<D>(from);
     return std::abs(surface_.space().normal(cell).dot(way)) / way.norm();
@@ -239,7 +241,7 @@ class BurnModes {
   SurfaceAtFaces<D> surface_;
 };
 
-/// Finds how the cells of a patch burn.
+/// Determines how the cells of a patch burn.
 template <int D>
 void findBurnModes(const Patch& patch, const Settings& settings, double dt, const GasInCells<D>& cells,
                    const Reactant& reactant, const Load& load, const Waited& before, const NewBurnModes& fresh) {
@@ -253,7 +255,7 @@ void findBurnModes(const Patch& patch, const Settings& settings, double dt, cons
   });
 }
 
-/// Nothing burns before the first step.
+/// Initial modes: nothing burns before the first step.
 template <int D>
 void startBurnModes(const Patch& patch, CellView<double> mode, CellView<double> waited, CellView<double> induction) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { mode[cell] = waited[cell] = induction[cell] = 0; });

@@ -4,10 +4,10 @@
 
 namespace tushar::mpmice {
 
-/// The state after a step, before small cells are merged.
+/// Views of the state after a step, before small cells are merged.
 template <int D>
 struct UnsharedGas {
-  euler::MixtureViews<D, double> held;  ///< of several gases the volumes, in place of the shares
+  euler::MixtureViews<D, double> held;  ///< for several gases, the volumes in place of the volume fractions
   euler::RimFluxes<D> rims = {};        ///< fluxes through the rim of the level
 
   static UnsharedGas from(auto& take, std::size_t gases) {
@@ -27,8 +27,8 @@ struct UnsharedGas {
   }
 };
 
-/// rho, v, p of the gas in the cells of the box; in cells without gas, those of some gas at rest, whose fluxes vanish
-/// because faces are closed.
+/// Computes rho, v, p of the gas in the cells of the box; cells without gas get those of some gas at rest, whose fluxes
+/// vanish because faces are closed.
 template <int D, class G>
 void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
                 euler::Rows<D, euler::kGases<G>>& w) {
@@ -45,7 +45,7 @@ void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, co
   });
 }
 
-/// Treats cells with a body in or next to them as constant, as well as their images outside the grid.
+/// Makes cells constant that have a body in or next to them, as well as their images outside the grid.
 template <int D, int K>
 void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& cells, const NearBodies<D>& near,
                      euler::Work<D, K>& work) {
@@ -66,7 +66,7 @@ void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& ce
   });
 }
 
-/// Reduces the fluxes through the lower faces of the cells of `faces` to the open fractions of these.
+/// Multiplies the fluxes through the lower faces of the cells of `faces` by the open fractions of these faces.
 template <int D, int K>
 void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<D>& near, const Box& faces, int axis,
                 euler::Rows<D, K>& flux) {
@@ -81,8 +81,8 @@ void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<
   });
 }
 
-/// Stores the mass that flows upwards, relative to the bodies, through the lower faces of a block's cells across an
-/// axis, divided by the cell volume.
+/// Stores the mass that flows upwards through the lower faces of a block's cells across an axis, relative to the bodies
+/// and divided by the cell volume.
 template <int D, int K>
 void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, int axis, double ratio,
                   const euler::Rows<D, K>& flux, const CellView<Vec<D>>& flow) {
@@ -92,7 +92,7 @@ void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, co
   });
 }
 
-/// The fluxes through the open parts of a block's faces across an axis.
+/// Computes the fluxes through the open parts of a block's faces across an axis.
 template <int D, class Flux, class Shape, int Axis, class G>
 void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level,
                const Box& block, double ratio, const euler::MixtureViews<D, const double>& old,
@@ -140,7 +140,8 @@ bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, doub
     return euler::canBe<D>(gas, &fresh.density[cell], fresh.momentum[cell].data(), &fresh.totalEnergy[cell], 1);
 }
 
-/// A step of a block with bodies in or around it: a step of `euler` through open faces, and the effect of walls.
+/// Performs a step for a block with bodies in or around it: a step of `euler` through open faces, and the effect of
+/// walls.
 /// Returns whether the gas away from bodies is possible; beside them small cells have still to share.
 template <int D, class Flux, class Shape, class G>
 bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells<D>& cells,
@@ -166,7 +167,7 @@ bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells
   return fine;
 }
 
-/// The step of a patch with the law of its gas. Returns whether the gas away from bodies is possible.
+/// Performs a step for a patch with the law of its gas. Returns whether the gas away from bodies is possible.
 template <int D, class Flux, class Shape, class G>
 bool advanceWith(const G& law, const Patch& patch, double dt, const GasInCells<D>& cells,
                  const WallExchange<D>& exchange, const NearBodies<D>& near, const UnsharedGas<D>& fresh,
@@ -203,9 +204,10 @@ void requireFinest(const Patch& patch, const NearBodies<D>& near) {
   });
 }
 
-/// One step of the gas. Away from bodies, it is bitwise a step of `euler`. At bodies, fluxes pass through the open
-/// fraction of faces, walls exert a pressure and do work with the mean of their velocities before and after the step,
-/// and gas follows moving walls. Adds the power of the gas on bodies, W. K is the number of gases that share cells.
+/// Performs one step of the gas. Away from bodies, it is bitwise a step of `euler`. At bodies, fluxes pass through the
+/// open fraction of faces, walls exert a pressure and do work with the mean of their velocities before and after the
+/// step, and gas follows moving walls. Adds the power of the gas on bodies, W. K is the number of gases that share
+/// cells.
 template <int D, class Flux, class Shape, int K>
 void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings, double dt,
                 const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
@@ -235,7 +237,7 @@ using AdvanceGas = void (*)(const Patch& patch, const std::vector<mpm::solid::Ma
                             const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh,
                             const OfferedExchange<D>& offered, Sum& power);
 
-/// advanceGas for several gases, two or three.
+/// Like advanceGas, for two or three gases.
 template <int D>
 AdvanceGas<D> chooseAdvanceGases(const euler::Method& method, std::size_t gases);
 

@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// dt = cfl / max(sum_d (|v_d| + c) / h_d) of the gas.
+/// Computes dt = cfl / max(sum_d (|v_d| + c) / h_d) of the gas.
 /// Throws NumericalError where its density, or p + p_inf, is not positive.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
@@ -31,7 +31,7 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, const G
   if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
 }
 
-/// The same of several gases.
+/// Computes the same time step for several gases.
 template <int D>
 void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
   const Level& level = patch.level();
@@ -50,8 +50,8 @@ void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInC
   if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
 }
 
-/// dt = cfl times the time in which the fastest wave of a body crosses a cell, because bodies move only once per step
-/// for the gas.
+/// Computes dt = cfl times the time in which the fastest wave of a body crosses a cell, because bodies move only once
+/// per step for the gas.
 template <int D>
 void limitStepOfBodies(const Patch& patch, const mpm::solid::Material&, double cfl,
                        CellView<const double> stableTimeStep, Minimum& dt) {

@@ -6,7 +6,7 @@
 
 namespace tushar::mpmice {
 
-/// The heat of the particles of a material.
+/// Views of the heat of the particles of a material.
 struct WarmBodies {
   ParticleView<const double> mass;
   ParticleView<const mpm::solid::Matrix3> deformation;
@@ -20,7 +20,8 @@ struct WarmBodies {
   }
 };
 
-/// The variables of the gas that the heat exchange reads and changes after a step: its energy and, for several gases,
+/// Views of the variables of the gas that the heat exchange reads and changes after a step: its energy and, for several
+/// gases,
 /// the volume fractions.
 template <int D>
 struct HeatedGas {
@@ -40,11 +41,11 @@ struct HeatedGas {
   }
 };
 
-/// Up to so many bodies and gases exchange heat without memory from the heap in each cell.
+/// Largest number of bodies and gases for which the heat exchange needs no heap memory in each cell.
 inline constexpr int kFewThings = 8;
 
-/// Heat exchange between bodies and gases, between bodies, and between gases, in the cells that they share, with
-/// Uintah's exchange coefficients; heat is conserved. `Most`: the largest number of both in all.
+/// Exchanges heat between bodies and gases, between bodies, and between gases, in the cells that they share, with
+/// Uintah's exchange coefficients; heat is conserved. `Most`: the largest total number of bodies and gases.
 template <int D, int Most>
 class HeatExchange {
  public:
@@ -52,7 +53,8 @@ class HeatExchange {
                const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies)
       : patch_(patch), materials_(materials), settings_(settings), gas_(gas), bodies_(bodies) {}
 
-  /// Exchanges heat in a cell and adds heat from outside. Returns what the gas gives to bodies, J/m³ of the cell.
+  /// Exchanges heat in a cell and adds heat from outside. Returns what the gas loses to bodies, per volume of the cell
+  /// [J/m³].
   double apply(const Index<D>& cell, double time, double dt) const {
     const std::size_t bodies = bodies_.size(), gases = std::max<std::size_t>(1, settings_.gases.size());
     const auto first = static_cast<Eigen::Index>(bodies);
@@ -123,7 +125,7 @@ class HeatExchange {
   const std::vector<WarmBodies>& bodies_;
 };
 
-/// Heat between bodies and gases. Particles count for the cell in which they started the step.
+/// Exchanges heat between bodies and gases. Particles belong to the cell in which they started the step.
 template <int D, int Most>
 void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                   double time, double dt, const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies,
@@ -140,7 +142,7 @@ void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& m
   });
 }
 
-/// Heat of several gases that exchange none with bodies.
+/// Exchanges heat between several gases that exchange none with bodies.
 template <int D>
 void heatGases(const Patch& patch, const Settings& settings, double time, double dt, const HeatedGas<D>& gas) {
   const std::vector<WarmBodies> none;

@@ -6,8 +6,8 @@
 
 namespace tushar::mpmice {
 
-/// Calls `visit(cell, distance squared)` for the cells around one, first those within 3, then those farther away, if
-/// necessary all, until `isFound()`.
+/// Calls `visit(cell, distance squared)` for the cells around a given one until `isFound()`: first those within 3
+/// cells, then those farther away, if necessary all.
 template <int D, class Visit, class IsFound>
 void searchAround(const Level& level, const Index<D>& cell, Visit&& visit, IsFound&& isFound) {
   int extent = 1;
@@ -44,7 +44,7 @@ euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const
   return *nearest;
 }
 
-/// Fills the free part of cells with the gas of the scene.
+/// Fills the free part of cells with the initial gas of the scene.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<const double> free, CellView<double> density,
                 CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
@@ -82,7 +82,7 @@ ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settin
   return start;
 }
 
-/// The state of several gases at the start.
+/// Sets the initial state of several gases.
 template <int D>
 void initializeGases(const Patch& patch, const Settings& settings, CellView<const double> free,
                      const NewContent<D>& fresh) {

@@ -7,11 +7,11 @@
 
 namespace tushar::mpmice {
 
-/// Number of layers of cells around a patch that contain particles whose boxes may extend into it, before or after a
-/// step.
+/// Number of layers of cells around a patch that contain particles whose boxes may extend into the patch, before or
+/// after a step.
 inline constexpr int boxReach = 2;
 
-/// The box of each particle, from its size at the start, in cells, and F; and its unburned fraction.
+/// Views of the box of each particle, from its initial size in cells and F; and of its unburned fraction.
 template <int D>
 void findBoxes(const Patch& patch, const mpm::solid::Material&, ParticleView<const Vec<D>> size,
                ParticleView<const mpm::solid::Matrix3> deformation,
@@ -22,19 +22,19 @@ void findBoxes(const Patch& patch, const mpm::solid::Material&, ParticleView<con
   }
 }
 
-/// Positions and sizes of the particles of a material on a patch and around it.
+/// Views of positions and sizes of the particles of a material on a patch and around it.
 template <int D>
 struct Boxes {
   ParticleView<const Vec<D>> x, edges;
 
-  /// `reads` makes accesses to their values in a step, or at its start.
+  /// `reads` makes accesses to the values: in a step, or at its start.
   static Boxes from(auto& take, auto reads) {
     return {.x = take(reads(p::x<D>, boxReach)), .edges = take(reads(p::boxEdges<D>, boxReach))};
   }
   ParticleBox<D> of(const mpm::CellFrame<D>& frame, int p) const { return {frame.coordinates(x[p]), edges[p]}; }
 };
 
-/// Before and after a step.
+/// The boxes of particles before and after a step.
 template <int D>
 struct MovedBoxes {
   Boxes<D> before, after;
@@ -54,13 +54,13 @@ auto alongAxes(const Box& reach, Make&& make) {
   return values;
 }
 
-/// The volume and the faces that bodies leave free on a patch.
+/// Computes the volume and the faces that bodies leave free on a patch.
 template <int D>
 struct FreeShares {
   CellView<double> volume;
   CellView<Vec<D>> coverage;
 
-  /// `volume` receives the free volume.
+  /// `volume` is the label of the free volume.
   static FreeShares from(auto& take, const CellLabel<double>* volume) {
     return {.volume = take(computes(*volume)), .coverage = take(computes(c::coverage<D>))};
   }
@@ -94,7 +94,7 @@ struct FreeShares {
   }
 };
 
-/// Calls `visit(origin, frame, particle)` for the particles around a patch, cell by cell and by id, with the cell.
+/// Calls `visit(origin, frame, particle)` for the particles around a patch, ordered by cell and id, with the cell.
 template <int D, class Visit>
 void forEachParticle(const Level& level, const ParticleView<const Vec<D>>& x, Visit&& visit) {
   x.template forEachOccupied<D>(x.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
@@ -103,7 +103,7 @@ void forEachParticle(const Level& level, const ParticleView<const Vec<D>>& x, Vi
   });
 }
 
-/// The fractions of cells and faces that bodies leave free.
+/// Computes the fractions of cells and faces that bodies leave free.
 template <int D>
 void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material>&,
                       const std::vector<Boxes<D>>& materials, const FreeShares<D>& free) {
@@ -115,7 +115,7 @@ void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material
   free.settle();
 }
 
-/// Adds the volume, in cells, that a box moving from `before` to `after` carries up through the lower faces of the
+/// Adds the volume, in cells, that a box moving from `before` to `after` sweeps up through the lower faces of the
 /// surrounding cells: the mean of two sequences, axis by axis in ascending and in descending order.
 template <int D>
 void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const ParticleBox<D>& after,
@@ -146,7 +146,7 @@ void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const Partic
   });
 }
 
-/// The position of a particle, limited to the distance from its starting cell that patches see; time steps keep it
+/// The position of a particle, limited to the distance from its starting cell that patches can see; time steps keep it
 /// closer.
 template <int D>
 Vec<D> withinReach(const Vec<D>& coordinates, const Vec<D>& edges) {

@@ -5,14 +5,14 @@
 
 namespace tushar::mpmice {
 
-/// Layers of cells around a patch that determine with which neighbour one of its own cells is merged, and what they
-/// exchange.
+/// Number of layers of cells around a patch that determine with which neighbours the patch's own cells are merged, and
+/// what they exchange.
 inline constexpr int shareReach = 3;
 
-/// The state after a step and the free volume, before small cells are merged.
+/// Views of the state after a step and the free volume, before small cells are merged.
 template <int D>
 struct Unshared {
-  euler::MixtureViews<D, const double> held;  ///< of several gases the volumes, in place of the shares
+  euler::MixtureViews<D, const double> held;  ///< for several gases, the volumes in place of the volume fractions
   CellView<const double> free;
   CellView<const Vec<D>> coverage;
 
@@ -29,7 +29,7 @@ struct Unshared {
   }
 };
 
-/// The merging of cells: a cell with little free volume gives its content to the neighbour with the widest opening to
+/// How cells are merged: a cell with little free volume gives its content to the neighbour with the widest opening to
 /// it, possibly across a corner, and gets back a part in proportion to its volume. So small cells limit no time step,
 /// and cells may appear and vanish.
 template <int D>
@@ -44,16 +44,16 @@ class SmallCells {
     const Index<D> chosen = choiceOf(cell);
     return isTarget(chosen) ? chosen : cell;
   }
-  /// Whether a cell may receive gas from others, because it does not give away its own.
+  /// Whether a cell may receive gas from others, because it keeps its own gas.
   bool isTarget(const Index<D>& cell) const { return choiceOf(cell) == cell; }
-  /// Whether a small cell gives its gas to a neighbour that is a target.
+  /// Whether a small cell gives its gas to a given neighbour that may receive it.
   bool gives(const Index<D>& cell, const Index<D>& to) const { return isSmall(cell) && choiceOf(cell) == to; }
-  /// Whether a cell has little free volume, but is not empty.
+  /// Whether a cell has little free volume, but some.
   bool isSmall(const Index<D>& cell) const {
     return state_.free[cell] < smallFreeVolume && state_.held.density[cell] != 0;
   }
 
-  /// Calls `visit(neighbour)` for the cells around one, on the grid.
+  /// Calls `visit(neighbour)` for the surrounding cells that are on the grid.
   template <class Visit>
   void forEachAround(const Index<D>& cell, Visit&& visit) const {
     forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) {
@@ -75,7 +75,8 @@ class SmallCells {
     });
     return best;
   }
-  /// The score of a neighbour with more free volume; -1 for others. Neighbours that are not small come first.
+  /// The score of a neighbour with more free volume; -1 for others. Neighbours that are not small have the highest
+  /// scores.
   double scoreOf(const Index<D>& cell, const Index<D>& at) const {
     const double room = state_.free[at], own = state_.free[cell];
     if (!(room > own) || room < leastFreeVolume) return -1;
@@ -98,7 +99,7 @@ class SmallCells {
   const Unshared<D>& state_;
 };
 
-/// The content of cells after a step, or at the start.
+/// Views of the content of cells after a step, or at the start.
 template <int D>
 struct NewContent {
   euler::MixtureViews<D, double> held;
@@ -112,7 +113,7 @@ struct NewContent {
              ofEach(c::shareOfGas)}};
   }
 };
-/// The state after a step.
+/// Views of the state after a step.
 template <int D>
 struct NewGas {
   euler::MixtureViews<D, double> held;
@@ -129,7 +130,7 @@ template <int D>
 struct Pool {
   double volume = 0, mass = 0, energy = 0;
   Vec<D> momentum = Vec<D>::Zero();
-  std::array<double, euler::kMostGases> masses{}, volumes{};  ///< of each of several gases
+  std::array<double, euler::kMostGases> masses{}, volumes{};  ///< mass and volume of each of several gases
 
   void add(const Unshared<D>& state, const Index<D>& cell) {
     volume += state.free[cell];
@@ -141,7 +142,7 @@ struct Pool {
       volumes[k] += state.held.shares[k][cell];
     }
   }
-  /// The volume fractions of several gases; in cells without gas, that of the first gas is 1.
+  /// Sets the volume fractions of several gases; in cells without gas, that of the first gas is 1.
   void setShares(const Index<D>& cell, const euler::MixtureViews<D, double>& fresh) const {
     double sum = 0;
     for (const double of : volumes) sum += std::max(0.0, of);
@@ -150,7 +151,7 @@ struct Pool {
   }
 };
 
-/// Gives a cell its part of the content that it shares with others, through the cell `centre`.
+/// Gives a cell its share of the content of a group of cells that share through the cell `centre`.
 template <int D>
 void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D>& cell, const Index<D>& centre,
              const euler::MixtureViews<D, double>& fresh) {
@@ -172,8 +173,8 @@ void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D
   for (std::size_t k = 0; k < fresh.masses.size(); ++k) fresh.masses[k][cell] = pool.masses[k] * part;
 }
 
-/// Checks the contents of a cell after a step. Throws NumericalError where it cannot be, so that the step is repeated
-/// with a smaller time step.
+/// Checks the contents of a cell after a step. Throws NumericalError if they are impossible, so that the step is
+/// repeated with a smaller time step.
 template <int D>
 void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, const NewGas<D>& fresh) {
   const double free = fresh.free[cell], mass = fresh.held.density[cell];
@@ -185,10 +186,11 @@ void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, c
   refuseGas<D>(level, gas, cell, free, density, last);
 }
 
-/// A mass per cell volume that is treated as 0, kg/m³; otherwise the halving of the content of a hole would never end.
+/// The mass per cell volume below which a mass is treated as 0 [kg/m³]; otherwise the halving of the content of a hole
+/// would never end.
 inline constexpr double nothingLeft = 1e-100;
 
-/// Empties a cell that has almost nothing left.
+/// Empties a cell in which almost nothing is left.
 template <int D>
 void emptyIfNothingLeft(const Index<D>& cell, const euler::MixtureViews<D, double>& held) {
   if (!(std::abs(held.density[cell]) < nothingLeft)) return;
@@ -197,7 +199,7 @@ void emptyIfNothingLeft(const Index<D>& cell, const euler::MixtureViews<D, doubl
   for (const auto& mass : held.masses) mass[cell] = 0;
 }
 
-/// The state after a step: small cells are merged with neighbours. Counts them.
+/// Computes the state after a step: small cells are merged with neighbours. Counts them.
 template <int D>
 void shareSmallCells(const Patch& patch, const Settings& settings, const Unshared<D>& state, const NewGas<D>& fresh,
                      Sum& merged) {

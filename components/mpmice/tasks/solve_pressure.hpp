@@ -5,7 +5,8 @@
 
 namespace tushar::mpmice {
 
-/// The gas itself, per volume of the gas, in all cells; in cells without gas, arbitrary values that are not used.
+/// Computes the state of the gas itself, per volume of the gas, in all cells; cells without gas get arbitrary values
+/// that are not used.
 template <int D>
 struct GasAlone {
   euler::StateViews<D, const double> state;
@@ -25,8 +26,8 @@ struct NewGasAlone {
   }
 };
 
-/// Normal velocities of the walls at the lower and upper faces of cells, m/s, and the acceleration of a wall per unit
-/// pressure of the gas in the cell, m/(s² Pa).
+/// Views of the normal velocities of the walls at the lower and upper faces of cells [m/s], and of the acceleration of
+/// a wall per unit pressure of the gas in the cell [m/(s² Pa)].
 template <int D>
 struct WallSpeeds {
   CellView<const Vec<D>> below, above, yieldBelow, yieldAbove;
@@ -56,10 +57,10 @@ struct NewWallSpeeds {
   }
 };
 
-/// The pressure that cells without gas have in the equations, Pa.
+/// The pressure used in the equations for cells without gas [Pa].
 inline constexpr double pressureOfNothing = 1;
 
-/// The state of the gas itself.
+/// Views of the state of the gas itself.
 template <int D>
 void takeGasAlone(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                   const NewGasAlone<D>& alone) {
@@ -75,7 +76,7 @@ void takeGasAlone(const Patch& patch, const Settings& settings, const GasInCells
   });
 }
 
-/// The pressure of the gas, which is the initial guess for that at the end of the first step, Pa.
+/// Computes the pressure of the gas, the initial guess for the pressure at the end of the first step [Pa].
 template <int D>
 void guessPressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                    CellView<double> pressure) {
@@ -85,8 +86,8 @@ void guessPressure(const Patch& patch, const Settings& settings, const GasInCell
   });
 }
 
-/// The speed of walls at the start of the step, and their acceleration by pressure, with the mass that belongs to the
-/// face.
+/// Computes the speed of walls at the start of the step, and their acceleration by pressure, with the mass that belongs
+/// to the face.
 template <int D>
 void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                     const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
@@ -120,7 +121,7 @@ void findWallSpeeds(const Patch& patch, const std::vector<mpm::solid::Material>&
   });
 }
 
-/// Velocities at the faces of cells, piecewise constant next to bodies.
+/// Velocities at the faces of cells; the gas is piecewise constant next to bodies.
 template <int D>
 ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
   return [&level, cells](const Index<D>& cell) {
@@ -198,8 +199,8 @@ void solvePressureBeside(const RankPatches& patches, const mpi::Communicator& ra
       });
 }
 
-/// Pressure of the gas on walls: the pressure at the end of the step plus, for approaching walls, the viscosity of
-/// von Neumann and Richtmyer.
+/// Computes the pressure of the gas on walls: the pressure at the end of the step plus, for approaching walls, the
+/// viscosity of von Neumann and Richtmyer.
 template <int D>
 void takeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                       const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,

@@ -6,7 +6,7 @@
 
 namespace tushar::mpmice {
 
-/// The pressure of a cell's gas on the walls at its lower and upper faces, Pa.
+/// The pressure of a cell's gas on the walls at its lower and upper faces [Pa].
 template <int D>
 struct WallPressures {
   CellView<Vec<D>> below, above;
@@ -15,8 +15,8 @@ struct WallPressures {
   }
 };
 
-/// The pressure on one wall of a cell. The gas meets the body along its surface's normal, so that it slips along an
-/// oblique wall; between two walls, where no normal is, it meets each along the axis.
+/// The pressure on one wall of a cell. The gas meets the body along the normal of the body's surface, so that it slips
+/// along an oblique wall; between two walls, where no normal is, it meets each along the axis.
 template <int D>
 class CellWalls {
  public:
@@ -26,14 +26,14 @@ class CellWalls {
     slip_ = facingOneWay<D>(level, faces_);
   }
   bool hasWall(int axis, int side) const { return faces_[axis].wall(side) > 0; }
-  /// Speed at which the gas approaches a wall, m/s.
+  /// Speed at which the gas approaches a wall [m/s].
   double closing(const Vec<D>& wallVelocity, int axis, int side) const {
     Vec<D> relative;
     for (int d = 0; d < D; ++d) relative[d] = w_[euler::kVelocity(d)] - wallVelocity[d];
     const double outward = side == 0 ? -relative[axis] : relative[axis];
     return slip_ * relative.dot(normal_) + (1 - slip_) * outward;
   }
-  /// `blowing` is the speed of new gas away from the wall, which the gas need not follow.
+  /// `blowing` is the speed of new gas that leaves the wall, which the gas need not follow.
   double pressure(const euler::Gas& gas, const Vec<D>& wallVelocity, int axis, int side, double blowing) const {
     return wallPressure(gas, w_[euler::kDensity], w_[euler::kPressure<D>], closing(wallVelocity, axis, side) + blowing);
   }
@@ -45,7 +45,7 @@ class CellWalls {
   double slip_ = 0;
 };
 
-/// New gas that leaves burning walls; none elsewhere.
+/// New gas that leaves burning walls; nothing at other walls.
 template <int D>
 struct Blowing {
   std::optional<CellView<const Vec<D>>> speeds, recoils;
@@ -54,9 +54,9 @@ struct Blowing {
     return {.speeds = take(when(burns, requiresNew(c::blowing<D>, 1))),
             .recoils = take(when(burns, requiresNew(c::recoil<D>, 1)))};
   }
-  /// Its speed, m/s, away from the wall of a cell at its lower (0) or upper (1) face.
+  /// Speed of the new gas [m/s] away from the wall of a cell at its lower (0) or upper (1) face.
   double speed(const Index<D>& cell, int axis, int side) const { return at(speeds, cell, axis, side); }
-  /// The pressure that it exerts on this wall, Pa.
+  /// The pressure that the new gas exerts on this wall [Pa].
   double recoil(const Index<D>& cell, int axis, int side) const { return at(recoils, cell, axis, side); }
 
  private:
@@ -68,7 +68,7 @@ struct Blowing {
   }
 };
 
-/// Fills in the pressure on all walls: `pressureOn(cell, walls of the cell, velocity of the wall, axis, side)`.
+/// Computes the pressure on all walls: `pressureOn(cell, walls of the cell, velocity of the wall, axis, side)`.
 template <int D, class PressureOn>
 void fillWallPressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
                       const typename BodiesAtNodes<D>::Records& records, const WallPressures<D>& walls,
@@ -93,7 +93,7 @@ void fillWallPressure(const Patch& patch, const Settings& settings, const GasInC
   });
 }
 
-/// Pressure of the gas on walls, from the velocities of gas and bodies at the start of the step.
+/// Computes the pressure of the gas on walls, from the velocities of gas and bodies at the start of the step.
 template <int D>
 void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                          const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
@@ -119,7 +119,7 @@ struct KnownWalls {
   }
 };
 
-/// Force of the gas along an axis on the walls at the lower face of a cell, N; from its gas and from that of the
+/// Force of the gas along an axis on the walls at the lower face of a cell [N]: of the cell's gas and of that in the
 /// cell below, if there is one.
 template <int D>
 double forceAt(const Level& level, const FreeSpace<D>& space, const KnownWalls<D>& walls, double reference,
@@ -136,7 +136,8 @@ double forceAt(const Level& level, const FreeSpace<D>& space, const KnownWalls<D
   return force * level.cellVolume() * level.inverseSpacing(axis);
 }
 
-/// Friction of the gas along the walls at the lower face of a cell, N; from its gas and that of the cell below.
+/// Friction of the gas along the walls at the lower face of a cell [N]: of the cell's gas and of that in the cell
+/// below.
 template <int D>
 Vec<D> frictionAt(const Level& level, const Settings& settings, const FreeSpace<D>& space, const KnownWalls<D>& walls,
                   const GasInCells<D>& cells, const BodiesAtNodes<D>& bodies, const Index<D>& face, int axis) {
@@ -152,7 +153,7 @@ Vec<D> frictionAt(const Level& level, const Settings& settings, const FreeSpace<
   return level.cellVolume() * force;
 }
 
-/// Whether the lower face of a cell, normal to an axis, belongs to the grid; faces on the upper side of the grid do.
+/// Whether the lower face of a cell across an axis is a face of the grid; faces on the upper side of the grid are.
 template <int D>
 bool isFace(const Level& level, const Index<D>& cell, int axis) {
   for (int d = 0; d < D; ++d) {
@@ -169,7 +170,7 @@ bool ownsFace(const Patch& patch, const Index<D>& cell, int axis) {
   return patch.cells().contains(isOnSide ? cell - Index<D>::unit(axis) : cell);
 }
 
-/// Distributes the force of the gas at each face over the nodes and materials there, in proportion to their masses, N.
+/// Distributes the force of the gas at each face [N] over the nodes and materials there, in proportion to their masses.
 /// Bodies that the gas cannot move get none.
 template <int D>
 void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,

@@ -39,7 +39,7 @@ class ConservingMpm : public GasMethod<ConservingGasDynamics> {
   void scheduleStep(TaskList& tasks) const;
   template <class Scheme>
   void scheduleComputePressure(TaskList& tasks) const;
-  /// Adds pressure and signal speeds of a mixture of gases, which share pressure and velocity.
+  /// Adds tasks for the pressure and signal speeds of a mixture of gases, which share pressure and velocity.
   void scheduleMixtureState(TaskList& tasks) const;
   void scheduleRedistribute(TaskList& tasks) const;
   void scheduleGridState(TaskList& tasks, bool isStart = false) const;

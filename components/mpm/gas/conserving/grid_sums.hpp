@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// A sum and the rounding error of its additions.
+/// A sum and the accumulated rounding error of its additions.
 template <class Number>
 struct CarefulSum {
   Number sum, lost;
@@ -27,7 +27,7 @@ class GridSums : public GridFields<D, N> {
 
   explicit GridSums(const Box& cells) : Fields(cells), lost_(N * this->size()) {}
 
-  /// Adds to the nodes or cells of the footprints of a batch, for which lanes not in use must bring 0.
+  /// Adds terms to the nodes or cells of the footprints of a batch; lanes that are not in use must contribute 0.
   void add(const Footprint<D>& footprint, const Brought& brought) {
     const std::size_t first = this->place(footprint.first());
     for (std::size_t n = 0; n < N; ++n)

@@ -5,8 +5,8 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// Artificial heat conduction where a shock compresses cells, against wall heating: the heat flow through the face
-/// between two cells along axis d is Q = C_h rho h max(0, -dv_d/dx_d) A (e_next - e), with the smaller of the two
+/// Computes artificial heat conduction where a shock compresses cells, against wall heating: the heat flow through the
+/// face between two cells along axis d is Q = C_h rho h max(0, -dv_d/dx_d) A (e_next - e), with the smaller of the two
 /// densities and of the two derivatives. Adds dt Q / IE_c to the work of each cell; the flow leaves one cell and enters
 /// the other. Source: W. F. Noh, J. Comput. Phys. 72 (1987) 78, section 3.
 template <int D>

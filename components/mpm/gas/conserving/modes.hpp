@@ -17,7 +17,7 @@ using Tensor = Eigen::Matrix<double, D, D, Eigen::DontAlign>;
 /// The column of the derivative along an axis.
 constexpr int gradientColumn(int axis) { return (1 << axis) - 1; }
 
-/// For each a, the product of `values` over the axes of a; the first product is empty, and 1.
+/// For each set of axes a, the product of `values` over the axes in a; the first product is empty, hence 1.
 template <class Values>
 auto productsOver(const Values& values) {
   constexpr std::size_t dimension = Values::SizeAtCompileTime;

@@ -10,10 +10,10 @@ namespace tushar::mpm::gas {
 /// Throws InputError if another body of the gas also contains the point.
 void refuseOverlap(const Gas& gas, const GasObject& object, const Vec3& point);
 
-/// The message for a body without particles on the grid.
+/// The message about a body without particles on the grid.
 InputProblem emptyBody(const Level& level, const GasObject& object);
 
-/// Throws InputError unless the density is positive, the pressure not negative, and the whole state finite.
+/// Throws InputError unless the density is positive, the pressure is not negative, and the whole state is finite.
 void refuseImpossible(const GasObject& object, const Vec3& point, double density, double pressure,
                       const Vec3& velocity);
 
@@ -29,7 +29,8 @@ double placeInCell(Placement placement, int k, int parts, const Draw& draw) {
   return (k - 0.5 * (parts - 1) + (placement == Placement::jittered ? draw() - 0.5 : 0.0)) / parts;
 }
 
-/// Calls `visit(x)` for each position [m] where a particle of the object would start in a cell; `place` counts them.
+/// Calls `visit(x)` for each position [m] in a cell at which a particle of the object is placed at the start; `place`
+/// counts them.
 template <int D, class Visit>
 void forEachPlace(const Level& level, const GasObject& object, const Index<D>& cell, int& place, const Visit& visit) {
   Box places{{}, Index3::filled(1)};
@@ -46,7 +47,7 @@ void forEachPlace(const Level& level, const GasObject& object, const Index<D>& c
   });
 }
 
-/// Throws InputError for bodies without a particle on the whole grid.
+/// Throws InputError if a body has no particle on the whole grid.
 template <int D>
 void checkBodies(const Level& level, const Gas& gas) {
   std::vector<InputProblem> problems;

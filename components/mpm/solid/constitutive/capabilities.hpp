@@ -20,8 +20,8 @@ inline constexpr bool isListOfVariables<const std::array<StateVariable, N>*> = t
 
 // Properties without a member.
 
-/// The stress at the end of a step depends only on F at the end, so that particles do not keep their stress. Offer it
-/// for elastic models in total form without a State.
+/// The stress at the end of a step depends only on F at the end, so that particles need not store their stress. Offer
+/// it for elastic models in total form without a State.
 struct DependsOnDeformationOnly {
   template <class M>
   static consteval bool check() {
@@ -48,8 +48,8 @@ struct FBar {
   }
 };
 
-/// The model uses the position and mass of the particle, and the time, in explicit steps. Offer it where something runs
-/// through the body at a given speed.
+/// The model uses the position and mass of the particle, and the time, in explicit steps. Offer it if the state depends
+/// on something that runs through the body at a given speed.
 struct PlaceAndTime {
   template <class M>
   static consteval bool check() {
@@ -59,8 +59,8 @@ struct PlaceAndTime {
 
 // Stress and its tangent.
 
-/// J sigma, Pa, and the wave speed, m/s, of several particles at once, with the same arithmetic as for one: templates
-/// for a Real that is double or Lanes. Offer it where explicit steps spend their time in the stress.
+/// Computes J sigma [Pa] and the wave speed [m/s] of several particles at once, with the same arithmetic as for one:
+/// templates for a Real that is double or Lanes. Offer it where explicit steps spend their time in the stress.
 struct Vectorized {
   struct Name {
     int kirchhoffStress;
@@ -87,8 +87,9 @@ struct Vectorized {
   }
 };
 
-/// dP/dF, Pa, of P = J sigma F^-T at the end of a step in which L dt = F F_old^-1 - I; row 3 i + J, column 3 k + L. It
-/// must be the derivative of what updateStress makes of the state at the start of the step. Implicit steps need it.
+/// Computes dP/dF [Pa] of P = J sigma F^-T at the end of a step in which L dt = F F_old^-1 - I; row 3 i + J, column 3 k
+/// + L. It must be the derivative of what updateStress makes of the state at the start of the step. Implicit steps need
+/// it.
 struct NominalTangent {
   struct Name {
     int nominalTangent;
@@ -112,8 +113,8 @@ struct NominalTangent {
 
 // Wave speeds.
 
-/// c_b = sqrt(K / rho), m/s, for the artificial viscosity; without it waveSpeed is used. Offer it for solids, whose
-/// shear stiffness makes the fastest wave faster than the bulk wave.
+/// The bulk wave speed c_b = sqrt(K / rho) [m/s] for the artificial viscosity; without it, waveSpeed is used. Offer it
+/// for solids, whose shear stiffness makes the fastest wave faster than the bulk wave.
 struct BulkSpeed {
   struct Name {
     int bulkSpeed;
@@ -134,7 +135,7 @@ struct BulkSpeed {
   }
 };
 
-/// Speed of the fastest wave for the first time step, m/s; without it waveSpeed at F = I is used. Offer it where
+/// Speed of the fastest wave for the first time step [m/s]; without it, waveSpeed at F = I is used. Offer it where
 /// Uintah's first time step comes from another formula.
 struct InitialWaveSpeed {
   struct Name {
@@ -154,7 +155,7 @@ struct InitialWaveSpeed {
   }
 };
 
-/// Coefficients of the artificial viscosity instead of those of the scene.
+/// Coefficients of the artificial viscosity that replace those of the scene.
 struct OwnViscosity {
   struct Name {
     int ownViscosity;
@@ -177,8 +178,8 @@ struct OwnViscosity {
 
 // Heat.
 
-/// Constants of the material in addition to those of the model, filled in after the model has been read. Offer it where
-/// the model needs the density, the specific heat or the melting temperature.
+/// Constants of the material in addition to those of the model, set after the model has been read. Offer it where the
+/// model needs the density, the specific heat or the melting temperature.
 struct ConstantsOfMaterial {
   struct Name {
     int material;
@@ -198,7 +199,7 @@ struct ConstantsOfMaterial {
   }
 };
 
-/// Change of the temperature due to the work of the step, K; `stress` and `state` are those at its end. Offer it for
+/// Change of the temperature due to the work in the step [K]; `stress` and `state` are those at its end. Offer it for
 /// materials that plastic work or compression heats.
 struct TemperatureChange {
   struct Name {
@@ -221,7 +222,7 @@ struct TemperatureChange {
   }
 };
 
-/// Specific heat, J/(kg K), if it is not that of the material.
+/// Specific heat [J/(kg K)], if it differs from that of the material.
 struct HeatCapacity {
   struct Name {
     int heatCapacity;
@@ -240,7 +241,8 @@ struct HeatCapacity {
   }
 };
 
-/// Adds the heat of the artificial viscosity, J/kg, to the State. Without it the viscosity heats nothing, as in Uintah.
+/// Adds the heat of the artificial viscosity [J/kg] to the State. Without it, the viscosity heats nothing, as in
+/// Uintah.
 struct ViscousHeat {
   struct Name {
     int addViscousHeat;
@@ -258,7 +260,7 @@ struct ViscousHeat {
   }
 };
 
-/// Whether a point with F, a stress (Pa) and a temperature (K) is molten: it then fails if the scene has an <erosion>.
+/// Whether a point with F, a stress [Pa] and a temperature [K] is molten: it then fails if the scene has an <erosion>.
 struct Melting {
   struct Name {
     int isMolten;
@@ -277,8 +279,8 @@ struct Melting {
   }
 };
 
-/// Whether plastic flow in the step has lost its stability; `stress` (Pa) and `state` are those at its end, before
-/// damage. The particle fails then where the scene has an <erosion>. `checksStability`: whether that is possible.
+/// Whether plastic flow in the step has become unstable; `stress` [Pa] and `state` are those at its end, before damage.
+/// The particle fails then where the scene has an <erosion>. `checksStability`: whether that is possible.
 struct Stability {
   struct Name {
     int isUnstable;
@@ -301,7 +303,7 @@ struct Stability {
 
 // Internal variables.
 
-/// Whether particles keep a State, depending on the constants of the model; if not, initialState() is used. Offer it
+/// Whether particles store a State, depending on the constants of the model; if not, initialState() is used. Offer it
 /// where plasticity can be switched off.
 struct OptionalState {
   struct Name {
@@ -319,7 +321,7 @@ struct OptionalState {
   }
 };
 
-/// The number of leading doubles of the State that particles keep, depending on the constants of the model; the others
+/// The number of leading doubles of the State that particles store, depending on the constants of the model; the others
 /// are not set. Offer it where a rare choice of constants needs many more variables.
 struct PartialState {
   struct Name {
@@ -337,8 +339,8 @@ struct PartialState {
   }
 };
 
-/// Radius, m, within which explicit steps take the mean of the State's `p.plasticIncrement` over the particles of the
-/// material, at the end of each step, into its `p.meanPlasticIncrement`; 0 for no mean.
+/// Radius [m] within which explicit steps average the State's `p.plasticIncrement` over the particles of the material,
+/// at the end of each step, into its `p.meanPlasticIncrement`; 0 for no average.
 struct Nonlocal {
   struct Name {
     int nonlocalLength;
@@ -355,7 +357,7 @@ struct Nonlocal {
   }
 };
 
-/// Variables of Uintah's model of the same name that are always 0 in this model, for scenes that save them.
+/// Variables of Uintah's model of the same name that are always 0 in this model; for scenes that save them.
 struct AbsentVariables {
   struct Name {
     int absentVariables;
@@ -374,7 +376,7 @@ struct AbsentVariables {
   }
 };
 
-/// Every capability that a constitutive model can name.
+/// All capabilities that a constitutive model can name.
 using OfModels =
     CapabilityList<DependsOnDeformationOnly, IgnoresTemperature, FBar, PlaceAndTime, Vectorized, NominalTangent,
                    BulkSpeed, InitialWaveSpeed, InitialVolumeRatio, InitialStress, OwnViscosity, ConstantsOfMaterial,

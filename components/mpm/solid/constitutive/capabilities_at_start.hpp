@@ -29,7 +29,7 @@ struct InitialVolumeRatio {
   }
 };
 
-/// Stress at the start of the run, Pa; without this capability it is 0. Offer it for solids with a fluid under
+/// Stress at the start of the run [Pa]; without this capability it is 0. Offer it for solids with a fluid under
 /// pressure.
 struct InitialStress {
   struct Name {
@@ -51,7 +51,7 @@ struct InitialStress {
   }
 };
 
-/// The State at the start depends on the particle. Offer it for materials whose constants vary within a body.
+/// The initial State depends on the particle. Offer it for materials whose constants vary within a body.
 struct StateByParticle {
   template <class M>
   static consteval bool check() {

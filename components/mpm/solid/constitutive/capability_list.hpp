@@ -12,8 +12,8 @@ struct CapabilityList {
   template <class Capability>
   static constexpr bool contains = (std::same_as<Capability, Names> || ...);
 
-  /// True; otherwise compilation stops with a message about a member of T that contradicts its capabilities. The list
-  /// itself holds all capabilities that a type of this kind may name.
+  /// Is true; otherwise compilation stops with a message about a member of T that contradicts its capabilities. The
+  /// list itself holds all capabilities that a type of this kind may name.
   template <class T>
   static consteval bool check() {
     static_assert(T::Capabilities::areAmong(CapabilityList()),
@@ -26,7 +26,7 @@ struct CapabilityList {
   }
 };
 
-/// Whether T names a capability.
+/// Whether T lists a capability.
 template <class T, class Capability>
 inline constexpr bool providesCapability = T::Capabilities::template contains<Capability>;
 

@@ -34,15 +34,15 @@ struct CompMooneyRivlin {
   }
   State initialState() const { return {}; }
 
-  /// sigma = 2/J ((C1 + I1 C2) B - C2 B² + I3 dW/dI3 I)
+  /// Computes sigma = 2/J ((C1 + I1 C2) B - C2 B² + I3 dW/dI3 I).
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
     const Invariants i(d.deformationGradient);
     Matrix3 stress = (c1 + i.first * c2) * i.b - c2 * i.b * i.b;
     stress.diagonal().array() += i.third * slope(i.third);
     return stress * (2 / i.j);
   }
-  /// d tau = 2 (C2 dI1 B + (C1 + I1 C2) dB - C2 (dB B + B dB) + (dW/dI3 + I3 d²W/dI3²) dI3 I) with dB = h B + B hᵀ,
-  /// dI1 = tr dB, dI3 = 2 I3 tr h
+  /// Computes the tangent d tau = 2 (C2 dI1 B + (C1 + I1 C2) dB - C2 (dB B + B dB) + (dW/dI3 + I3 d²W/dI3²) dI3 I) with
+  /// dB = h B + B hᵀ, dI1 = tr dB, dI3 = 2 I3 tr h.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State&) const {
     const Invariants i(d.deformationGradient);
     State none;
@@ -71,7 +71,7 @@ struct CompMooneyRivlin {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(4 * (c1 + c2 * Invariants(d.deformationGradient).second) / initialDensity);
   }
-  /// W as above, where c3 (1/I3² - 1) cancels the terms linear in the strain.
+  /// The energy W as above; its part c3 (1/I3² - 1) cancels the terms linear in the strain.
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
     const StrainInvariants strain(d.deformationGradient);
     const double v = strain.volume, i3 = 1 + v;
@@ -89,7 +89,7 @@ struct CompMooneyRivlin {
       third = j * j;
     }
   };
-  /// dW/dI3
+  /// The derivative dW/dI3.
   double slope(double i3) const { return -2 * c3() / (i3 * i3 * i3) + 2 * c4() * (i3 - 1); }
   double c3() const { return 0.5 * c1 + c2; }
   double c4() const {

@@ -49,7 +49,7 @@ struct CompNeoHook {
   State initialState() const { return {}; }
   double initialVolumeRatio() const { return startsUnderPressure ? volumeRatioUnder(initialPressure, bulkModulus) : 1; }
 
-  /// J sigma = K/2 (J² - 1) I + G dev(J^(-2/3) F Fᵀ)
+  /// Computes J sigma = K/2 (J² - 1) I + G dev(J^(-2/3) F Fᵀ).
   template <class Real>
   TensorOf<Real> kirchhoffStress(const TensorOf<Real>& f) const {
     const Real j = solid::determinant(f);
@@ -63,7 +63,7 @@ struct CompNeoHook {
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
     return kirchhoffStress(d.deformationGradient) / d.deformationGradient.determinant();
   }
-  /// d tau = K J² tr h I + G dev(h b + b hᵀ - 2/3 tr h b) with b = J^(-2/3) F Fᵀ
+  /// Computes the tangent d tau = K J² tr h I + G dev(h b + b hᵀ - 2/3 tr h b) with b = J^(-2/3) F Fᵀ.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3&, const State&) const {
     const Matrix3& f = d.deformationGradient;
     const double j = f.determinant();

@@ -11,7 +11,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Stops compilation, with a message, if M lacks a constant or a variable that every model has.
+/// Stops compilation, with a message, if M lacks a constant or a variable that every model must have.
 template <class M>
 consteval bool checkDescription() {
   static_assert(
@@ -34,7 +34,7 @@ consteval bool checkDescription() {
   return true;
 }
 
-/// Stops compilation, with a message, if the variables of a State are not all named.
+/// Stops compilation, with a message, if not all variables of a State have names.
 template <class M>
 consteval bool checkState() {
   static_assert(
@@ -63,7 +63,7 @@ consteval bool checkState() {
   return true;
 }
 
-/// Stops compilation, with a message, if M lacks a function that every model has.
+/// Stops compilation, with a message, if M lacks a function that every model must have.
 template <class M>
 consteval bool checkFunctions() {
   using State = typename M::State;
@@ -84,7 +84,7 @@ consteval bool checkFunctions() {
   return true;
 }
 
-/// True; otherwise compilation stops with a message that says what is missing in M.
+/// Is true; otherwise compilation stops with a message that says what is missing in M.
 template <class M>
 consteval bool isConstitutiveModel() {
   constexpr bool hasState = requires { typename M::State; };

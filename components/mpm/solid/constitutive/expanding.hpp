@@ -6,10 +6,10 @@ namespace tushar::mpm::solid {
 
 /// Thermal expansion of a body.
 struct ThermalExpansion {
-  double coefficient = 0;           ///< alpha, of lengths, 1/K
+  double coefficient = 0;           ///< alpha, coefficient of linear expansion [1/K]
   double referenceTemperature = 0;  ///< T_0, K
 
-  /// J_T = (1 + alpha (T - T_0))^3
+  /// The relative volume of a free body, J_T = (1 + alpha (T - T_0))^3.
   double volume(double temperature) const {
     const double stretch = 1 + coefficient * (temperature - referenceTemperature);
     return stretch * stretch * stretch;
@@ -22,7 +22,7 @@ struct ThermalExpansion {
 template <ConstitutiveModel M>
 class Expanding : public ModelOf<M> {
  public:
-  /// `bulkModulus` is K, Pa.
+  /// `bulkModulus` is K [Pa].
   Expanding(const M& model, double bulkModulus, const ThermalExpansion& expansion)
       : ModelOf<M>(model), bulk_modulus_(bulkModulus), expansion_(expansion) {}
 

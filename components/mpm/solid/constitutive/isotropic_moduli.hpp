@@ -16,11 +16,11 @@ struct IsotropicModuli {
   double bulkModulus = 0;   ///< K, Pa
   double shearModulus = 0;  ///< G, Pa
 
-  /// c = sqrt((K + 4/3 G) / rho)
+  /// Wave speed, c = sqrt((K + 4/3 G) / rho).
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const NoState&) const {
     return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
   }
-  /// c_b = sqrt(K / rho)
+  /// Bulk wave speed, c_b = sqrt(K / rho).
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const NoState&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }

@@ -27,8 +27,8 @@ struct MwViscoElastic {
   static constexpr std::string_view name = "mw_visco_elastic";
   static constexpr bool strainEnergyIsRate = false;
 
-  double springShear = 0, springBulk = 0;    ///< G_e, K_e, Pa
-  double maxwellShear = 0, maxwellBulk = 0;  ///< G_v, K_v, Pa
+  double springShear = 0, springBulk = 0;    ///< G_e and K_e of the spring [Pa]
+  double maxwellShear = 0, maxwellBulk = 0;  ///< G_v and K_v of the Maxwell element [Pa]
   double bulkViscosity = 0;                  ///< eta_v, Pa s
   double shearViscosity = 0;                 ///< eta_d, Pa s
 

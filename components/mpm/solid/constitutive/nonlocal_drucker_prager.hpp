@@ -20,11 +20,11 @@ namespace tushar::mpm::solid {
 /// mean is that of the step before, so that a step is explicit in it.
 struct NonlocalDruckerPrager {
   struct State {
-    double plasticStrain;      ///< integral of l', 1
+    double plasticStrain;      ///< plastic strain: integral of l' [1]
     double hardening;          ///< eta, Pa
     double nonlocalHardening;  ///< eta_n, Pa
-    double plasticIncrement;   ///< plastic strain of the step, 1
-    double meanIncrement;      ///< mean plastic strain of the step within l_nonlocal, 1
+    double plasticIncrement;   ///< plastic strain in the step [1]
+    double meanIncrement;      ///< mean plastic strain in the step within l_nonlocal [1]
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::Nonlocal>;
   static constexpr std::array<StateVariable, 5> stateVariables{
@@ -44,8 +44,8 @@ struct NonlocalDruckerPrager {
   double localModulus = 0;                                      ///< h_local, Pa
   double nonlocalModulus = 0;                                   ///< h_nonlocal, Pa
   double length = 0;                                            ///< l_nonlocal, m
-  double leastStrength = 0;                                     ///< Pa
-  double stressAlongX = 0, stressAlongY = 0, stressAlongZ = 0;  ///< normal stresses at the start, Pa
+  double leastStrength = 0;                                     ///< smallest strength [Pa]
+  double stressAlongX = 0, stressAlongY = 0, stressAlongZ = 0;  ///< initial normal stresses [Pa]
 
   static const input::Schema<NonlocalDruckerPrager>& schema() {
     static const input::Schema<NonlocalDruckerPrager> schema = makeSchema();
@@ -96,7 +96,8 @@ struct NonlocalDruckerPrager {
     state.hardening += localModulus * increment;
     return increment;
   }
-  /// Returns a trial stress, with the root `size` of J2, to the apex of the surface that its plastic strain leaves:
+  /// Returns a trial stress, with the root `size` of J2, to the apex of the surface that results from its plastic
+  /// strain:
   /// that strain has (size/(2^(1/2) G))² + (p - p_apex)²/(3 K²) as the square of its length, which is the result.
   double toApex(double start, double size, double toAxis, Matrix3& stress) const {
     const double mean = stress.trace() / 3, onAxis = mean - 3 * bulkModulus * dilation * toAxis / flowScale();
@@ -114,9 +115,9 @@ struct NonlocalDruckerPrager {
   double plasticIncrement(double excess, double hardening) const {
     return std::max(excess / (stiffness() + hardening), 0.0);
   }
-  /// The decrease of the trial stress towards a fixed surface per plastic strain, Pa.
+  /// The decrease of the trial stress towards a fixed surface per plastic strain [Pa].
   double stiffness() const { return (shearModulus + 9 * bulkModulus * friction * dilation) / flowScale(); }
-  /// Length of the gradient of the flow potential, 1.
+  /// Length of the gradient of the flow potential [1].
   double flowScale() const { return std::sqrt(0.5 + 3 * dilation * dilation); }
 
   static input::Schema<NonlocalDruckerPrager> makeSchema() {
@@ -142,7 +143,7 @@ struct NonlocalDruckerPrager {
     tags.check(checkConstants);
     return tags;
   }
-  /// If softening is faster than the decrease of the trial stress, no stress is on the surface.
+  /// Reports softening that is faster than the decrease of the trial stress: no stress is then on the surface.
   static void checkConstants(const NonlocalDruckerPrager& read, const input::Element& element,
                              input::Diagnostics& diagnostics) {
     const double softest = read.localModulus + std::min(read.nonlocalModulus, 0.0), limit = -read.stiffness();

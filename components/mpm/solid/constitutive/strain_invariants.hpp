@@ -28,17 +28,17 @@ struct StrainInvariants {
     root = 1 / inverseCubeRootSquared(std::sqrt(1 + volume));
   }
 
-  /// tr(b) / r - 3
+  /// The first isochoric invariant, tr(b) / r - 3.
   double isochoricFirst() const { return (distance() * distance() * (root + 2) - second - third) / root; }
-  /// I2(b) / r² - 3
+  /// The second isochoric invariant, I2(b) / r² - 3.
   double isochoricSecond() const {
     return (distance() * distance() * (2 * root + 1) - second - 2 * third) / (root * root);
   }
-  /// ((J² - 1)/2 - ln J) / 2
+  /// The volumetric term ((J² - 1)/2 - ln J) / 2.
   double dilatation() const { return (volume - std::log1p(volume)) / 4; }
 
  private:
-  double distance() const { return volume / (root * root + root + 1); }  ///< d
+  double distance() const { return volume / (root * root + root + 1); }  ///< The term d.
 };
 
 }  // namespace tushar::mpm::solid

@@ -14,7 +14,7 @@ template <class Real>
          f(0, 2) * (f(1, 0) * f(2, 1) - f(1, 1) * f(2, 0));
 }
 
-/// F Fᵀ
+/// Computes F Fᵀ.
 template <class Real>
 [[gnu::always_inline]] inline TensorOf<Real> leftCauchyGreen(const TensorOf<Real>& f) {
   TensorOf<Real> b;
@@ -23,7 +23,7 @@ template <class Real>
   return b;
 }
 
-/// The next Lanes::count of `count` consecutive tensors; missing ones repeat the last.
+/// Loads the next Lanes::count of `count` consecutive tensors; missing ones repeat the last.
 [[gnu::always_inline]] inline TensorOf<Lanes> lanesOf(const Matrix3* tensors, int count) {
   const std::array<Lanes, 9> numbers =
       columnsOf<9>([&](int lane) { return tensors[count < Lanes::count ? std::min(lane, count - 1) : lane].data(); });

@@ -35,7 +35,7 @@ struct NeoHookPlastic {
   double bulkModulus = 0;   ///< K, Pa
   double shearModulus = 0;  ///< G, Pa
   bool isPlastic = plasticByDefault;
-  std::optional<double> yieldStress;       ///< Y, Pa
+  std::optional<double> yieldStress;       ///< Y, yield stress [Pa]; none: elastic
   std::optional<double> hardeningModulus;  ///< H, Pa
   double initialPlasticStrain = 0;         ///< 1
   bool yieldSpreads = false;               ///< whether the yield stress differs between particles: see UcnhVar
@@ -96,7 +96,8 @@ struct NeoHookPlastic {
     return stress / j;
   }
 
-  /// With s the trial stress, n = s/|s|, q = f / (1 + H/(3 mu)), f = |s| - (2/3)^(1/2) (H alpha + Y), mu = G tr b / 3:
+  /// Computes the tangent. With s the trial stress, n = s/|s|, q = f / (1 + H/(3 mu)), f = |s| - (2/3)^(1/2) (H alpha +
+  /// Y), mu = G tr b / 3:
   /// d tau = K J² tr h I + ds - q dn - n dq, and d mu in dq.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State& old) const {
     const double j = d.deformationGradient.determinant();
@@ -122,7 +123,7 @@ struct NeoHookPlastic {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
-  /// W = K/2 ((J² - 1)/2 - ln J) + G/2 (tr b - 3)
+  /// The energy W = K/2 ((J² - 1)/2 - ln J) + G/2 (tr b - 3).
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State& state) const {
     const StrainInvariants strain(d.deformationGradient);
     const double shear = isPlastic ? matrixOf(state.bElBar).trace() - 3 : strain.isochoricFirst();
@@ -130,7 +131,7 @@ struct NeoHookPlastic {
   }
 
  private:
-  /// The elastic trial state, and its distance outside the yield surface.
+  /// The elastic trial state, and the amount by which it exceeds the yield surface.
   struct Trial {
     Matrix3 elastic;       ///< b, 1
     Matrix3 stress;        ///< s = G dev b, Pa
@@ -138,7 +139,7 @@ struct NeoHookPlastic {
     double size;           ///< |s|, Pa
     double shear;          ///< mu, Pa
     double hardening = 0;  ///< H / (3 mu)
-    double excess = 0;     ///< q, by which the return shortens s, Pa
+    double excess = 0;     ///< q, the decrease of |s| by the return [Pa]
 
     Trial(const NeoHookPlastic& body, const Deformation& d, const State& state) {
       const Matrix3 step =
@@ -156,7 +157,7 @@ struct NeoHookPlastic {
       const double radius = *body.hardeningModulus * state.plasticStrain + *body.yieldStress;
       excess = std::max(size - std::sqrt(2.0 / 3.0) * radius, 0.0) / (1 + hardening);
     }
-    /// (2/3)^(1/2) q / (2 mu)
+    /// The increment of the plastic strain, (2/3)^(1/2) q / (2 mu).
     double slip() const { return std::sqrt(2.0 / 3.0) * excess / (2 * shear); }
   };
 };

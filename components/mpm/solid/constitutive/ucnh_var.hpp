@@ -40,10 +40,10 @@ struct UcnhVar {
   };
 
   bool isPlastic = false;
-  std::array<Entry, mostEntries> entries{};  ///< in the order of their color
-  std::size_t count = 0;                     ///< of them
+  std::array<Entry, mostEntries> entries{};  ///< entries in order of increasing color
+  std::size_t count = 0;                     ///< number of entries
   double initialPlasticStrain = 0;           ///< 1
-  double startVolumeRatio = 1;               ///< det F at the start
+  double startVolumeRatio = 1;               ///< initial det F
   double yieldRange = 0;                     ///< largest deviation of the yield stress, Pa
   int yieldSeed = 0;
 
@@ -86,7 +86,7 @@ struct UcnhVar {
     state.bElBar = common.bElBar;
     return stress;
   }
-  /// Wave speed of the stiffest particles, m/s.
+  /// Wave speed of the stiffest particles [m/s].
   double initialWaveSpeed(double initialDensity) const {
     double modulus = 0;
     for (const Entry& entry : table()) modulus = std::max(modulus, entry.bulkModulus + 4.0 / 3.0 * entry.shearModulus);

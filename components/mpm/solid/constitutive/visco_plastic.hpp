@@ -26,7 +26,7 @@ struct ViscoPlastic {
     double yield;              ///< Pa
     double drag;               ///< Pa
     double failed;             ///< 1 if the particle has failed
-    double failureVariable;    ///< Pa, or 1
+    double failureVariable;    ///< stress [Pa] or strain [1] at which the particle fails
     Tensor backStress;         ///< Pa
   };
   using Capabilities = CapabilityList<capability::ConstantsOfMaterial, capability::BulkSpeed,
@@ -41,14 +41,14 @@ struct ViscoPlastic {
        {"p.backstress", "Pa", "back stress", 9}}};
   static constexpr std::string_view name = "visco_plastic";
   static constexpr bool strainEnergyIsRate = true;
-  static constexpr double heatedShare = 0.9;  ///< the Taylor-Quinney coefficient, as in Uintah, 1
+  static constexpr double heatedShare = 0.9;  ///< Taylor-Quinney coefficient, as in Uintah [1]
 
   MaterialConstants material;
   double bulkModulus = 0;   ///< K, Pa
   double shearModulus = 0;  ///< G, Pa
   std::variant<HyperelasticVolume, HypoelasticVolume> equationOfState;
   ViscoplasticFlow flow;
-  double initialTemperature = 269.15;  ///< reference temperature of the equation of state, K
+  double initialTemperature = 269.15;  ///< reference temperature of the equation of state [K]
   bool canFail = false, byStress = true, byPressure = false;
   double failureVariable = 1e30;
   bool losesStress = true, losesTension = false;
@@ -94,7 +94,7 @@ struct ViscoPlastic {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
-  /// Strain energy density, J/m^3; 0 for failed particles, as in Uintah.
+  /// Strain energy density [J/m^3]; 0 for failed particles, as in Uintah.
   double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress,
                              const State& state) const {
     return state.failed != 0 ? 0 : stressWork(d, oldStress, stress);
@@ -118,7 +118,7 @@ struct ViscoPlastic {
                             material.specificHeat};
     return std::visit([&](const auto& model) { return model.meanStress(state); }, equationOfState);
   }
-  /// The stress of a failed particle.
+  /// The stress that remains in a failed particle.
   Matrix3 left(const Matrix3& stress) const {
     if (losesStress) return Matrix3::Zero();
     if (losesTension) return std::min(stress.trace() / 3, 0.0) * Matrix3::Identity();

@@ -56,7 +56,8 @@ struct ViscoScram {
   double shiftTemperature = 298;  ///< T_0 of Williams, Landel & Ferry, K
   double shift1 = 6.5;            ///< C_1, 1
   double shift2 = 120;            ///< C_2, K
-  double thermalExpansion = 0;    ///< of lengths, 1/K; if it is not 0, the model is ExpandingViscoScram
+  /// Coefficient of linear expansion [1/K]; if it is not 0, the model is ExpandingViscoScram.
+  double thermalExpansion = 0;
 
   static const input::Schema<ViscoScram>& schema() {
     static const input::Schema<ViscoScram> schema = makeSchema();
@@ -67,7 +68,7 @@ struct ViscoScram {
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
     return updateStress(d, oldStress, state, 0);
   }
-  /// The same, with a strain `free` along each axis that causes no stress, 1.
+  /// Like the function above, with a strain `free` along each axis that causes no stress [1].
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state, double free) const {
     Corotated step(d, oldStress);
     step.strain.diagonal().array() -= free;
@@ -93,7 +94,7 @@ struct ViscoScram {
                              const State&) const {
     return stressWork(d, oldStress, stress);
   }
-  /// Hackett & Bennett, Int. J. Numer. Methods Engrg. 49 (2000) 1191.
+  /// Temperature change after Hackett & Bennett, Int. J. Numer. Methods Engrg. 49 (2000) 1191.
   double temperatureChange(const Deformation& d, const Matrix3&, const State& state) const {
     return (state.viscousHeating + state.crackHeating - state.volumeHeating) * d.timeStep;
   }
@@ -104,17 +105,17 @@ struct ViscoScram {
     double rate;     ///< 1/tau_n, 1/s
   };
   using Elements = std::array<Element, 5>;
-  /// The load that opens the cracks in a step.
+  /// The load in a step that opens the cracks.
   struct CrackLoad {
-    double pressure;       ///< on the faces of the cracks, Pa; 0 in tension
-    double stress;         ///< (s:s)^(1/2) under pressure, (sigma:sigma)^(1/2) in tension, Pa
+    double pressure;       ///< pressure on the faces of the cracks [Pa]; 0 in tension
+    double stress;         ///< (s:s)^(1/2) under pressure, (sigma:sigma)^(1/2) in tension [Pa]
     double greatestSpeed;  ///< m/s
   };
 
   double shearModulus() const { return g1 + g2 + g3 + g4 + g5; }
   double bulkModulus() const { return 2 * shearModulus() * (1 + poissonRatio) / (3 * (1 - 2 * poissonRatio)); }
   double waveModulus() const { return bulkModulus() + 4.0 / 3.0 * shearModulus(); }
-  /// (c/a)³
+  /// The crack factor (c/a)³.
   double cracked(double radius) const {
     const double relative = radius / crackScale;
     return relative * relative * relative;
@@ -128,7 +129,7 @@ struct ViscoScram {
         {{g1, rate1 * faster}, {g2, rate2 * faster}, {g3, rate3 * faster}, {g4, rate4 * faster}, {g5, rate5 * faster}}};
   }
 
-  /// The load of a step. The largest crack speed depends on the strain rate, exp(-2.90178468) (1.5^(1/2) |dev
+  /// The load in a step. The largest crack speed depends on the strain rate, exp(-2.90178468) (1.5^(1/2) |dev
   /// D|)^.90564746, with Uintah's numbers for PBX 9501.
   CrackLoad crackLoadOf(const Corotated& step, double timeStep) const {
     const double mean = step.stress.trace() / 3, rate = std::sqrt(1.5) * deviator(step.strain).norm() / timeStep;
@@ -137,8 +138,8 @@ struct ViscoScram {
     return {std::max(-mean, 0.0), mean > 0 ? step.stress.norm() : deviator(step.stress).norm(),
             std::min(speed, greatestCrackSpeed)};
   }
-  /// dc/dt = v (K/K_1)^m below K', v (1 - (K_0'/K)²) above, eqs. 24-31: K = (3/2 pi c)^(1/2) sigma, K_0' the toughness
-  /// with friction on the faces of the crack, K' = K_0' (1 + 2/m)^(1/2), K_1 = K' (1 + m/2)^(1/m).
+  /// The crack speed dc/dt = v (K/K_1)^m below K', v (1 - (K_0'/K)²) above, eqs. 24-31: K = (3/2 pi c)^(1/2) sigma,
+  /// K_0' the toughness with friction on the faces of the crack, K' = K_0' (1 + 2/m)^(1/2), K_1 = K' (1 + m/2)^(1/m).
   double crackSpeed(const CrackLoad& load, double radius) const {
     const double intensity = std::sqrt(1.5 * std::numbers::pi * radius) * load.stress;
     if (intensity <= 0) return 0;
@@ -152,7 +153,7 @@ struct ViscoScram {
     }
     return load.greatestSpeed * (1 - resistance * resistance / (intensity * intensity));
   }
-  /// Growth of the radius in a step, m, by the fourth-order Runge-Kutta method.
+  /// Growth of the crack radius in a step [m], by the fourth-order Runge-Kutta method.
   double growthOf(const CrackLoad& load, double radius, double timeStep) const {
     const double k1 = crackSpeed(load, radius), k2 = crackSpeed(load, radius + 0.5 * timeStep * k1);
     const double k3 = crackSpeed(load, radius + 0.5 * timeStep * k2), k4 = crackSpeed(load, radius + timeStep * k3);
@@ -181,7 +182,7 @@ struct ViscoScram {
       state.deviators[n] = tensorOf(step.turned(free[n] - gained[n] * elements[n].modulus / shearModulus() * opened));
     return stress;
   }
-  /// Rates of heating, K/s: sum_n s_n:s_n/(2 G_n tau_n), s : d((c/a)³ s)/dt / (2 G), each over rho c_v, and
+  /// Computes the heating rates [K/s]: sum_n s_n:s_n/(2 G_n tau_n), s : d((c/a)³ s)/dt / (2 G), each over rho c_v, and
   /// Gamma T tr D.
   void heat(const Corotated& step, const Deformation& d, const Elements& elements, const Matrix3& opened,
             const Matrix3& stress, State& state) const {
@@ -253,12 +254,12 @@ struct ViscoScram {
 };
 static_assert(ConstitutiveModel<ViscoScram>);
 
-/// The same for a material with thermal expansion: the strain rate that causes stress is D - alpha dT/dt I, as in
-/// Uintah with T at the start of this step and of the previous one.
+/// ViscoScram with thermal expansion: the strain rate that causes stress is D - alpha dT/dt I, as in Uintah with T at
+/// the start of this step and of the previous one.
 struct ExpandingViscoScram {
   struct State {
     ViscoScram::State scram;
-    double temperature;  ///< at the start of the last step, K; -1 before the first one
+    double temperature;  ///< temperature at the start of the last step [K]; -1 before the first one
   };
   using Capabilities =
       CapabilityList<capability::BulkSpeed, capability::InitialWaveSpeed, capability::TemperatureChange>;

@@ -51,10 +51,10 @@ bool slides(Kind kind) { return kind == Kind::friction || kind == Kind::conservi
 bool usesPlanes(Kind kind) {
   return kind == Kind::planeFriction || kind == Kind::colorFriction || kind == Kind::specifiedFriction;
 }
-/// Whether the others follow or meet a master that may be driven.
+/// Whether the other bodies follow or meet a master that may be driven.
 bool hasMaster(Kind kind) { return kind == Kind::rigid || kind == Kind::specified || kind == Kind::specifiedFriction; }
 
-/// An `entry` of variable_friction.
+/// A tag `entry` of variable_friction.
 struct FrictionEntry {
   double color = 0, friction = 0;
 };
@@ -127,7 +127,7 @@ void checkContact(const ContactSection& read, const Element& element, Diagnostic
   checkPlanes(read, element, diagnostics);
 }
 
-/// Declares the kinds of contact, and the materials that take part.
+/// Declares the kinds of contact and the tag for the materials that take part.
 void addKinds(Schema<ContactSection>& contact) {
   requiredChoiceOrRefusal(
       contact, "type", &ContactSection::kind, kinds, lackingKinds,
@@ -202,7 +202,7 @@ const Schema<ContactSection>& contactSchema() {
   return schema;
 }
 
-/// The numbers of a file next to the scene, `columns` per line.
+/// Reads the numbers in a file next to the scene, `columns` per line.
 std::vector<double> readTable(const Element& tag, const std::string& path, std::size_t columns,
                               Diagnostics& diagnostics) {
   std::ifstream file(path);

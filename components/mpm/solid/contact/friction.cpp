@@ -6,9 +6,9 @@ namespace tushar::mpm::solid {
 
 namespace {
 
-/// A smaller traction counts as round-off, Pa.
+/// The traction below which a traction counts as round-off [Pa].
 constexpr double leastTraction = 1e-12;
-/// Smaller mass gradients, kg/m, are not normalised.
+/// The mass gradient below which a gradient is not normalised [kg/m].
 constexpr double leastGradient = 1e-15;
 
 /// All bodies that take part, at one node.
@@ -17,10 +17,10 @@ struct Gathering {
   Vec<D> momentum = Vec<D>::Zero(), position = Vec<D>::Zero();
   double mass = 0, volume = 0;
   Vec<D> normal = Vec<D>::Zero();  ///< normal out of the body with the largest mass gradient; 0 if there is none
-  std::size_t steepest = 0;        ///< that body
+  std::size_t steepest = 0;        ///< index of that body
 };
 
-/// Whether more than one of these bodies has mass at a node.
+/// Whether more than one of the participating bodies has mass at a node.
 template <int D>
 bool meet(const std::vector<std::size_t>& bodies, const Records& records, const Index<D>& node) {
   int count = 0;
@@ -62,7 +62,7 @@ bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) 
   return traction < -leastTraction;
 }
 
-/// The normal out of a body at a node, shared with the others there or its own; 0 if its mass has no gradient.
+/// The normal out of a body at a node, which may be shared by the bodies there; 0 if the body's mass has no gradient.
 template <int D>
 Vec<D> normalOf(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
                 std::size_t m, const Index<D>& node) {
@@ -79,7 +79,7 @@ Vec<D> normalOf(const Level& level, const Contact& contact, const Records& recor
   return size > leastGradient ? Vec<D>(normal / size) : normal;
 }
 
-/// Whether the stresses of all bodies at a node are compressive along its normal.
+/// Whether the stresses of all bodies at a node are compressive along the node's normal.
 template <int D>
 bool arePressed(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
                 const Gathering<D>& all, const Index<D>& node) {
@@ -89,13 +89,13 @@ bool arePressed(const Level& level, const Contact& contact, const Records& recor
   return true;
 }
 
-/// The distance between the mass of the other bodies and that of the body at a node, m.
+/// The distance between the mass of the other bodies and the mass of this body at a node [m].
 template <int D>
 double separation(const Gathering<D>& all, const Vec<D>& position, double mass) {
   return ((all.position - position) / (all.mass - mass) - position / mass).norm();
 }
 
-/// The factor that limits the largest strain in a step by a change of velocity, over all bodies at the node, to 1/2.
+/// The factor for a change of velocity that limits the largest strain in a step, over all bodies at the node, to 1/2.
 template <int D>
 double strainLimit(const Level& level, const Vec<D>& change, double dt, double massRatio) {
   double strain = 0;

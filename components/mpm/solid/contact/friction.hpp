@@ -5,11 +5,11 @@
 
 namespace tushar::mpm::solid {
 
-/// A node at which a body touches others.
+/// The contact of a body with others at a node.
 template <int D>
 struct Touch {
   Vec<D> normal;    ///< normal out of the body
-  Vec<D> velocity;  ///< velocity of the body relative to the centre of mass of all, m/s
+  Vec<D> velocity;  ///< velocity of the body relative to the centre of mass of all bodies [m/s]
   bool isPressed;   ///< whether the stress on the surface is compressive
 };
 
@@ -28,7 +28,8 @@ FrictionImpulse<D> frictionImpulse(const Touch<D>& touch, double mu);
 /// The surface of a body at the nodes.
 template <int D>
 struct ContactSurface {
-  NodeView<const Vec<D>> massGradient;  ///< sum_p m_p grad S_i: out of the body, kg/m; axisymmetric kg/m^4
+  /// sum_p m_p grad S_i [kg/m], pointing out of the body; in axisymmetric scenes [kg/m^4]
+  NodeView<const Vec<D>> massGradient;
   NodeView<const Vec<D>> position;      ///< sum_p S_i m_p x_p, kg m
   NodeView<const Matrix3> stress;       ///< sum_p S_i sigma_p, Pa
   NodeView<const double> volume;        ///< sum_p S_i V_p, including images beyond symmetry planes, m^3
@@ -40,14 +41,14 @@ struct ContactSurface {
             .volume = take(requiresNew(g::surfaceVolume))};
   }
 };
-/// The surfaces of all materials, and the frictional heat (J) at their nodes, if the scene computes it.
+/// The surfaces of all materials, and the frictional heat [J] at their nodes, if the scene computes it.
 template <int D>
 using Surfaces = std::vector<ContactSurface<D>>;
 using FrictionHeats = std::vector<std::optional<NodeView<double>>>;
 
 /// Applies the impulses of friction to all participating materials, where their volumes and distance satisfy the
-/// conditions of the contact. A change that would strain a cell by more than a half is cut down to that. Adds the heat
-/// to `heat`.
+/// conditions of the contact. A change that would strain a cell by more than 1/2 is reduced to that limit. Adds the
+/// heat to `heat`.
 ///
 /// As in Uintah the normal of a body is half the difference of its mass gradient and of the mean, by mass, of those of
 /// all others, in axisymmetric scenes per cell, and its own stress says whether it is pressed, so that of three bodies,

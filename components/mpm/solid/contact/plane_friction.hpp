@@ -8,10 +8,10 @@
 
 namespace tushar::mpm::solid {
 
-/// A particle near a node.
+/// A particle near a node, as data for the regression.
 template <int D>
 struct SidedParticle {
-  Vec<D> x;      ///< from the node, m
+  Vec<D> x;      ///< position relative to the node [m]
   bool isOther;  ///< whether it belongs to a body other than the one out of which the normal points
 };
 
@@ -22,12 +22,13 @@ struct SidedParticle {
 template <int D>
 Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double width);
 
-/// The plane that separates bodies at nodes, in the variables of one body.
+/// The plane that separates bodies at nodes, as variables of one body.
 template <int D>
 struct SeparatingPlane {
-  /// Unit normal out of the body, where it has the most mass of those that meet at the node; 0 elsewhere.
+  /// Unit normal out of the body, at nodes where it has the most mass of all bodies that meet there; 0 elsewhere.
   std::optional<NodeView<const Vec<D>>> normal;
-  /// The extent of its particles along that normal, m: the farthest of the heaviest body, the nearest of others.
+  /// The extent of the body's particles along that normal [m]: the farthest for the heaviest body, the nearest for
+  /// others.
   std::optional<NodeView<const double>> prominence;
   std::optional<NodeView<const double>> color;  ///< mass-weighted mean of its p.color
 
@@ -41,11 +42,12 @@ struct SeparatingPlane {
 template <int D>
 using SeparatingPlanes = std::vector<SeparatingPlane<D>>;
 
-/// The prominence of a body without surface particles near a node.
+/// The value of the prominence if a body has no surface particles near a node.
 inline constexpr double noProminence = -std::numeric_limits<double>::max();
 
-/// The body with the most mass and each other one that overlaps it beyond the plane and approaches the centre of mass
-/// exchange the impulse that stops the approach and, by Coulomb's friction, slows the slip; momentum is conserved.
+/// Exchanges the impulse that stops the approach of overlapping bodies and, by Coulomb's friction, slows their slip:
+/// between the body with the most mass and each other body that overlaps it beyond the plane and approaches the centre
+/// of mass. Momentum is conserved.
 template <int D>
 void slideAlongPlanes(const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes);
 
@@ -55,7 +57,7 @@ template <int D>
 void slideOnMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
                    const SeparatingPlanes<D>& planes);
 
-/// Like sumReaction, for the bodies that slideOnMaster will stop.
+/// Like sumReaction, for the bodies that slideOnMaster is about to stop.
 template <int D>
 void sumSlidingReaction(const Patch& patch, const Contact& contact, const Acceleration& acceleration, double time,
                         double dt, const Records& records, const SeparatingPlanes<D>& planes, VectorSum& reaction);

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Arguments for the growth of damage: one particle at the end of a step.
+/// The state of one particle at the end of a step that determines the growth of damage.
 struct DamageConditions {
   const Matrix3& deformation;  ///< F, 1
   double volume;               ///< m^3
@@ -19,12 +19,12 @@ struct DamageConditions {
 
 /// Damage of one particle.
 struct DamageState {
-  double damage;     ///< 1; 0 if it is intact
-  double threshold;  ///< threshold at which damage grows: a stress, a strain or the root of an energy
+  double damage;     ///< damage [1]; 0 if the particle is intact
+  double threshold;  ///< threshold above which damage grows: a stress, a strain or the root of an energy
   bool hasFailed;
 };
 
-/// An initial damage of |mean + deviation n|, where n = drawnNormal(Drawing::damage, 0, id).
+/// Initial damage |mean + deviation n|, where n = drawnNormal(Drawing::damage, 0, id).
 DamageState damagedAtStart(double mean, double deviation, ParticleId id);
 
 /// No damage.
@@ -35,33 +35,35 @@ struct NoDamage {
   void grow(const MaterialConstants&, const DamageConditions&, Matrix3&, DamageState&) const {}
 };
 
-/// D = sum de_p / e_f, e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*), s* = mean stress / equivalent stress:
+/// Johnson-Cook damage, D = sum de_p / e_f, e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*), s* = mean stress /
+/// equivalent stress:
 /// Johnson & Cook, Eng. Fract. Mech. 21 (1985) 31. A particle fails at D = 1. As in Uintah |s*| <= 1.5, and the factor
 /// of the rate is (1 + e*)^D4 below 1/s.
 struct JohnsonCookDamage {
   static constexpr std::string_view name = "johnson_cook";
   double d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0;
   double initialDamage = 0, initialDeviation = 0;
-  bool startsSpread = false;   ///< whether damage at the start has a normal distribution
-  double leastDamage = 1e-10;  ///< smaller damage is set to 0
+  bool startsSpread = false;   ///< whether the initial damage is normally distributed
+  double leastDamage = 1e-10;  ///< damage below this value is set to 0
 
   static const input::Schema<JohnsonCookDamage>& schema();
   DamageState initial(double, ParticleId id) const {
     return damagedAtStart(initialDamage, startsSpread ? initialDeviation : 0, id);
   }
-  /// e_f, 1
+  /// The fracture strain e_f [1].
   double fractureStrain(const MaterialConstants& material, const DamageConditions& conditions,
                         const Matrix3& stress) const;
   void grow(const MaterialConstants& material, const DamageConditions& conditions, Matrix3& stress,
             DamageState& state) const;
 };
 
-/// D = sum de_p / e_f, e_f = 1.65 exp(-3/2 mean stress / equivalent stress): Hancock & Mackenzie, J. Mech. Phys. Solids
+/// The damage D = sum de_p / e_f, e_f = 1.65 exp(-3/2 mean stress / equivalent stress): Hancock & Mackenzie, J. Mech.
+/// Phys. Solids
 /// 24 (1976) 147. As in Uintah it grows in tension only, and no particle fails by it.
 struct HancockMackenzieDamage {
   static constexpr std::string_view name = "hancock_mackenzie";
   double initialDamage = 0, initialDeviation = 0;
-  bool startsSpread = false;  ///< whether damage at the start has a normal distribution
+  bool startsSpread = false;  ///< whether the initial damage is normally distributed
 
   static const input::Schema<HancockMackenzieDamage>& schema();
   DamageState initial(double, ParticleId id) const {
@@ -100,10 +102,10 @@ struct ThresholdDamage {
   double mean = 0, deviation = 0;
   int seed = 0;
   bool scalesWithVolume = false;
-  std::optional<double> referenceVolume;  ///< m^3
+  std::optional<double> referenceVolume;  ///< volume to which the threshold refers [m^3]
   std::optional<double> exponent;
   double frictionAngle = 0;  ///< degrees
-  double tensileCutoff = 0;  ///< fraction of the cohesion
+  double tensileCutoff = 0;  ///< largest tension, as a fraction of the cohesion
   bool localizes = true;
 
   static const input::Schema<ThresholdDamage>& schema();
@@ -122,7 +124,7 @@ struct ThresholdVarDamage : ThresholdDamage {
     double color = 0, mean = 0, deviation = 0;
   };
   struct Table {
-    std::vector<Entry> entries;  ///< in the order of their color
+    std::vector<Entry> entries;  ///< entries in order of increasing color
   };
   Table table;
 
@@ -133,7 +135,7 @@ struct ThresholdVarDamage : ThresholdDamage {
 using Damage = std::variant<NoDamage, JohnsonCookDamage, HancockMackenzieDamage, BrittleDamage, ThresholdDamage,
                             ThresholdVarDamage>;
 
-/// Principal values, the smallest first.
+/// The principal values of a tensor, the smallest first.
 Vec3 principalValues(const Matrix3& tensor);
 /// The largest principal value of the Almansi strain, (I - (F Fᵀ)^-1)/2.
 double greatestStrain(const Matrix3& deformation);

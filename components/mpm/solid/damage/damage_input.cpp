@@ -16,7 +16,7 @@ const Schema<NoDamage>& NoDamage::schema() {
   return schema;
 }
 
-/// The tags for the initial damage.
+/// Declares the tags for the initial damage.
 template <class Self>
 void declareStart(Schema<Self>& tags) {
   tags.value("initial_mean_scalar_damage", &Self::initialDamage, 0, "1", "damage at the start", input::between(0, 1))
@@ -75,13 +75,13 @@ const Schema<BrittleDamage>& BrittleDamage::schema() {
   return schema;
 }
 
-/// A member of the model that Self extends, as a member of Self.
+/// Converts a pointer to a member of the model that Self extends into one of Self.
 template <class Self, class T>
 T Self::*of(T ThresholdDamage::*member) {
   return member;
 }
 
-/// The tags of the criterion, and of the distribution of the threshold among particles.
+/// Declares the tags of the criterion, and of the distribution of the threshold among particles.
 template <class Self>
 void declareThreshold(Schema<Self>& tags) {
   using Base = ThresholdDamage;
@@ -189,7 +189,8 @@ const Schema<Erosion>& erosionSchema() {
   return schema;
 }
 
-/// Checks a damage model against the constitutive model, and copies the elastic constants of the latter.
+/// Checks a damage model against the constitutive model, and copies the elastic constants of the latter into the
+/// former.
 void connect(Material& material, const Element& parent, const Element& tag, Diagnostics& diagnostics) {
   const bool isJohnsonCook = std::holds_alternative<JohnsonCookDamage>(material.damage);
   const bool needsRate = isJohnsonCook || std::holds_alternative<HancockMackenzieDamage>(material.damage);
@@ -212,7 +213,7 @@ void connect(Material& material, const Element& parent, const Element& tag, Diag
   brittle->young = 9 * *bulk * *shear / (3 * *bulk + *shear);
 }
 
-/// Refuses stability checks of porous metals with erosion, by which particles fail in Uintah.
+/// Refuses stability checks of porous metals combined with erosion, by which particles fail in Uintah.
 void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");
   const auto check = model ? model->child("stability_check") : std::nullopt;
@@ -225,7 +226,7 @@ void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagno
                                   erosion.where().line));
 }
 
-/// Notes that particles do not fail because of porosity, as metals do in Uintah by default.
+/// Notes that particles do not fail because of porosity, although metals do so in Uintah by default.
 void noteWhatDoesNotFail(const Material& material, const Element& parent, const Element& erosion,
                          Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");

@@ -13,7 +13,7 @@ namespace tushar::mpm::solid {
 template <int D>
 class SolidMpm : public SolidsOf<D> {
  public:
-  /// `bodies` must outlive it.
+  /// `bodies` must outlive this object.
   SolidMpm(Problem problem, const ExplicitTasks<D>& bodies)
       : Base(std::move(problem), bodies.shaped.shape), bodies_(&bodies) {}
 

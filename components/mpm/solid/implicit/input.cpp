@@ -17,7 +17,7 @@ using input::Schema;
 
 namespace {
 
-/// The `MPM` section with implicit time steps.
+/// The section `MPM` for implicit time steps.
 struct Section {
   int integrator = 0, solver = 0, transient = 0;
   bool gimp = false, useLoadCurves = false, withColor = false, axisymmetric = false;
@@ -67,7 +67,8 @@ void declareSteps(Schema<Section>& schema) {
              input::atLeast(1));
 }
 
-/// Notes that nodes do not keep the temperatures of the first step; in Uintah, every step conducts heat from those.
+/// Notes that nodes do not keep the temperatures of the first step; in Uintah, every step conducts heat from those
+/// temperatures.
 void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("interpolateParticleTempToGridEveryStep");
   const auto conducts = element.child("DoImplicitHeatConduction");
@@ -77,7 +78,7 @@ void noteFrozenTemperature(Section&, const Element& element, Diagnostics& diagno
                      "first step, as in Uintah");
 }
 
-/// Tags for behaviour that is always enabled in Tushar.
+/// Declares tags for behaviour that is always enabled in Tushar.
 void addFixedHeat(Schema<Section>& mpm) {
   mpm.custom("interpolateParticleTempToGridEveryStep", noteFrozenTemperature,
              {"interpolateParticleTempToGridEveryStep"},
@@ -137,7 +138,7 @@ const Schema<Section>& sectionSchema() {
   return schema;
 }
 
-/// Sets the directions of contacts: without a <direction>, they follow their master along all axes.
+/// Sets the directions of contacts: without a <direction>, bodies follow their master along all axes.
 void settleDirections(std::vector<Contact>& contacts) {
   for (Contact& contact : contacts)
     if (!contact.directionIsGiven) contact.direction = {true, true, true};
@@ -184,7 +185,8 @@ bool onlyCounts(const Damage& damage) {
          std::holds_alternative<JohnsonCookDamage>(damage);
 }
 
-/// F-bar changes the F from which the stress follows; rate models would also need a changed velocity gradient.
+/// Refuses F-bar for materials that do not support it: F-bar changes the F from which the stress follows, and rate
+/// models would also need a changed velocity gradient.
 void refuseVolumesOfStates(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Material& material : problem.materials)
     if (!material.model->supportsFBar() && !isMaster(problem, material.index))
@@ -234,7 +236,8 @@ void noteThermalStrain(const Element& root, Diagnostics& diagnostics) {
   }
 }
 
-/// Refuses boundary conditions that implicit steps would ignore: those of one of several materials, and a heat flux.
+/// Refuses boundary conditions that implicit steps would ignore: conditions for one of several materials, and a heat
+/// flux.
 void refuseConditions(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const std::string id = condition.attribute("id").value_or("all");
@@ -264,7 +267,7 @@ std::unique_ptr<Component> makeComponent(const Level& level, const Problem& prob
   return std::make_unique<ImplicitMpm<3>>(problem, shapesOf<Shape<3>>, method);
 }
 
-/// Reads a scene of solids with implicit time steps; every problem goes to the diagnostics.
+/// Reads a scene with solids and implicit time steps; reports every problem to the diagnostics.
 simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const Section read = simulation::readSection(root, sectionSchema(), diagnostics);

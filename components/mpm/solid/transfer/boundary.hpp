@@ -5,8 +5,8 @@
 
 namespace tushar::mpm::solid {
 
-/// Nothing moves through a symmetry plane, and no force acts across: both vectors of a record have no normal component
-/// there, and the nodes outside mirror those inside. On the nodes of the view's box.
+/// Ensures that nothing moves through a symmetry plane, and no force acts across: both vectors of a record have no
+/// normal component there, and the nodes outside mirror those inside. On the nodes of the view's box.
 template <int D>
 void setSymmetry(const Patch& patch, int material, const data::TouchedRows& rows, NodeView<NodeRecord> record) {
   for (int d = 0; d < D; ++d)
@@ -30,7 +30,7 @@ void setSymmetry(const Patch& patch, int material, const data::TouchedRows& rows
     }
 }
 
-/// Sets a given velocity on a face, and on the nodes beyond it that particles touch.
+/// Sets a given velocity on a face, and on the nodes beyond it that are near particles.
 template <int D>
 void setVelocity(const Patch& patch, int material, const data::TouchedRows& rows, NodeView<NodeRecord> record) {
   for (int d = 0; d < D; ++d)

@@ -30,7 +30,7 @@ void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscos
     press([&](double rho, double energy) { return gas.heat(rho, energy); });
 }
 
-/// p = (gamma - 1) rho eps: (3), which is (16) without viscosity. At the start of a run nothing is compressed.
+/// Computes p = (gamma - 1) rho eps: (3), which is (16) without viscosity. At the start of a run nothing is compressed.
 template <int D>
 void computeInitialPressure(const Patch&, const Gas& gas, ParticleView<const double> density,
                             ParticleView<const double> internalEnergy, ParticleView<double> pressure) {
@@ -52,7 +52,8 @@ void shareCellVolume(const Patch& patch, const Gas&, ParticleView<const double> 
   });
 }
 
-/// dt = cfl h / max_p(|v_p| + c_p), h the least cell width: keeps dt dv/dx small, (17) of Tran, Kim & Berzins.
+/// Computes dt = cfl h / max_p(|v_p| + c_p), where h is the smallest cell width: keeps dt dv/dx small, (17) of Tran,
+/// Kim & Berzins.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, ParticleView<const Vec<D>> velocity,
                            ParticleView<const double> internalEnergy, Minimum& dt) {

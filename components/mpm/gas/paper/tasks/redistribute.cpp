@@ -31,7 +31,7 @@ struct Totals {
   Vec<D> velocity() const { return momentum / mass; }
 };
 
-/// The two pieces closest to each other; if there are several such pairs, the first in the order of the list.
+/// The two pieces that are closest to each other; if there are several such pairs, the first in the order of the list.
 template <int D>
 std::pair<std::size_t, std::size_t> nearestPair(const std::vector<Piece<D>>& pieces) {
   std::pair<std::size_t, std::size_t> best{0, 1};

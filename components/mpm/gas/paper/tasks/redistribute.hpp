@@ -8,19 +8,19 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// The redistribution of particles in cells with too few or too many.
+/// How particles are redistributed in cells with too few or too many.
 struct Redistribution {
   enum class Mode {
-    splitMerge,  ///< halve large ones, merge close ones
-    reseed,      ///< put new ones at the centres of equal parts of the cell
+    splitMerge,  ///< halve large particles, merge close ones
+    reseed,      ///< replace the particles by new ones at the centres of equal parts of the cell
   };
   Location where;  ///< in the scene
   Mode mode = Mode::splitMerge;
-  int minParticles = 2;     ///< per cell
-  int maxParticles = 16;    ///< per cell
-  int targetParticles = 4;  ///< number per cell for `reseed`; along each axis, its D-th root, rounded up
+  int minParticles = 2;     ///< smallest number of particles per cell
+  int maxParticles = 16;    ///< largest number of particles per cell
+  int targetParticles = 4;  ///< number of particles per cell for `reseed`; along each axis, its D-th root, rounded up
 
-  /// Particles along each axis of a reseeded cell.
+  /// Number of particles along each axis of a reseeded cell.
   int seededAlongAxis(int dimension) const {
     int number = 1;
     while (std::pow(number, dimension) < targetParticles) ++number;
@@ -28,7 +28,7 @@ struct Redistribution {
   }
 };
 
-/// The properties of a particle for redistribution.
+/// The properties of a particle that are needed for redistribution.
 template <int D>
 struct Piece {
   ParticleId id = 0;
@@ -42,10 +42,10 @@ struct Piece {
 /// metre.
 template <int D>
 struct CellShape {
-  Vec<D> lower, spacing;  ///< lower corner and widths, m
-  double volume = 0;      ///< m³
+  Vec<D> lower, spacing;  ///< lower corner and widths [m]
+  double volume = 0;      ///< volume [m³]
   Vec<D> densitySlope = Vec<D>::Zero(), pressureSlope = Vec<D>::Zero();
-  std::array<Vec<D>, D> velocitySlope;  ///< of each velocity component
+  std::array<Vec<D>, D> velocitySlope;  ///< slopes of each velocity component
 
   CellShape() { velocitySlope.fill(Vec<D>::Zero()); }
   CellShape(const Level& level, const Index<D>& cell) : CellShape() {
@@ -68,28 +68,28 @@ void split(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, int minParti
 template <int D>
 void merge(std::vector<Piece<D>>& pieces, int maxParticles);
 
-/// Puts n^D pieces of equal volume at the midpoints of the cell. Density, velocity and pressure have the slopes of the
-/// cell; those of the velocity are about the centre of mass, and scaled so that the kinetic energy does not grow. Lost
-/// kinetic energy becomes heat. Mass, momentum and total energy are conserved.
+/// Puts n^D pieces of equal volume at the midpoints of equal parts of the cell. Density, velocity and pressure have the
+/// slopes of the cell; those of the velocity are about the centre of mass, and scaled so that the kinetic energy does
+/// not grow. Lost kinetic energy becomes heat. Mass, momentum and total energy are conserved.
 template <int D>
 void reseed(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& gas, int alongAxis);
 
-/// Means over the particles of a cell and of its neighbours, limited by minmod: the slopes for `reseed`.
+/// Computes means over the particles of a cell and of its neighbours, limited by minmod: the slopes for `reseed`.
 template <int D>
 void setSlopes(CellShape<D>& cell, const std::vector<Piece<D>>& here,
                const std::array<std::vector<Piece<D>>, 2 * D>& around, const Gas& gas);
 
-/// Redistributes one cell.
+/// Redistributes the particles of one cell.
 template <int D>
 void redistributeCell(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& gas,
                       const Redistribution& how);
 
-/// The particles that redistribution reads.
+/// Views of the particles that redistribution reads.
 template <int D>
 struct OldParticles {
   ParticleView<const ParticleId> ids;
   ParticleView<const Vec<D>> x, velocity;
-  std::optional<ParticleView<const double>> mass;  ///< if particles keep it
+  std::optional<ParticleView<const double>> mass;  ///< masses, if particles keep their mass
   ParticleView<const double> density, internalEnergy, divergence;
 
   static OldParticles from(auto& take, bool keepsMass, int ghost) {
@@ -102,7 +102,7 @@ struct OldParticles {
             .divergence = take(requiresNew(p::velocityDivergence, ghost))};
   }
 
-  /// The particles of a cell of volume `cellVolume`; none of a cell outside the grid. A particle has the volume m_p /
+  /// The particles of a cell of volume `cellVolume`; empty for a cell outside the grid. A particle has the volume m_p /
   /// rho_p where it keeps its mass, else an equal share of the cell's, (5) of Tran, Kim & Berzins.
   std::vector<Piece<D>> in(const Index<D>& cell, double cellVolume) const {
     std::vector<Piece<D>> pieces;
@@ -120,7 +120,7 @@ struct OldParticles {
 template <int D>
 struct NewParticles {
   std::vector<Vec<D>>&x, &velocity;
-  std::vector<double>* mass;  ///< null if particles do not keep it
+  std::vector<double>* mass;  ///< masses; null if particles do not keep their mass
   std::vector<double>&density, &internalEnergy, &divergence;
 
   static NewParticles from(auto& take, bool keepsMass) {

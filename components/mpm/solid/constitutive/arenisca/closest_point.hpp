@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid::arenisca {
 
-/// A stress in terms of its invariants, in the axes of its deviator.
+/// A stress given by its invariants, in the axes of its deviator.
 struct Invariants {
   double i1, rootJ2;  ///< Pa
   LodeAngle theta;
@@ -26,7 +26,8 @@ struct Invariants {
   Invariants(double i1_, double rootJ2_, LodeAngle theta_) : i1(i1_), rootJ2(rootJ2_), theta(theta_) {}
 };
 
-/// The root of an increasing f, by bisection to all but the last few bits; an end of the interval if there is no root.
+/// The root of an increasing function f, by bisection to all but the last few bits; an end of the interval if there is
+/// no root.
 template <class F>
 double crossing(double low, double high, const F& f) {
   const double width = 1e-14 * std::max(std::abs(low), std::abs(high));
@@ -37,7 +38,7 @@ double crossing(double low, double high, const F& f) {
   return 0.5 * (low + high);
 }
 
-/// The minimum of a unimodal f, by the golden-section search.
+/// The minimum of a unimodal function f, by golden-section search.
 template <class F>
 double least(double low, double high, const F& f) {
   constexpr double golden = std::numbers::phi - 1;
@@ -68,7 +69,7 @@ class ClosestPoint {
   ClosestPoint(const Constants& c, const Moduli& moduli, const YieldSurface& surface)
       : surface_(surface), stretch_(c.flowFactor * std::sqrt(3 * moduli.bulk / moduli.shear)) {}
 
-  /// For the trial stress, by its invariants.
+  /// The point that is closest to the trial stress, which is given by its invariants.
   Invariants operator()(const Invariants& trial) const {
     const double at = (trial.i1 - surface_.zeta()) / root3, radius = stretch_ * trial.rootJ2;
     if (surface_.capLength() > 0) return onCone(at, radius, trial.theta);
@@ -87,8 +88,8 @@ class ClosestPoint {
  private:
   static constexpr double root3 = std::numbers::sqrt3;
 
-  /// On a cone with a tangent cap: the foot on the line r = B (z_vertex - z) in closed form, the vertex, or the point
-  /// of the ellipse.
+  /// On a cone with a tangent cap: the closest point on the line r = B (z_vertex - z) in closed form, the vertex, or
+  /// the point of the ellipse.
   Invariants onCone(double at, double radius, LodeAngle theta) const {
     const double vertex = surface_.vertex() / root3, steepness = -surface_.slope(surface_.vertex()) * root3 * stretch_;
     const double ahead = (vertex - at + steepness * radius) / (1 + steepness * steepness);  // of the foot
@@ -111,7 +112,8 @@ class ClosestPoint {
     if (radius > 0) phi = slope(touch) <= 0 ? touch : rootBetween(slope, 0, touch);
     return {root3 * (middle - a * std::cos(phi)) + surface_.zeta(), b * std::sin(phi) / stretch_, theta};
   }
-  /// The distance of the trial from the section at z, outside it, times d(r)/d(radius) of the nearest point there.
+  /// The distance of the trial point from the section at z, outside the section, times d(r)/d(radius) of the nearest
+  /// point there.
   double gapOf(double z, double trialRadius, LodeAngle trialTheta) const {
     const double radius = stretch_ * surface_.radius(root3 * z);
     if (trialRadius <= radius * surface_.lodeFactor(trialTheta)) return 0;
@@ -119,7 +121,7 @@ class ClosestPoint {
     const double factor = surface_.lodeFactor(theta);
     return (trialRadius * std::cos(theta - trialTheta) - radius * factor) * factor;
   }
-  /// The Lode angle of the point of a section that is nearest to the trial.
+  /// The Lode angle of the point of a section that is nearest to the trial point.
   LodeAngle nearestAngle(double radius, double trialRadius, LodeAngle trialTheta) const {
     if (surface_.isRound() || radius == 0) return trialTheta;
     constexpr double sixth = std::numbers::pi / 6;
@@ -130,10 +132,10 @@ class ClosestPoint {
   }
 
   const YieldSurface& surface_;
-  double stretch_;  ///< r over sqrt J2
+  double stretch_;  ///< ratio of r to sqrt J2
 };
 
-/// The stress with given invariants and the axes of `trial`.
+/// The stress with the given invariants and the axes of `trial`.
 inline Matrix3 stressWith(const Invariants& invariants, const Matrix3& trial, const Invariants& before) {
   const Matrix3 mean = invariants.i1 / 3 * Matrix3::Identity();
   if (before.rootJ2 == 0) return mean;

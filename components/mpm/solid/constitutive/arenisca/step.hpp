@@ -6,12 +6,12 @@
 
 namespace tushar::mpm::solid::arenisca {
 
-/// The state that a step changes, in axes that rotate with the material.
+/// The state that changes in a step, in axes that rotate with the material.
 struct Point {
-  Matrix3 stress;         ///< quasistatic, Pa
-  Matrix3 plasticStrain;  ///< 1
-  double cap;             ///< X, end of the cap, Pa
-  double zeta;            ///< trace of the stress in the fluid, Pa
+  Matrix3 stress;         ///< quasistatic stress [Pa]
+  Matrix3 plasticStrain;  ///< plastic strain [1]
+  double cap;             ///< X, end of the cap [Pa]
+  double zeta;            ///< zeta, trace of the stress in the fluid [Pa]
 
   Moduli moduli(const Constants& c) const { return arenisca::moduli(c, stress.trace(), plasticStrain.trace()); }
 };
@@ -52,7 +52,7 @@ class Substep {
   };
 
   bool contains(const YieldSurface& surface) const { return surface.contains(trial_.i1, trial_.rootJ2, trial_.theta); }
-  /// At most 0: the fluid carries no tension.
+  /// Zeta after a volumetric strain, at most 0: the fluid bears no tension.
   double zetaAfter(double volume) const { return std::min(start_.zeta + stiffness_ * volume, 0.0); }
   YieldSurface surfaceAfter(double volume) const { return {c_, capEnd(c_, start_volume_ + volume), zetaAfter(volume)}; }
   bool moves(const Return& atRest) const {
@@ -115,7 +115,7 @@ class Substep {
     double at, excess;
     bool isKnown;
   };
-  /// The return to a moved surface; none if the trial is inside, or on the other side of it.
+  /// The return to a moved surface; none if the trial point is inside the surface, or on the other side of it.
   std::optional<Return> returnedAhead(const YieldSurface& surface, const Return& atRest) const {
     if (contains(surface)) return std::nullopt;
     const Return next = returned(surface);
@@ -134,7 +134,7 @@ class Substep {
   double stiffness_;     ///< stiffness of the fluid, Pa
 };
 
-/// Number of substeps of a step that leaves the yield surface with a tangent cap: `mostSubsteps` per 0.1 % of strain,
+/// Number of substeps for a step that leaves the yield surface with a tangent cap: `mostSubsteps` per 0.1 % of strain,
 /// or per stress increment of the length of the surface, whichever gives more. A step that stays within is not
 /// divided.
 inline int substepsOfTangentCap(const Constants& c, const Point& start, const Matrix3& strain) {
@@ -147,7 +147,7 @@ inline int substepsOfTangentCap(const Constants& c, const Point& start, const Ma
   return int(std::ceil(std::clamp(c.mostSubsteps * (std::floor(change.norm() / size) + 1), 1.0, most)));
 }
 
-/// Number of substeps: more than one if the bulk modulus changes by more than its value, or the stress by more than
+/// Number of substeps; more than one if the bulk modulus changes by more than its value, or the stress by more than
 /// 1/`sharpness` of the size of the yield surface.
 inline int substeps(const Constants& c, const Point& start, const Matrix3& strain, double sharpness) {
   if (c.hasTangentCap()) return substepsOfTangentCap(c, start, strain);

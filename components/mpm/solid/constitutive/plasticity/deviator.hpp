@@ -14,7 +14,7 @@
 
 namespace tushar::mpm::solid {
 
-/// ds/dt = 2 G dev D without yielding.
+/// Hypoelastic deviator: ds/dt = 2 G dev D without yielding.
 struct HypoelasticDeviator {
   static constexpr std::string_view name = "hypoElastic";
 
@@ -42,7 +42,7 @@ struct MaxwellDeviator {
     return schema;
   }
   MaxwellStep step(int j, double timeStep) const { return MaxwellStep(timeStep / time[j]); }
-  /// Shear modulus for a step, Pa; if the step is 0, for a fast wave.
+  /// Shear modulus for a step [Pa]; for a step of 0, that of a fast wave.
   double modulusIn(double timeStep) const {
     double sum = 0;
     for (int j = 0; j < count; ++j) sum += step(j, timeStep).gained * modulus[j];
@@ -91,7 +91,7 @@ struct MaxwellDeviator {
   }
 };
 
-/// The first is the default, as in Uintah.
+/// The models of the deviator; the first is the default, as in Uintah.
 using DeviatorModel = std::variant<HypoelasticDeviator, MaxwellDeviator>;
 
 }  // namespace tushar::mpm::solid

@@ -10,18 +10,18 @@ namespace tushar::mpm::solid {
 
 /// Arguments of an equation of state.
 struct VolumeState {
-  double oldMeanStress;       ///< Pa, tension positive
-  double dilatation;          ///< tr D dt, 1
-  double volume;              ///< J at the end of the step, 1
+  double oldMeanStress;       ///< mean stress at the start of the step [Pa], tension positive
+  double dilatation;          ///< dilatation in the step, tr D dt [1]
+  double volume;              ///< J at the end of the step [1]
   double temperature;         ///< K
   double initialTemperature;  ///< K
-  double energy;              ///< gained since the start, J/kg
+  double energy;              ///< energy gained since the start [J/kg]
   double bulkModulus;         ///< Pa
   double density;             ///< rho_0, kg/m^3
   double specificHeat;        ///< J/(kg K)
 };
 
-/// p_new = p + K tr D dt, tension positive.
+/// Hypoelastic mean stress: p_new = p + K tr D dt, tension positive.
 struct HypoelasticVolume {
   static constexpr std::string_view name = "default_hypo";
 
@@ -30,11 +30,11 @@ struct HypoelasticVolume {
     return schema;
   }
   double meanStress(const VolumeState& s) const { return s.oldMeanStress + s.bulkModulus * s.dilatation; }
-  /// Temperature change due to the volume change of the step, K.
+  /// Temperature change due to the volume change in the step [K].
   double heating(const VolumeState&) const { return 0; }
 };
 
-/// p = K/2 (J - 1/J), tension positive.
+/// Hyperelastic mean stress: p = K/2 (J - 1/J), tension positive.
 struct HyperelasticVolume {
   static constexpr std::string_view name = "default_hyper";
 
@@ -111,7 +111,7 @@ struct MieGruneisenEnergy {
   double heating(const VolumeState& s) const { return -s.temperature * gruneisen * s.volume * s.dilatation; }
 };
 
-/// The first is the default, as in Uintah.
+/// The equations of state; the first is the default, as in Uintah.
 using EquationOfState = std::variant<HyperelasticVolume, HypoelasticVolume, MieGruneisen, MieGruneisenEnergy>;
 
 }  // namespace tushar::mpm::solid

@@ -14,7 +14,7 @@
 
 namespace tushar::mpm::solid {
 
-/// sigma_y = sigma_Y + K e_p
+/// Linear isotropic hardening: sigma_y = sigma_Y + K e_p.
 struct IsotropicHardening {
   using Capabilities = CapabilityList<capability::Hardening>;
   static constexpr std::string_view name = "isotropic_hardening";
@@ -31,12 +31,13 @@ struct IsotropicHardening {
     return schema;
   }
   double flowStress(const FlowState& state) const { return yieldStress + modulus * state.plasticStrain; }
-  /// d sigma_y / d e_p
+  /// The slope d sigma_y / d e_p.
   double hardening(const FlowState&) const { return modulus; }
 };
 static_assert(FlowRule<IsotropicHardening>);
 
-/// sigma_y = (A + B e_p^n) (1 + C ln e*) (1 - T*^m), e* = rate / epdot_0, T* = (T - T_r) / (T_m - T_r): Johnson & Cook,
+/// The flow stress sigma_y = (A + B e_p^n) (1 + C ln e*) (1 - T*^m), e* = rate / epdot_0, T* = (T - T_r) / (T_m - T_r):
+/// Johnson & Cook,
 /// Proc. 7th Int. Symp. on Ballistics (1983) 541. Below epdot_0 the factor of the rate is (1 + e*)^C, below T_r that of
 /// the temperature 1 - T*, above T_m nothing, as in Uintah.
 struct JohnsonCook {
@@ -127,7 +128,7 @@ struct ZerilliArmstrong {
   }
 
  private:
-  /// c_0, or Hall and Petch's sigma_g + k_H l^(-1/2) of grains of size l.
+  /// Reads c_0, or Hall and Petch's sigma_g + k_H l^(-1/2) for grains of size l.
   static void readConstantPart(ZerilliArmstrong& read, const input::Element& element, input::Diagnostics& diagnostics) {
     std::array<double, 4> values{};
     for (std::size_t k = 0; const char* name : {"c_0", "sigma_g", "k_H", "sqrt_l_inv"}) {
@@ -151,7 +152,7 @@ static_assert(FlowRule<ZerilliArmstrong>);
 using FlowModel = std::variant<IsotropicHardening, JohnsonCook, MechanicalThreshold, PrestonTonksWallace,
                                SteinbergCochranGuinan, ZerilliArmstrong>;
 
-/// d sigma_y / d e_p of a flow model at a constant rate, Pa.
+/// The slope d sigma_y / d e_p of a flow model at a constant rate [Pa].
 template <FlowRule Flow>
 double hardeningAtRate(const Flow& flow, const FlowState& state) {
   if constexpr (providesCapability<Flow, capability::Hardening>) {
@@ -167,14 +168,14 @@ double hardeningAtRate(const Flow& flow, const FlowState& state) {
   }
 }
 
-/// A radial return to the yield surface of a flow model, in a step of `timeStep` s.
+/// A radial return to the yield surface of a flow model, in a step of length `timeStep` [s].
 template <FlowRule Flow>
 class RadialReturn {
  public:
   RadialReturn(const Flow& flow, const FlowState& start, double timeStep)
       : flow_(flow), start_(start), time_step_(timeStep) {}
 
-  /// Amount by which the return shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y, e_p =
+  /// Amount q by which the return shortens the trial stress s: the root of |s| - q = (2/3)^(1/2) sigma_y, e_p =
   /// (2/3)^(1/2) q/(2 G) more than at the start, Pa, by Newton's iteration between bounds; Simo & Hughes, Computational
   /// Inelasticity (1998), box 3.1.
   double excess(double trialSize) const {
@@ -190,14 +191,14 @@ class RadialReturn {
     }
     return q;
   }
-  /// State at the end of a step whose return shortens the trial stress by q, Pa.
+  /// State at the end of a step whose return shortens the trial stress by q [Pa].
   FlowState after(double q) const {
     FlowState state = start_;
     state.plasticStrain += perStress() * q;
     state.plasticStrainRate = perStress() * q / time_step_;
     return state;
   }
-  /// d sigma_y / d e_p, Pa, with the plastic strain rate of the step a function of e_p.
+  /// The slope d sigma_y / d e_p [Pa], with the plastic strain rate of the step a function of e_p.
   double hardening(const FlowState& state) const {
     if constexpr (providesCapability<Flow, capability::Hardening>)
       if (!dependsOnPlasticRate()) return flow_.hardening(state);
@@ -210,7 +211,7 @@ class RadialReturn {
     };
     return (at(h) - at(-h)) / (2 * h);
   }
-  /// Plastic strain per q, (2/3)^(1/2) / (2 G), 1/Pa.
+  /// Plastic strain per q, (2/3)^(1/2) / (2 G) [1/Pa].
   double perStress() const { return root_ / (2 * start_.shearModulus); }
 
  private:

@@ -17,12 +17,12 @@ struct FlowState {
   double shearModulus;           ///< Pa
   double density = 0;            ///< kg/m^3
   double meltTemperature = 0;    ///< K
-  double plasticStrainRate = 0;  ///< mean over the step, 1/s
+  double plasticStrainRate = 0;  ///< plastic strain rate, averaged over the step [1/s]
 };
 
 namespace capability {
 
-/// d sigma_y / d e_p at a constant rate, Pa; without it finite differences are used.
+/// The slope d sigma_y / d e_p at a constant rate [Pa]; without it, finite differences are used.
 struct Hardening {
   struct Name {
     int hardening;
@@ -59,12 +59,12 @@ struct PlasticRate {
   }
 };
 
-/// Every capability that a flow model can name.
+/// All capabilities that a flow model can name.
 using OfFlowModels = CapabilityList<Hardening, PlasticRate>;
 
 }  // namespace capability
 
-/// True; otherwise compilation stops with a message that says what is missing in Flow.
+/// Is true; otherwise compilation stops with a message that says what is missing in Flow.
 template <class Flow>
 consteval bool isFlowRule() {
   static_assert(
@@ -86,8 +86,8 @@ consteval bool isFlowRule() {
   return true;
 }
 
-/// A yield stress, flowStress, Pa. A flow model is one struct and one line in FlowModel of flow.hpp. Use the concept to
-/// assert: a type that is no flow model stops compilation with a sentence.
+/// A yield stress as a function of the state: flowStress [Pa]. A flow model is one struct and one line in FlowModel of
+/// flow.hpp. Use the concept to assert: a type that is no flow model stops compilation with a sentence.
 template <class Flow>
 concept FlowRule = isFlowRule<Flow>();
 

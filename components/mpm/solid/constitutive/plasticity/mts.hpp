@@ -82,7 +82,7 @@ struct MechanicalThreshold {
     });
     return tags;
   }
-  /// (1 - x^(1/q))^(1/p)
+  /// The ratio (1 - x^(1/q))^(1/p).
   static double share(double x, double p, double q) {
     const double left = 1 - std::pow(std::max(x, 0.0), 1 / q);
     return left > 0 ? std::pow(left, 1 / p) : 0.0;

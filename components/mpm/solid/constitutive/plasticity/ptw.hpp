@@ -19,7 +19,7 @@ struct PrestonTonksWallace {
   static constexpr std::string_view name = "preston_tonks_wallace";
 
   double theta = 0, p = 0, s0 = 0, sInfinite = 0, kappa = 0, gamma = 0, y0 = 0, yInfinite = 0, y1 = 0, y2 = 0, beta = 0;
-  double atomicMass = 0;  ///< M, u
+  double atomicMass = 0;  ///< M, atomic mass [u]
 
   static const input::Schema<PrestonTonksWallace>& schema() {
     using Self = PrestonTonksWallace;
@@ -59,7 +59,7 @@ struct PrestonTonksWallace {
   }
 
  private:
-  /// 1/2 (4 pi rho / (3 M))^(1/3) (G/rho)^(1/2), 1/s
+  /// The frequency 1/2 (4 pi rho / (3 M))^(1/3) (G/rho)^(1/2) [1/s].
   double frequency(const FlowState& state) const {
     constexpr double atomicMassUnit = 1.66053906660e-27;
     const double atoms = state.density / (atomicMass * atomicMassUnit);

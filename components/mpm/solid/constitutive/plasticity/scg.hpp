@@ -9,7 +9,8 @@
 
 namespace tushar::mpm::solid {
 
-/// sigma_y = (sigma_T + min(sigma_0 (1 + beta (e_p + epsilon_p0))^n, Y_max)) G/mu_0: Steinberg, Cochran & Guinan, J.
+/// The flow stress sigma_y = (sigma_T + min(sigma_0 (1 + beta (e_p + epsilon_p0))^n, Y_max)) G/mu_0: Steinberg, Cochran
+/// & Guinan, J.
 /// Appl. Phys. 51 (1980) 1498. If C1 and C2 are given, sigma_T is the stress at which thermally activated dislocations
 /// move at the rate of the plastic strain, 1/rate = exp(2 U_k / (k T) (1 - sigma_T / sigma_P)^2) / C1 + C2 / sigma_T,
 /// at most Peierls' stress sigma_P: Steinberg & Lund, J. Appl. Phys. 65 (1989) 1528. Otherwise it is 0.
@@ -19,7 +20,7 @@ struct SteinbergCochranGuinan {
 
   double shearModulus = 0;            ///< mu_0, Pa
   double yieldStress = 0;             ///< sigma_0, Pa
-  double greatest = 0;                ///< Y_max, Pa
+  double greatest = 0;                ///< Y_max, largest yield stress [Pa]
   double beta = 0, n = 0;             ///< 1
   double initialStrain = 0;           ///< epsilon_p0, 1
   double c1 = 0;                      ///< 1/s
@@ -68,7 +69,7 @@ struct SteinbergCochranGuinan {
  private:
   double base(const FlowState& state) const { return 1 + beta * (state.plasticStrain + initialStrain); }
   double hardened(const FlowState& state) const { return yieldStress * std::pow(base(state), n); }
-  /// sigma_T, Pa, by bisection: the rate increases with sigma_T.
+  /// The thermal part sigma_T [Pa], by bisection: the rate increases with sigma_T.
   double thermal(const FlowState& state) const {
     if (c1 == 0 || state.plasticStrainRate <= 0) return 0;
     double low = 0, high = peierls;

@@ -11,13 +11,13 @@ namespace tushar::mpm::solid {
 /// Arguments of shear and melting models.
 struct Compression {
   double pressure;             ///< Pa
-  double ratio;                ///< density relative to that at the start, 1
+  double ratio;                ///< ratio of the density to the initial density [1]
   double temperature;          ///< K
   double density = 0;          ///< kg/m^3
-  double meltTemperature = 0;  ///< K; only for the shear modulus
+  double meltTemperature = 0;  ///< melting temperature [K]; only for the shear modulus
 };
 
-/// The <shear_modulus> of the constitutive model.
+/// A constant shear modulus, <shear_modulus> of the constitutive model.
 struct ConstantShear {
   static constexpr std::string_view name = "constant_shear";
   static const input::Schema<ConstantShear>& schema() {
@@ -28,7 +28,8 @@ struct ConstantShear {
   double modulus(const Compression&, double initial) const { return initial; }
 };
 
-/// G = mu_0 (1 + A p/eta^(1/3) - B (T - 300 K)), eta = rho/rho_0: Steinberg, Cochran & Guinan, J. Appl. Phys. 51 (1980)
+/// The shear modulus G = mu_0 (1 + A p/eta^(1/3) - B (T - 300 K)), eta = rho/rho_0: Steinberg, Cochran & Guinan, J.
+/// Appl. Phys. 51 (1980)
 /// 1498, equation 1.
 struct ScgShear {
   static constexpr std::string_view name = "scg_shear";
@@ -51,7 +52,7 @@ struct ScgShear {
   }
 };
 
-/// G = mu_0 - D / (exp(T_0/T) - 1): Varshni, Phys. Rev. B 2 (1970) 3952.
+/// The shear modulus G = mu_0 - D / (exp(T_0/T) - 1): Varshni, Phys. Rev. B 2 (1970) 3952.
 struct MtsShear {
   static constexpr std::string_view name = "mts_shear";
   double initial = 0;      ///< mu_0, Pa
@@ -106,7 +107,7 @@ struct NpShear {
 
 using ShearModel = std::variant<ConstantShear, MtsShear, NpShear, ScgShear>;
 
-/// The <melt_temp> of the material.
+/// A constant melting temperature, <melt_temp> of the material.
 struct ConstantMelting {
   static constexpr std::string_view name = "constant_Tm";
   static const input::Schema<ConstantMelting>& schema() {
@@ -116,7 +117,8 @@ struct ConstantMelting {
   double temperature(const Compression&, double initial) const { return initial; }
 };
 
-/// T_m = T_m0 exp(2 a (1 - 1/eta)) eta^(2 (Gamma_0 - a - 1/3)): Steinberg, Cochran & Guinan, equation 5.
+/// The melting temperature T_m = T_m0 exp(2 a (1 - 1/eta)) eta^(2 (Gamma_0 - a - 1/3)): Steinberg, Cochran & Guinan,
+/// equation 5.
 struct ScgMelting {
   static constexpr std::string_view name = "scg_Tm";
   double initial = 0;    ///< T_m0, K

@@ -20,14 +20,14 @@ struct PlasticTangent {
   double hardening = 0;  ///< H = d sigma_y / d e_p, Pa
 
   double softening() const { return 4 * shear * shear / (2 * shear + 2.0 / 3.0 * hardening); }
-  /// D : (rate of the stress), Pa/s^2; `normal` is n.
+  /// The work D : (rate of the stress) [Pa/s^2]; `normal` is n.
   double work(const Matrix3& normal, const Matrix3& rate) const {
     const double trace = rate.trace(), along = normal.cwiseProduct(rate).sum();
     return bulk * trace * trace + 2 * shear * deviator(rate).squaredNorm() - softening() * along * along;
   }
 };
 
-/// No check: particles stay as strong as their model.
+/// No check: particles do not lose strength.
 struct NoStabilityCheck {
   static constexpr std::string_view name = "none";
   static const input::Schema<NoStabilityCheck>& schema() {
@@ -37,7 +37,7 @@ struct NoStabilityCheck {
   bool fails(const PlasticTangent&, const Matrix3&, const Matrix3&) const { return false; }
 };
 
-/// Drucker's postulate: the rate of the stress does work on the strain rate.
+/// Drucker's postulate: the stress rate must do positive work on the strain rate.
 struct DruckerCheck {
   static constexpr std::string_view name = "drucker";
   static const input::Schema<DruckerCheck>& schema() {
@@ -45,7 +45,7 @@ struct DruckerCheck {
         "stability_check", "A particle fails where the rate of its stress does no work on its strain rate (Drucker).");
     return schema;
   }
-  /// `rate` is the symmetric part of the velocity gradient, 1/s.
+  /// Whether the check fails; `rate` is the symmetric part of the velocity gradient [1/s].
   bool fails(const PlasticTangent& tangent, const Matrix3& stress, const Matrix3& rate) const {
     const Matrix3 shear = deviator(stress);
     return tangent.work(shear / shear.norm(), rate) <= 0;
@@ -81,7 +81,7 @@ struct BeckerCheck {
   }
 };
 
-/// Either of both.
+/// Fails if either of both checks fails.
 struct DruckerBeckerCheck {
   static constexpr std::string_view name = "drucker_becker";
   static const input::Schema<DruckerBeckerCheck>& schema() {
@@ -94,7 +94,7 @@ struct DruckerBeckerCheck {
   }
 };
 
-/// What makes particles fail that flow plastically, where the scene has an `<erosion>`.
+/// Checks by which particles in plastic flow fail, if the scene has an `<erosion>`.
 using StabilityCheck = std::variant<NoStabilityCheck, DruckerCheck, BeckerCheck, DruckerBeckerCheck>;
 
 }  // namespace tushar::mpm::solid

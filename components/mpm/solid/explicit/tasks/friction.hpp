@@ -9,14 +9,14 @@
 
 namespace tushar::mpm::solid {
 
-/// The variables that computeSurface reads and writes.
+/// Views of the variables that computeSurface reads and writes.
 template <int D>
 struct SurfaceSources {
   ParticleView<const Vec<D>> x;
   Sizes<D> size;
   ParticleView<const double> mass;
   ParticleView<const Matrix3> deformation;
-  OptionalView<const Matrix3> particleStress;  ///< if the stress is not a function of F alone
+  OptionalView<const Matrix3> particleStress;  ///< stress, if it is not a function of F alone
   NodeView<Vec<D>> massGradient, position;
   NodeView<Matrix3> stress;
   NodeView<double> volume;
@@ -34,7 +34,7 @@ struct SurfaceSources {
   }
 };
 
-/// A body continues beyond a symmetry plane: no gradient points through the plane, and the volume counts twice.
+/// Extends a body beyond symmetry planes: no gradient points through the plane, and the volume counts twice.
 template <int D>
 void mirrorSurface(const Patch& patch, const Material& material, NodeView<Vec<D>> massGradient,
                    NodeView<double> volume) {
@@ -47,8 +47,8 @@ void mirrorSurface(const Patch& patch, const Material& material, NodeView<Vec<D>
         });
 }
 
-/// The surface of a body for friction (see ContactSurface) at every node of the patch. Where axisymmetric, the gradient
-/// is that of the density, as in Uintah: mass grows with the radius, and would tilt the normal.
+/// Computes the surface of a body for friction (see ContactSurface) at every node of the patch. In axisymmetric scenes,
+/// the gradient is that of the density, as in Uintah: mass grows with the radius, and would tilt the normal.
 template <class Shape, int D = Shape::dimension>
 void computeSurface(const Patch& patch, const Material& material, const Vec3& commonSize, const SurfaceSources<D>& u) {
   u.massGradient.fill(Vec<D>::Zero());
@@ -76,7 +76,7 @@ void computeSurface(const Patch& patch, const Material& material, const Vec3& co
   mirrorSurface<D>(patch, material, u.massGradient, u.volume);
 }
 
-/// Applies friction between materials in contact, and computes its heat, J, if the scene needs it.
+/// Applies friction between materials in contact, and computes its heat [J] if the scene needs it.
 template <int D>
 void exchangeByFriction(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
                         Moment moment, double dt, const Surfaces<D>& surfaces, const Records& records,

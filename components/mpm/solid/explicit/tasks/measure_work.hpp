@@ -21,7 +21,7 @@ namespace works {
 inline constexpr int external = 0, boundary = 1, contact = 2, dissipated = 3, strain = 4, plastic = 5, start = 6;
 }
 
-/// At the start, no work has been done.
+/// Sets the initial work to 0.
 template <int D>
 void startWork(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                ParticleView<p::Works> work) {
@@ -31,14 +31,14 @@ void startWork(const Patch&, const Material&, ParticleView<const double> mass, P
   }
 }
 
-/// Copies the current velocity of the records.
+/// Copies the current velocity from the records.
 template <int D>
 void keepVelocity(const Patch&, const Material&, NodeView<const NodeRecord> record, NodeView<Vec<D>> kept) {
   forEach<D>(kept.box(), [&](const Index<D>& node) { kept[node] = lanes<D>(record[node], lane::velocity); });
 }
 
-/// Computes w at the nodes, and the work per mass there: of gravity, of the sides of the grid, of contact, and of
-/// damping.
+/// Computes w at the nodes, and the work per mass at the nodes: of gravity, of the sides of the grid, of contact, and
+/// of damping.
 template <int D>
 void computeNodalWork(const Patch& patch, const Material&, const Method& method, double dt,
                       NodeView<const NodeRecord> record, NodeView<const Vec<D>> ofForces,
@@ -55,7 +55,7 @@ void computeNodalWork(const Patch& patch, const Material&, const Method& method,
   });
 }
 
-/// The variables that measureWork reads and writes.
+/// Views of the variables that measureWork reads and writes.
 template <int D>
 struct ParticleWork {
   Placed<D> particles;
@@ -92,11 +92,11 @@ void measureWork(const Patch& patch, const Material&, const Vec3& commonSize, do
   });
 }
 
-/// F and the stress of particles, at the start of a step or at its end.
+/// Views of F and the stress of particles, at the start of a step or at its end.
 struct Stressed {
   ParticleView<const Matrix3> deformation;
   OptionalView<const double> volume;
-  OptionalView<const Matrix3> stress;  ///< if the stress is not a function of F alone
+  OptionalView<const Matrix3> stress;  ///< stress, if it is not a function of F alone
 
   static Stressed from(auto& take, bool keepsStress, auto reads) {
     return {.deformation = take(reads(p::deformationMeasure, 0)),
@@ -108,7 +108,7 @@ struct Stressed {
   }
 };
 
-/// The variables that measureStrainWork reads and writes.
+/// Views of the variables that measureStrainWork reads and writes.
 struct StrainWork {
   ParticleView<const double> mass;
   Stressed before, after;
@@ -166,7 +166,7 @@ inline void measurePlasticWork(const Patch&, const Material& material, int state
   }
 }
 
-/// The sum of one of the numbers of p.work over all particles.
+/// Computes the sum of one component of p.work over all particles.
 inline void sumWork(const Patch&, const Material&, int which, ParticleView<const p::Works> work, Sum& total) {
   WideSum sum(total);
   for (int p = 0; p < work.owned(); ++p) sum.add(work[p][which]);

@@ -27,7 +27,7 @@ NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<D>& u, con
           "", "p.deformationMeasure", level.cellNumber<D>(cell)};
 }
 
-/// Removes a particle, and gives it the state at the start of the step, which later tasks of the step can read.
+/// Removes a particle, and gives it the state at the start of the step, so that later tasks of the step can read it.
 template <int D>
 void removeParticle(const StateUpdate<D>& u, int p) {
   (*u.newX)[p][0] = data::removed;
@@ -41,7 +41,7 @@ void removeParticle(const StateUpdate<D>& u, int p) {
   if (u.velocityGradient) (*u.velocityGradient)[p].setZero();
 }
 
-/// The space between the symmetry planes at the sides of the grid, m; infinite along axes without them.
+/// The space between the symmetry planes at the sides of the grid [m]; infinite along axes without such planes.
 template <int D>
 struct BetweenPlanes {
   Vec<D> lower = Vec<D>::Constant(-std::numeric_limits<double>::infinity()), upper = -lower;
@@ -52,7 +52,8 @@ struct BetweenPlanes {
       if (level.isSymmetry(d, 1, material)) upper[d] = level.nodePosition(d, level.cells().upper[d]);
     }
   }
-  /// A position that is not a number counts as inside: it is an error of its own, which the relocation reports.
+  /// Whether a position is inside. A position that is not a number counts as inside: the relocation reports it as a
+  /// separate error.
   bool contains(const Vec<D>& x) const { return containAll(&x, 1); }
   /// Whether all of `count` positions are inside.
   bool containAll(const Vec<D>* x, int count) const {
@@ -63,10 +64,10 @@ struct BetweenPlanes {
   }
 };
 
-/// In a cell where a wave has no speed or a particle is behind a symmetry plane: removes the particles that the step
-/// turns inside out (det F <= 0), as explicit finite-element codes delete elements with a negative Jacobian, or throws
-/// through a symmetry plane. Returns the waves of the others; `none` has none. Throws NumericalError if particles
-/// cannot be removed, or if the wave speed of another is undefined.
+/// In a cell in which a wave speed is undefined or a particle is behind a symmetry plane: removes the particles that
+/// the step turns inside out (det F <= 0), as explicit finite-element codes delete elements with a negative Jacobian,
+/// or throws through a symmetry plane. Returns the waves of the others; `none` has none. Throws NumericalError if
+/// particles cannot be removed, or if the wave speed of another is undefined.
 template <int D>
 CrossingRate<D> withoutLost(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
                             const data::ParticleRange& range, const CrossingRate<D>& none,

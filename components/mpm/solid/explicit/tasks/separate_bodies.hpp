@@ -9,11 +9,11 @@
 
 namespace tushar::mpm::solid {
 
-/// The variables of a material that separateBodies reads and writes.
+/// Views of the variables of a material that separateBodies reads and writes.
 template <int D>
 struct PlaneSources {
   Placed<D> particles;
-  OptionalView<const Vec<D>> size;  ///< edge lengths at the start, in cells, if shape functions do not read them
+  OptionalView<const Vec<D>> size;  ///< initial edge lengths in cells, if shape functions do not read them
   ParticleView<const int> surface;
   NodeView<Vec<D>> normal;
   NodeView<double> prominence;
@@ -26,7 +26,8 @@ struct PlaneSources {
             .normal = take(computes(g::separatingNormal<D>)),
             .prominence = take(computes(g::prominence))};
   }
-  /// Column i: from the centre of particle p to the centre of its face that lay along axis i at the start, m.
+  /// Column i: the vector from the centre of particle p to the centre of the face that was initially above it along axis
+  /// i [m].
   template <class Shape>
   Eigen::Matrix<double, D, D> halfEdges(const Level& level, const Vec3& commonSize, int p) const {
     Eigen::Matrix<double, D, D> half = Eigen::Matrix<double, D, D>::Zero();
@@ -41,7 +42,7 @@ struct PlaneSources {
   }
 };
 
-/// The materials to which a plane may belong, and the preferred one.
+/// Which materials a plane may belong to, and which one is preferred.
 struct Precedence {
   std::vector<bool> mayLead, isRigid;
 
@@ -81,13 +82,13 @@ struct Precedence {
   }
 };
 
-/// The nodes of a patch at which bodies meet, in their order.
+/// The nodes of a patch at which bodies meet, in lexicographic order.
 template <int D>
 struct MeetingNodes {
   Box box;
-  std::vector<int> number;  ///< for each node of the box, its index among those that follow, or -1
+  std::vector<int> number;  ///< for each node of the box, its index in the lists below, or -1
   std::vector<Index<D>> node;
-  std::vector<int> leader;  ///< the material that the plane belongs to
+  std::vector<int> leader;  ///< index of the material to which the plane belongs
   std::vector<std::vector<SidedParticle<D>>> particles;
 
   MeetingNodes(const Box& nodes, const Precedence& precedence, const std::vector<NodeView<const NodeRecord>>& records)
@@ -101,7 +102,7 @@ struct MeetingNodes {
     });
     particles.resize(node.size());
   }
-  /// The index of a node, or -1.
+  /// The index of a node in the lists, or -1.
   int operator[](const Index<D>& at) const { return box.contains(at) ? number[place(at)] : -1; }
 
  private:
@@ -128,7 +129,7 @@ void gatherParticles(const Patch& patch, const Vec3& commonSize, const PlaneSour
   });
 }
 
-/// The normal at the k-th of the nodes: 0 unless there are particles on both sides. None points through a symmetry
+/// The normal at the k-th of these nodes: 0 unless there are particles on both sides. None points through a symmetry
 /// plane.
 template <int D>
 Vec<D> normalAt(const Patch& patch, const MeetingNodes<D>& nodes, std::size_t k) {
@@ -170,7 +171,7 @@ void measureProminence(const Patch& patch, const Vec3& commonSize, int m, const 
   });
 }
 
-/// The planes that separate bodies, for contacts with friction along them.
+/// Computes the planes that separate bodies, for contacts with friction along them.
 template <class Shape, int D = Shape::dimension>
 void separateBodies(const Patch& patch, const std::vector<Material>& materials, const std::vector<Contact>& contacts,
                     const Vec3& commonSize, const std::vector<NodeView<const NodeRecord>>& records,
@@ -189,7 +190,7 @@ void separateBodies(const Patch& patch, const std::vector<Material>& materials, 
     measureProminence<Shape>(patch, commonSize, static_cast<int>(m), nodes, normals, of[m]);
 }
 
-/// The mass-weighted mean of p.color at the nodes of a patch; 0 without mass.
+/// Computes the mass-weighted mean of p.color at the nodes of a patch; 0 without mass.
 template <class Shape, int D = Shape::dimension>
 void interpolateColor(const Patch& patch, const Material&, const Vec3& commonSize, const Placed<D>& particles,
                       ParticleView<const double> mass, ParticleView<const double> color,
@@ -205,7 +206,7 @@ void interpolateColor(const Patch& patch, const Material&, const Vec3& commonSiz
   });
 }
 
-/// Whether each particle starts at the surface of its body.
+/// Computes whether each particle is initially at the surface of its body.
 template <int D>
 void findSurface(const Patch& patch, const Material& material, ParticleView<const Vec<D>> x,
                  ParticleView<int> surface) {

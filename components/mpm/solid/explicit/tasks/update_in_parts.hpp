@@ -8,7 +8,7 @@ namespace tushar::mpm::solid {
 // The two halves of interpolateToParticlesAndUpdate, for schedules that separate them: stresses first in the step, or
 // last with velocities interpolated to the grid once more.
 
-/// The variables with which x and v are updated in a step.
+/// Views of the variables with which x and v are updated in a step.
 template <int D>
 struct MotionUpdate {
   NodeView<const NodeRecord> record;
@@ -26,7 +26,7 @@ struct MotionUpdate {
   }
 };
 
-/// x_p and v_p at the end of the step.
+/// Computes x_p and v_p at the end of the step.
 template <class Shape, int D = Shape::dimension>
 void moveParticles(const Patch& patch, const Material&, const Vec3& commonSize, double dt, const MotionUpdate<D>& u) {
   forEachStencil<Shape>(patch, patch.cells(), u.particles, commonSize, [&](int p, const auto& stencil) {
@@ -35,7 +35,7 @@ void moveParticles(const Patch& patch, const Material&, const Vec3& commonSize, 
   });
 }
 
-/// L_p, F_p and the stress, with the velocity in the records: Uintah's computeStressTensor.
+/// Computes L_p, F_p and the stress, with the velocity in the records: Uintah's computeStressTensor.
 template <class Shape, Volumes volumes = Volumes::own, int D = Shape::dimension>
 void computeStressTensor(const Patch& patch, const Material& material, const Method& method, double time, double dt,
                          const StateUpdate<D>& u) {

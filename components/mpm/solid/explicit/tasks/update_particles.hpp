@@ -22,7 +22,7 @@ inline int subcyclesForF(double squaredNorm, int least) {
   return std::min(std::max(least, 2 * static_cast<int>(std::sqrt(std::min(squaredNorm, 1e8)))), 10000);
 }
 
-/// F at the end of a step: (I + L dt/n)^n F in n steps.
+/// Computes F at the end of a step: (I + L dt/n)^n F in n steps.
 inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt, int n, Matrix3& result) {
   Rows rows(f);
   const double part = dt / n;
@@ -34,7 +34,7 @@ inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt,
   rows.copyTo(result);
 }
 
-/// (I + L dt) F of `count` consecutive particles, with the same bits.
+/// Computes (I + L dt) F of `count` consecutive particles, with the same bits.
 [[gnu::always_inline]] inline void deform(const Matrix3* f, const TensorOf<Lanes>& velocityGradient, double dt,
                                           int count, Matrix3* result) {
   const TensorOf<Lanes> before = lanesOf(f, count);
@@ -47,15 +47,15 @@ inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt,
   storeLanes(now, result, count);
 }
 
-/// F at the end of a step: (sum_k (L dt)^k / k!) F, up to the power `order`.
+/// Computes F at the end of a step: (sum_k (L dt)^k / k!) F, up to the power `order`.
 inline void deformBySeries(const Matrix3& f, const Matrix3& velocityGradient, double dt, int order, Matrix3& result) {
   Matrix3 sum = Matrix3::Identity();
   for (int k = order; k > 0; --k) sum = Matrix3::Identity() + dt / k * velocityGradient * sum;
   result = sum * f;
 }
 
-/// x_p += dt sum_i S_i v*_i,   v_p += sum_i S_i (v*_i - v_i): the FLIP of Brackbill & Ruppel, J. Comput. Phys. 65
-/// (1986) 314.
+/// Computes x_p += dt sum_i S_i v*_i,   v_p += sum_i S_i (v*_i - v_i): the FLIP of Brackbill & Ruppel, J. Comput. Phys.
+/// 65 (1986) 314.
 template <int D>
 [[gnu::always_inline]] inline void moveParticle(double dt, const Gathered<D>& sums, const Vec<D>& x,
                                                 const Vec<D>& velocity, Vec<D>& newX, Vec<D>& newVelocity) {
@@ -69,7 +69,7 @@ template <int D>
                                              const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
   moveParticle<D>(dt, sums, *x, *velocity, *newX, *newVelocity);
 }
-/// The same for `count` consecutive particles.
+/// Does the same for `count` consecutive particles.
 template <int D>
 [[gnu::always_inline]] inline void moveGroup(double dt, const GatheredLanes<D>& sums, int count, const Vec<D>* x,
                                              const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
@@ -82,7 +82,8 @@ template <int D>
   storeVectors<D>(v, count, newVelocity);
 }
 
-/// F of a particle at the end of the step from its velocity gradient, the sum of whose squares is `square`, 1/s^2.
+/// Computes F of a particle at the end of the step from its velocity gradient; `square` is the sum of the gradient's
+/// squared components [1/s^2].
 template <int D>
 void deformBy(const Method& method, double dt, double square, const StateUpdate<D>& u, int p,
               const Matrix3& velocityGradient) {
@@ -93,7 +94,7 @@ void deformBy(const Method& method, double dt, double square, const StateUpdate<
   else
     deform(before, velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF), now);
 }
-/// Completes a particle with a new F: restrains failed particles, and computes its volume.
+/// Completes the update of a particle with a new F: restrains failed particles, and computes its volume.
 template <int D>
 [[gnu::always_inline]] inline void finishDeformation(const Erosion& erosion, const StateUpdate<D>& u, int p,
                                                      Matrix3& velocityGradient) {
@@ -123,8 +124,8 @@ template <class Shape, int D = Shape::dimension>
   finishDeformation(erosion, u, p, velocityGradient);
 }
 
-/// The same in three dimensions for `count` particles starting with `first`, in the lanes; `velocityGradient` is of the
-/// first.
+/// Does the same in three dimensions for `count` particles starting with `first`, one per lane; `velocityGradient` is
+/// that of the first.
 [[gnu::always_inline]] inline void deformParticles(const Method& method, double dt, const GatheredLanes<3>& sums,
                                                    const Erosion& erosion, const StateUpdate<3>& u, int first,
                                                    int count, Matrix3* velocityGradient) {
@@ -149,10 +150,10 @@ template <class Shape, int D = Shape::dimension>
 /// The results of a constitutive model for up to stressGroup particles, besides their stresses and wave speeds.
 struct StressResults {
   std::array<double, stressGroup> bulkSpeed;      ///< m/s
-  std::array<double, stressGroup> energyDensity;  ///< J/m^3 of the volume at the start
+  std::array<double, stressGroup> energyDensity;  ///< strain energy density [J/m^3 of the initial volume]
 };
 
-/// The positions and masses of the particles from `first` on, and the time, for a model that reads them.
+/// Passes the positions and masses of the particles from `first` on, and the time, to a model that reads them.
 template <int D>
 void placePoints(const Level& level, const StateUpdate<D>& u, double time, int first,
                  std::array<Vec3, stressGroup>& positions, StressPoints& points) {
@@ -162,7 +163,7 @@ void placePoints(const Level& level, const StateUpdate<D>& u, double time, int f
   points.time = time;
 }
 
-/// Particles starting with `first`, in the form for a constitutive model. `velocityGradient` is that of the first.
+/// The particles starting with `first`, in the form for a constitutive model. `velocityGradient` is that of the first.
 template <int D>
 StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* velocityGradient, int first, int count,
                           double* waveSpeed, StressResults& results) {
@@ -183,7 +184,7 @@ StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* vel
           .strainEnergyDensity = u.strainEnergy ? results.energyDensity.data() : nullptr};
 }
 
-/// The work of the artificial viscosity when the volume per mass grows by `growth`, m^3/kg.
+/// The work of the artificial viscosity when the volume per mass grows by `growth` [m^3/kg].
 template <int D>
 void heatByViscosity(const Material& material, double growth, const StateUpdate<D>& u, int p) {
   const double heat = -(*u.viscosity)[p] * growth;
@@ -214,8 +215,8 @@ void updateViscosity(const Material& material, const Method& method, double dt, 
   }
 }
 
-/// Strain energy of particles starting with `first`, from its density (J/m^3 of the volume at F = I); 0 for failed
-/// particles.
+/// Computes the strain energy of particles starting with `first` from its density [J/m^3 of the volume at F = I]; 0 for
+/// failed particles.
 template <int D>
 void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const double* density, int first,
                         int count) {
@@ -229,8 +230,8 @@ void updateStrainEnergy(const Material& material, const StateUpdate<D>& u, const
   }
 }
 
-/// Updates stress, artificial viscosity and strain energy of up to stressGroup particles, if kept, and computes their
-/// wave speeds, m/s.
+/// Updates stress, artificial viscosity and strain energy of up to stressGroup particles, if they are stored, and
+/// computes the wave speeds [m/s].
 template <int D>
 void updateStress(const Level& level, const Material& material, const Method& method, double time, double dt,
                   const StateUpdate<D>& u, const Matrix3* velocityGradient, int first, int count, double* waveSpeed) {
@@ -283,10 +284,10 @@ template <class Shape, class Move, int D = Shape::dimension>
 template <int D>
 struct MovedParticles {
   CellRun<D> cells;
-  std::vector<Matrix3> velocityGradient;  ///< at least of those of the cells
-  std::vector<double> waveSpeed;          ///< of as many
+  std::vector<Matrix3> velocityGradient;  ///< room for at least the particles of the cells
+  std::vector<double> waveSpeed;          ///< same size as velocityGradient
 
-  /// L of the particles of a cell that joins the run, 1/s.
+  /// Adds a cell; returns memory for L of its particles [1/s].
   Matrix3* add(const Index<D>& cell, const data::ParticleRange& range) {
     cells.add(cell, range);
     if (velocityGradient.size() < static_cast<std::size_t>(cells.count())) {

@@ -9,7 +9,7 @@ namespace tushar::mpm::solid {
 
 // Optional updates after FLIP, which remove noise from the particles' velocities. The records hold v* and v.
 
-/// v_p = (1 - a) v_p^FLIP + a sum_i S_i v*_i: the PIC of Harlow, Meth. Comput. Phys. 3 (1964) 319, where a = 1.
+/// Computes v_p = (1 - a) v_p^FLIP + a sum_i S_i v*_i: the PIC of Harlow, Meth. Comput. Phys. 3 (1964) 319, if a = 1.
 template <class Shape, int D = Shape::dimension>
 void blendVelocity(const Patch& patch, const Material&, const Method& method, NodeView<const NodeRecord> record,
                    const Placed<D>& particles, ParticleView<Vec<D>> velocity) {
@@ -20,7 +20,7 @@ void blendVelocity(const Patch& patch, const Material&, const Method& method, No
   });
 }
 
-/// v+_p = sum_i S_i v_i, the velocity at the start of the step, filtered by the grid.
+/// Computes v+_p = sum_i S_i v_i, the velocity at the start of the step, filtered by the grid.
 template <class Shape, int D = Shape::dimension>
 void computeSSPlusVp(const Patch& patch, const Material&, const Vec3& commonSize, NodeView<const NodeRecord> record,
                      const Placed<D>& particles, ParticleView<Vec<D>> smooth) {
@@ -40,7 +40,7 @@ void limitVelocity(const Patch&, const Material&, double greatest, ParticleView<
   }
 }
 
-/// The XPIC correction for particles that have been moved by FLIP.
+/// Views for the XPIC correction of particles that have been moved by FLIP.
 template <int D>
 struct XpicUpdate {
   NodeView<const NodeRecord> smoothRecord;
