@@ -21,7 +21,7 @@ struct Arguments {
   bool check = false, list = false, restart = false, schedule = false, version = false;
   bool asksForJson = false;                  ///< --json was given; its file may be missing
   std::optional<int> checkpoint;             ///< step of the checkpoint from which to restart
-  std::optional<double> checkpointInterval;  ///< wall time between checkpoints, s
+  std::optional<double> checkpointInterval;  ///< wall time between checkpoints [s]
   std::optional<int> dryRun;
   grid::Workers workers{allowedThreads(), true, 1, {}};
   simulation::RunOptions run;

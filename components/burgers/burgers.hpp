@@ -21,7 +21,7 @@ using Slope = double (*)(double, double);
 
 /// The `Burgers` section.
 struct Settings {
-  double viscosity = 0;             ///< nu, m²/s
+  double viscosity = 0;             ///< viscosity nu [m²/s]
   double cfl = 0.5;                 ///< fraction of the stable time step, 1 / (sum_d |u| / h_d + 2 nu / h_d²)
   int limiter = 2;                  ///< index of the limiter, as in slopeOf
   input::Expression velocity{0.0};  ///< initial u [m/s]

@@ -159,13 +159,13 @@ class CurvedGas {
 class Water {
  public:
   struct Numbers {
-    double a = 2e-7;           ///< K/Pa
-    double b = 2.6;            ///< J/(kg K²)
-    double heat = 4205.7;      ///< c_0, J/(kg K)
-    double stiffness = 5e-10;  ///< k_0, 1/Pa
-    double temperature = 277;  ///< T_0, K
-    double bend = 8e-6;        ///< L, 1/K²
-    double volume = 1e-3;      ///< v_0, m³/kg
+    double a = 2e-7;           ///< a [K/Pa]
+    double b = 2.6;            ///< b [J/(kg K²)]
+    double heat = 4205.7;      ///< heat c_0 [J/(kg K)]
+    double stiffness = 5e-10;  ///< stiffness k_0 [1/Pa]
+    double temperature = 277;  ///< temperature T_0 [K]
+    double bend = 8e-6;        ///< bend L [1/K²]
+    double volume = 1e-3;      ///< volume v_0 [m³/kg]
   };
   explicit Water(const Numbers& numbers) : n_(numbers) {
     double least = 0, most = 0.5 * n_.stiffness / (n_.bend * n_.a);

@@ -8,8 +8,8 @@ namespace tushar::euler {
 
 /// Coefficients of viscosity and heat conduction, uniform in space.
 struct Diffusion {
-  double viscosity = 0;     ///< mu, Pa s
-  double conductivity = 0;  ///< k, W/(m K)
+  double viscosity = 0;     ///< viscosity mu [Pa s]
+  double conductivity = 0;  ///< conductivity k [W/(m K)]
 
   bool acts() const { return viscosity > 0 || conductivity > 0; }
   /// The largest diffusivity in a gas of a given density [kg/m³], in m²/s: 4/3 mu / rho for sound waves, k / (rho c_v)

@@ -40,7 +40,7 @@ constexpr std::size_t kShare(int k) {
 /// Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report LA-4700 (1971).
 struct StiffenedGas {
   double gamma = 1.4;    ///< ratio of specific heats, greater than 1
-  double pInfinity = 0;  ///< Pa
+  double pInfinity = 0;  ///< p_inf [Pa]
 
   /// Squared speed of sound, c² [m²/s²] = gamma (p + p_inf) / rho.
   double soundSpeedSquared(double density, double pressure) const { return gamma * (pressure + pInfinity) / density; }
@@ -65,7 +65,7 @@ struct Gas {
   using Law = std::variant<CurvedGas, Water>;
 
   double gamma = 1.4;                        ///< ratio of specific heats, greater than 1
-  double pInfinity = 0;                      ///< Pa
+  double pInfinity = 0;                      ///< p_inf [Pa]
   double specificHeat = 0;                   ///< c_v [J/(kg K)]; 0: the temperature is unknown
   int material = 0;                          ///< index of the gas in the scene, for boundary conditions
   std::shared_ptr<const Law> law = nullptr;  ///< the gas's own law; null for a stiffened gas

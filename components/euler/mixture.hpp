@@ -12,7 +12,7 @@ namespace tushar::euler {
 /// - 1), which are linear in the shares, their energy per volume is p G + S. So a contact keeps its pressure.
 struct MixedGas {
   double softness = 0;   ///< G
-  double stiffness = 0;  ///< S, J/m³
+  double stiffness = 0;  ///< stiffness S [J/m³]
 
   /// Adds a gas with its volume fraction.
   void add(double share, double gamma, double pInfinity) {

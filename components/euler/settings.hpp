@@ -17,10 +17,10 @@ namespace tushar::euler {
 struct GasObject {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
-  input::Expression density;                          ///< kg/m³
-  input::Expression pressure;                         ///< [Pa]; ignored if a temperature is given
-  input::VectorExpression velocity;                   ///< m/s
-  std::optional<input::Expression> temperature = {};  ///< K
+  input::Expression density;                          ///< density [kg/m³]
+  input::Expression pressure;                         ///< pressure [Pa]; ignored if a temperature is given
+  input::VectorExpression velocity;                   ///< velocity [m/s]
+  std::optional<input::Expression> temperature = {};  ///< temperature [K]
   std::optional<input::Expression> share = {};        ///< volume fraction, if there are several gases; 1 by default
 };
 
@@ -43,7 +43,7 @@ struct Settings {
   Method method;
   /// Whether objects may contain no cell centre; true if they are parts of objects in the scene.
   bool objectsMayBeEmpty = false;
-  double cfl = 0.8;                ///< Courant number: dt max(sum_d (|v_d| + c) / h_d)
+  double cfl = 0.8;  ///< Courant number: dt max(sum_d (|v_d| + c) / h_d)
   Gas gas;
   std::vector<GasObject> objects;  ///< regions with their initial gas; where they overlap, the last one applies
   /// Changes the initial velocity and, for objects that have one, the initial temperature at a point where the density

@@ -12,8 +12,8 @@ namespace tushar::euler {
 /// A viscosity that rises with the temperature: mu = a T^(3/2) / (T + b).
 /// Source: W. Sutherland, Phil. Mag. 36 (1893) 507.
 struct Sutherland {
-  double a = 0;  ///< Pa s / sqrt(K)
-  double b = 0;  ///< K
+  double a = 0;  ///< a [Pa s / sqrt(K)]
+  double b = 0;  ///< b [K]
 
   double viscosity(double temperature) const {
     return a * temperature * std::sqrt(std::max(temperature, 0.0)) / (temperature + b);
@@ -22,8 +22,8 @@ struct Sutherland {
 
 /// A box in which the gas has another viscosity, such as a layer that absorbs waves in front of a side of the grid.
 struct SpongeLayer {
-  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< m
-  double viscosity = 0;                             ///< Pa s
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< lower corner and upper corner [m]
+  double viscosity = 0;                             ///< viscosity [Pa s]
 
   bool contains(const Vec3& point) const {
     return (point.array() >= lower.array()).all() && (point.array() <= upper.array()).all();

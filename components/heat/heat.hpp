@@ -18,15 +18,15 @@ inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "J", "heat in al
 
 /// The `Heat` section.
 struct Settings {
-  input::Expression conductivity{1.0};  ///< k, W/(m K)
-  double density = 1;                   ///< rho, kg/m³
-  double specificHeat = 1;              ///< c, J/(kg K)
+  input::Expression conductivity{1.0};  ///< conductivity k [W/(m K)]
+  double density = 1;                   ///< density rho [kg/m³]
+  double specificHeat = 1;              ///< specific heat c [J/(kg K)]
   double cfl = 0.9;                     ///< fraction of the largest stable time step
   input::Expression temperature{0.0};   ///< initial temperature [K]
   /// Interpolation error between cells above which they are refined [K]; 0: never.
   double refinementTolerance = 0;
 
-  double capacity() const { return density * specificHeat; }  ///< rho c, J/(m³ K)
+  double capacity() const { return density * specificHeat; }  ///< rho c [J/(m³ K)]
 };
 
 /// Heat conduction, rho c dT/dt = div(k grad T), explicit in time, centred in space, in D dimensions.

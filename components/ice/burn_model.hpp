@@ -20,7 +20,7 @@ struct AtSurface {
 /// A burn rate that depends only on the pressure, as in Uintah's Simple_Burn.
 struct SimpleBurn {
   double coefficient = 0;        ///< burn rate at the reference pressure [kg/(m² s)]
-  double referencePressure = 0;  ///< Pa
+  double referencePressure = 0;  ///< reference pressure [Pa]
 
   /// kg/(m² s)
   double rate(const AtSurface& at) const {
@@ -37,16 +37,16 @@ struct SimpleBurn {
 ///
 /// Source: M. J. Ward, S. F. Son and M. Q. Brewster, Combust. Flame 114 (1998) 556.
 struct SteadyBurn {
-  double gasConstant = 0;        ///< R, J/(mol K)
-  double solidFactor = 0;        ///< A, 1/s
-  double activationEnergy = 0;   ///< E, J/mol
-  double gasFactor = 0;          ///< B, m³/(kg s K²)
-  double solidHeat = 0;          ///< Q_c, J/kg
-  double gasHeat = 0;            ///< Q_g, J/kg
-  double gasConductivity = 0;    ///< k_g, W/(m K)
-  double solidConductivity = 0;  ///< k_c, W/(m K)
+  double gasConstant = 0;        ///< gas constant R [J/(mol K)]
+  double solidFactor = 0;        ///< solid factor A [1/s]
+  double activationEnergy = 0;   ///< activation energy E [J/mol]
+  double gasFactor = 0;          ///< gas factor B [m³/(kg s K²)]
+  double solidHeat = 0;          ///< solid heat Q_c [J/kg]
+  double gasHeat = 0;            ///< gas heat Q_g [J/kg]
+  double gasConductivity = 0;    ///< gas conductivity k_g [W/(m K)]
+  double solidConductivity = 0;  ///< solid conductivity k_c [W/(m K)]
   double specificHeat = 0;       ///< c of solid and gas [J/(kg K)]
-  double molarMass = 0;          ///< W, kg/mol
+  double molarMass = 0;          ///< molar mass W [kg/mol]
 
   /// The burn rate [kg/(m² s)].
   double rate(const AtSurface& at) const { return rateAt(surfaceTemperature(at), at); }
@@ -82,7 +82,7 @@ struct SteadyBurn {
 /// `<Model type="Test">` of a body: a fraction of the remaining body per unit time is converted into gas, everywhere.
 struct Decay {
   double perTime = 0;    ///< fraction per unit time [1/s]
-  double startTime = 0;  ///< s
+  double startTime = 0;  ///< start time [s]
 };
 
 /// The time that a flame takes to cross a cell of explosive: a flame spreads along a surface with the speed F_b (p /
@@ -90,8 +90,8 @@ struct Decay {
 /// Berghout, Proc. Combust. Inst. 31 (2007) 2063; the dependence on the angle is that of Uintah's DDT1.
 struct Induction {
   double inwards = 1;   ///< I_c [1]
-  double pressure = 0;  ///< p_0, Pa
-  double speed = 0;     ///< F_b, m/s
+  double pressure = 0;  ///< pressure p_0 [Pa]
+  double speed = 0;     ///< speed F_b [m/s]
   double exponent = 0;  ///< F_c [1]
 
   /// Fraction of the time along the surface if the flame comes at an angle with this cosine to the normal: from I_c to

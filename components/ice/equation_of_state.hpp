@@ -14,7 +14,7 @@ struct EquationOfState {
   enum class Kind { ideal, stiffened, jwl, jwlc, murnaghan, gruneisen, water };
 
   Kind kind = Kind::ideal;
-  double pInfinity = 0;        ///< Pa
+  double pInfinity = 0;        ///< p_inf [Pa]
   euler::ColdCurve cold = {};  ///< cold curve of JWL, JWLC, Murnaghan and Gruneisen
   double perKelvin = 0;        ///< parameter B of Gruneisen [Pa/K]
   euler::Water::Numbers water = {};

@@ -15,7 +15,7 @@ namespace tushar::ice {
 /// Gravity and diffusion of a gas, and the settings of implicit steps.
 struct IceSettings {
   euler::Diffusion diffusion;
-  Vec3 gravity = Vec3::Zero();  ///< m/s²
+  Vec3 gravity = Vec3::Zero();  ///< gravity [m/s²]
   double soundSpeedKnob = 0;    ///< fraction of the speed of sound that limits implicit steps; 0: no limit
   solvers::LinearSettings solver = {};
 };
@@ -243,9 +243,9 @@ class FaceFlow : public GasBefore<D, K> {
     double normal;     ///< 1 or -1: the outward direction
     double speed;      ///< outward velocity before the step [m/s]
     double carried;    ///< change of this velocity by (v . grad) v in the step [m/s]
-    double pressure;   ///< p_o, Pa
-    double lightness;  ///< 1 / (rho c), m/(s Pa)
-    double push;       ///< dt / (rho h / 2), m/(s Pa)
+    double pressure;   ///< pressure p_o [Pa]
+    double lightness;  ///< 1 / (rho c) [m/(s Pa)]
+    double push;       ///< dt / (rho h / 2) [m/(s Pa)]
     double relaxed;    ///< change of the incoming wave due to relaxation [Pa]
   };
   OpenSide openSide(const Index<D>& face, int axis) const {

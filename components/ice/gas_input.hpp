@@ -32,7 +32,7 @@ struct MassExchange {
   Location where;  ///< in the scene
   std::string from, to;
   double rate = 0;       ///< converted fraction of the gas per unit time [1/s]
-  double startTime = 0;  ///< s
+  double startTime = 0;  ///< start time [s]
 };
 
 /// The settings of the implicit pressure solve.
@@ -46,13 +46,13 @@ struct ImplicitPressure {
 struct GasScene {
   Location where;                         ///< location of <CFD> in the scene
   euler::Settings gas;                    ///< the method, and the gas with its initial state
-  double specificHeat = 0;                ///< c_v, J/(kg K)
-  double referencePressure = 0;           ///< Pa
-  Vec3 gravity = Vec3::Zero();            ///< m/s²
+  double specificHeat = 0;                ///< specific heat c_v [J/(kg K)]
+  double referencePressure = 0;           ///< reference pressure [Pa]
+  Vec3 gravity = Vec3::Zero();            ///< gravity [m/s²]
   Vec3 push = Vec3::Zero();               ///< force per volume, equivalent to a pressure gradient [N/m³]
   euler::VaryingDiffusion varying = {};   ///< viscosity and conductivity, if they are not the same everywhere
-  double viscosity = 0;                   ///< Pa s
-  double conductivity = 0;                ///< W/(m K)
+  double viscosity = 0;                   ///< viscosity [Pa s]
+  double conductivity = 0;                ///< conductivity [W/(m K)]
   std::optional<bool> thinWalls = {};     ///< whether bodies thinner than a cell block the gas
   std::optional<Exchange> exchange = {};  ///< momentum and heat exchange with other materials
   std::optional<ImplicitPressure> implicit = {};

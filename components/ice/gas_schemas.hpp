@@ -80,12 +80,12 @@ struct CfdSection {
 struct GasBody {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
-  input::Expression density;                  ///< kg/m³
-  input::Expression temperature;              ///< K
-  input::VectorExpression velocity;           ///< m/s
+  input::Expression density;         ///< density [kg/m³]
+  input::Expression temperature;     ///< temperature [K]
+  input::VectorExpression velocity;  ///< velocity [m/s]
   /// Pressure [Pa]; ignored, because it follows from density and temperature.
   std::optional<input::Expression> pressure;
-  std::optional<input::Expression> share;     ///< volume fraction
+  std::optional<input::Expression> share;  ///< volume fraction
 };
 
 /// The tag `MaterialProperties/ICE/material`.
@@ -93,9 +93,9 @@ struct GasMaterial {
   std::string name;
   EquationOfState state;
   double gamma = 0;         ///< ratio of specific heats
-  double specificHeat = 0;  ///< c_v, J/(kg K)
-  double viscosity = 0;     ///< Pa s
-  double conductivity = 0;  ///< W/(m K)
+  double specificHeat = 0;  ///< specific heat c_v [J/(kg K)]
+  double viscosity = 0;     ///< viscosity [Pa s]
+  double conductivity = 0;  ///< conductivity [W/(m K)]
   euler::VaryingDiffusion varying;
   std::vector<GasBody> bodies;
 };
@@ -129,8 +129,8 @@ struct PropertiesSection {
 
 /// The tag `PhysicalConstants`.
 struct ConstantsSection {
-  Vec3 gravity = Vec3::Zero();   ///< m/s²
-  double referencePressure = 0;  ///< Pa
+  Vec3 gravity = Vec3::Zero();   ///< gravity [m/s²]
+  double referencePressure = 0;  ///< reference pressure [Pa]
 };
 
 const input::Schema<CfdSection>& cfdSchema();

@@ -30,7 +30,7 @@ struct ScalarRegion {
 struct ScalarSettings {
   Location where;  ///< in the scene
   std::string name;
-  double diffusivity = 0;              ///< m²/s
+  double diffusivity = 0;              ///< diffusivity [m²/s]
   std::vector<ScalarRegion> start;     ///< initial values; where regions overlap, the last one applies
   std::vector<ScalarRegion> interior;  ///< sources: regions in which the scalar increases in each step
 };

@@ -15,7 +15,7 @@ namespace tushar::ice {
 /// by the same of y. (T. Poinsot, S. K. Lele, J. Comput. Phys. 101, 1992)
 struct Vortex {
   int axis = 0;
-  Vec3 origin = Vec3::Zero();       ///< m
+  Vec3 origin = Vec3::Zero();       ///< origin [m]
   double strength = 0, radius = 0;  ///< C; radius [m]
 };
 
@@ -25,15 +25,15 @@ struct VortexList {
 
 /// The tag `<gaussianTemperature>`: T = 300 K + A exp(-(x - x0)^2 / (2 s_x^2) - (y - y0)^2 / (2 s_y^2)), everywhere.
 struct GaussianTemperature {
-  double amplitude = 0;             ///< K
-  Vec3 origin = Vec3::Zero();       ///< m
-  double spreadX = 0, spreadY = 0;  ///< m
+  double amplitude = 0;             ///< amplitude [K]
+  Vec3 origin = Vec3::Zero();       ///< origin [m]
+  double spreadX = 0, spreadY = 0;  ///< spread x and spread y [m]
 };
 
 /// The tag `<counterflow>`: v_x = -a (x - m_x), v_y = a (y - m_y), where m is half the lengths of the grid.
 /// Source: C. S. Yoo, Y. Wang, A. Trouvé & H. G. Im, Combust. Theory Model. 9 (2005) 617.
 struct Counterflow {
-  double strainRate = 0;  ///< a, 1/s
+  double strainRate = 0;  ///< strain rate a [1/s]
 };
 
 /// The tag `<manufacturedSolution>`: mms_1 is a row of vortices of amplitude A in a wind of 1 m/s along x and y, with
@@ -41,15 +41,15 @@ struct Counterflow {
 /// angle (M. E. Brachet & al., J. Fluid Mech. 130 (1983) 411).
 struct Manufactured {
   std::string type;
-  double amplitude = 1;  ///< A, m/s
+  double amplitude = 1;  ///< amplitude A [m/s]
   double angle = 0;
 };
 
 /// The properties of the gas and the grid that initial states need.
 struct StartPlace {
-  double density = 0;          ///< kg/m³
-  double gasConstant = 0;      ///< R, J/(kg K)
-  Vec3 middle = Vec3::Zero();  ///< half the lengths of the grid, m
+  double density = 0;          ///< density [kg/m³]
+  double gasConstant = 0;      ///< gas constant R [J/(kg K)]
+  Vec3 middle = Vec3::Zero();  ///< half the lengths of the grid [m]
 };
 
 /// The tag `<customInitialization>`.

@@ -28,7 +28,7 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleErrorEstimate(TaskList& tasks) const;
   void scheduleRefine(TaskList& tasks) const;
   bool isImplicit() const { return settings_.implicit.has_value(); }
-  /// Whether cells count the time until a flame has crossed them.
+  /// Whether each cell counts the time until a flame has crossed it.
   bool waitsForFlames() const { return hasCracks() && settings_.burning->model.ddt()->induction; }
 
  private:

@@ -19,7 +19,7 @@ struct Burning {
 
 /// Diffusion coefficients of the gas around bodies.
 struct GasDiffusion {
-  euler::VaryingDiffusion alone = {};         ///< diffusion of a single gas; for several gases, only the eddies
+  euler::VaryingDiffusion alone = {};  ///< diffusion of a single gas; for several gases, only the eddies
   /// Diffusion of each of several gases: a cell has the mean weighted by volume fractions.
   std::vector<euler::Diffusion> ofEach = {};
 
@@ -40,7 +40,7 @@ struct GasDiffusion {
 struct Settings {
   euler::Settings gas;
   double referencePressure = 0;  ///< pressure of the surroundings, which exerts no force on bodies [Pa]
-  Vec3 gravity = Vec3::Zero();   ///< m/s²
+  Vec3 gravity = Vec3::Zero();   ///< gravity [m/s²]
   ice::HeatCoefficients heat;    ///< coefficients of heat exchange: first the bodies in their order, then the gases
   bool thinWalls = false;        ///< whether bodies thinner than a cell also block the gas
   bool areRigid = false;         ///< whether bodies keep their velocities, unaffected by the gas

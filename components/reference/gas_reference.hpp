@@ -8,10 +8,10 @@ namespace tushar::reference {
 
 /// The state of a gas at a point, or its mean over a box.
 struct GasState {
-  double density = 0;            ///< kg/m^3
-  Vec3 velocity = Vec3::Zero();  ///< m/s
-  double pressure = 0;           ///< Pa
-  double energy = 0;             ///< internal energy per mass, J/kg
+  double density = 0;            ///< density [kg/m^3]
+  Vec3 velocity = Vec3::Zero();  ///< velocity [m/s]
+  double pressure = 0;           ///< pressure [Pa]
+  double energy = 0;             ///< internal energy per mass [J/kg]
 };
 
 /// A solution of the gas equations with which the results of runs are compared.

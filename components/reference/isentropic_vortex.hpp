@@ -26,7 +26,7 @@ class IsentropicVortex : public GasReference {
 
  private:
   IsentropicVortexProblem problem_;
-  double temperature_;  ///< p0 / rho0, m²/s²
+  double temperature_;  ///< p0 / rho0 [m²/s²]
 };
 
 }  // namespace tushar::reference

@@ -9,7 +9,7 @@ namespace tushar::reference {
 /// A point that moves at a constant velocity through a periodic grid.
 struct MovingFrame {
   Vec3 start = Vec3::Zero();     ///< position at t = 0 [m]
-  Vec3 velocity = Vec3::Zero();  ///< m/s
+  Vec3 velocity = Vec3::Zero();  ///< velocity [m/s]
   Vec3 periods = Vec3::Zero();   ///< lengths along x, y, z after which the grid repeats [m]; 0 if it does not
 
   /// The vector to `x` from the nearest image of the point at time `t` [s], in m.

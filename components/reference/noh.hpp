@@ -10,7 +10,7 @@ struct NohProblem {
   double speed = 1;            ///< inward speed [m/s]
   double pressure = 0;         ///< pressure at t = 0 [Pa]; must be small compared with density speed²
   double gamma = 5.0 / 3;      ///< ratio of specific heats
-  Vec3 centre = Vec3::Zero();  ///< m
+  Vec3 centre = Vec3::Zero();  ///< centre [m]
   Vec3 round = Vec3(1, 0, 0);  ///< 1 along the 1, 2 or 3 axes in which the distance from the centre is measured
 };
 

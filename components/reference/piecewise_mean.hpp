@@ -23,8 +23,8 @@ struct Plane {
 /// A sphere, or a circle or a pair of points extended along the other axes, across which fields or their slopes jump.
 struct Sphere {
   static constexpr bool curved = true;
-  Vec3 centre;        ///< m
-  double radius = 0;  ///< m
+  Vec3 centre;        ///< centre [m]
+  double radius = 0;  ///< radius [m]
   Vec3 round;         ///< 1 along the axes in which the distance from the centre is measured, 0 along the others
 
   bool cuts(const Vec3& lower, const Vec3& upper) const;
@@ -42,7 +42,7 @@ class PiecewiseMean {
       if (surface.cuts(lower, upper)) surfaces_.push_back(surface);
   }
 
-  /// Mean over the axes from `axis` on, the earlier coordinates being those of `x`.
+  /// Mean over the axes from `axis` on; the earlier coordinates are those of `x`.
   Fields over(int axis, Vec3 x) const {
     if (axis == 3) return toFields(gas_.at(x, time_));
     if (surfaces_.empty() && upper_[axis] > lower_[axis]) return overWhole(axis, x);

@@ -6,10 +6,10 @@ namespace tushar::reference {
 
 /// The state of a gas at a distance from a centre; the gas flows along the radius.
 struct RadialState {
-  double density = 0;   ///< kg/m^3
+  double density = 0;   ///< density [kg/m^3]
   double velocity = 0;  ///< outward velocity [m/s]
-  double pressure = 0;  ///< Pa
-  double energy = 0;    ///< internal energy per mass, J/kg
+  double pressure = 0;  ///< pressure [Pa]
+  double energy = 0;    ///< internal energy per mass [J/kg]
 };
 
 /// A gas whose state depends only on the distance from a centre, with one shock: between planes, around a line or

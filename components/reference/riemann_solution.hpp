@@ -5,14 +5,14 @@ namespace tushar::reference {
 /// A stiffened gas, p = (gamma - 1) rho e - gamma stiffness; with stiffness 0 an ideal gas.
 struct GasLaw {
   double gamma = 1.4;    ///< ratio of specific heats
-  double stiffness = 0;  ///< p_inf, Pa
+  double stiffness = 0;  ///< stiffness p_inf [Pa]
 };
 
 /// One side of a Riemann problem.  density = pressure = 0 is vacuum; pressure = 0 alone is a cold gas.
 struct RiemannState {
-  double density = 0;   ///< kg/m^3
+  double density = 0;   ///< density [kg/m^3]
   double velocity = 0;  ///< velocity along the axis of the problem [m/s]
-  double pressure = 0;  ///< Pa
+  double pressure = 0;  ///< pressure [Pa]
 };
 
 enum class WaveKind { shock, rarefaction };

@@ -8,11 +8,11 @@ namespace tushar::reference {
 
 /// Energy released instantaneously in a plane, along a line or at a point of a uniform gas at rest.
 struct SedovProblem {
-  double density = 1;   ///< density of the gas at rest, kg/m^3
-  double pressure = 0;  ///< pressure of the gas [Pa]; it has no effect on the blast, so it must be negligible
-  double energy = 1;    ///< total energy: of a plane (both sides of it) [J/m²], of a line [J/m], of a point [J]
-  double gamma = 1.4;   ///< ratio of specific heats
-  Vec3 centre = Vec3::Zero();  ///< m
+  double density = 1;          ///< density of the gas at rest [kg/m^3]
+  double pressure = 0;         ///< pressure of the gas [Pa]; it has no effect on the blast, so it must be negligible
+  double energy = 1;           ///< total energy: of a plane (both sides of it) [J/m²], of a line [J/m], of a point [J]
+  double gamma = 1.4;          ///< ratio of specific heats
+  Vec3 centre = Vec3::Zero();  ///< centre [m]
   Vec3 round = Vec3(1, 1, 1);  ///< 1 along the 1, 2 or 3 axes in which the distance from the centre is measured
 };
 

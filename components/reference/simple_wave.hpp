@@ -10,13 +10,13 @@ namespace tushar::reference {
 struct SimpleWaveProblem {
   /// Initial velocity u(x, 0) along `axis` [m/s]; smooth and defined for every x [m].
   std::function<double(double)> velocity;
-  double density = 1;                      ///< rho0 of the gas at rest, kg/m^3
-  double soundSpeed = 1;                   ///< c0 of the gas at rest, m/s
-  double gamma = 1.4;                      ///< ratio of specific heats
+  double density = 1;     ///< rho0 of the gas at rest [kg/m^3]
+  double soundSpeed = 1;  ///< c0 of the gas at rest [m/s]
+  double gamma = 1.4;     ///< ratio of specific heats
   /// Start of the interval in which the profile is searched for its steepest descent [m].
   double lower = 0;
-  double upper = 1;                        ///< end of that interval [m]
-  int axis = 0;                            ///< axis of the wave: 0, 1 or 2
+  double upper = 1;  ///< end of that interval [m]
+  int axis = 0;      ///< axis of the wave: 0, 1 or 2
 };
 
 /// The exact solution of a simple wave, until it breaks.

@@ -9,10 +9,10 @@ namespace tushar::reference {
 
 /// Cell means of a gas at one time on a uniform grid.
 struct GasTable {
-  Vec3 lower, upper;            ///< m
+  Vec3 lower, upper;  ///< lower corner and upper corner [m]
   /// Number of cells along x, y, z; along an axis with one cell, the gas is uniform without end.
   Index3 cells;
-  double time = 0;              ///< s
+  double time = 0;              ///< time [s]
   std::vector<GasState> means;  ///< cell means, x fastest, z slowest
 };
 
@@ -49,7 +49,7 @@ class Tabulated : public GasReference {
   GasState sum(const std::vector<Share>& x, const std::vector<Share>& y, const std::vector<Share>& z) const;
 
   GasTable table_;
-  Vec3 spacing_;  ///< m
+  Vec3 spacing_;  ///< spacing [m]
 };
 
 }  // namespace tushar::reference

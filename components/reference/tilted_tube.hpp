@@ -42,7 +42,7 @@ class TiltedTube : public GasReference {
   RiemannProblem problem_;
   TubePlacement placement_;
   double side_ = 1;         ///< 1 if the tube is above its mirror, -1 if it is below
-  double meetingTime_ = 0;  ///< s
+  double meetingTime_ = 0;  ///< meeting time [s]
 };
 
 }  // namespace tushar::reference

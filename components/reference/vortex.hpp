@@ -8,8 +8,8 @@ namespace tushar::reference {
 
 /// The settings that are common to all vortices of gas.
 struct VortexProblem {
-  double density = 1;   ///< rho0, kg/m^3
-  double pressure = 1;  ///< p0, Pa
+  double density = 1;   ///< density rho0 [kg/m^3]
+  double pressure = 1;  ///< pressure p0 [Pa]
   double gamma = 1.4;   ///< ratio of specific heats
   double radius = 1;    ///< radius at which the speed around the centre is largest [m]
   int axis = 2;         ///< axis of rotation, along which nothing varies: 0, 1 or 2

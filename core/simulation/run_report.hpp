@@ -21,7 +21,7 @@ class RunReport {
   void endLoop(double outputSeconds);
 
   /// The report, except how the run ended, its outputs, and the patches that changed ranks. `fileMemory` is by how much
-  /// outputs and checkpoints have raised the peak of this rank's memory, bytes.
+  /// outputs and checkpoints have raised the peak of this rank's memory [bytes].
   report::Report make(double fileMemory = 0);
 
  private:

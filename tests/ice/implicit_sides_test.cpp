@@ -49,7 +49,7 @@ class Line {
     limitImplicitStep<1>(patch(), method_, settings_, before(), 0, seen<const double>(pressure_, 1), dt);
     return dt.value;
   }
-  /// The momentum after a step in which no pressure changes, kg/(m² s).
+  /// The momentum after a step in which no pressure changes [kg/(m² s)].
   std::vector<double> momentumAfter(double dt) {
     std::vector<double> density(4), energy(4), change(4), pushed;
     std::vector<Vec<1>> momentum(4);

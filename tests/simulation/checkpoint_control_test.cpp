@@ -8,7 +8,7 @@ namespace {
 
 struct Moment {
   int step;
-  double time, wallTime;  ///< s
+  double time, wallTime;  ///< time and wall time [s]
 };
 
 /// A checkpoint is not yet due at `before`, and due at `after`.

@@ -26,7 +26,7 @@ namespace {
 struct Planted {
   double value;
   ParticleId id;
-  double from;  ///< s
+  double from;  ///< from [s]
 };
 
 /// A component with one task more: it spoils the internal energy of one particle.

@@ -33,9 +33,9 @@ template <int D>
 struct DiffusingCell {
   State<D> w{};             ///< T (in place of the density) and v
   Diffusion how;            ///< viscosity and conductivity without eddies
-  double density = 0;       ///< kg/m³
-  double specificHeat = 0;  ///< c_v, J/(kg K)
-  double soundSpeed = 0;    ///< m/s
+  double density = 0;       ///< density [kg/m³]
+  double specificHeat = 0;  ///< specific heat c_v [J/(kg K)]
+  double soundSpeed = 0;    ///< speed of sound [m/s]
 };
 
 /// Computes the diffusive fluxes of blocks of cells whose viscosity and conduction differ: the coefficients at a face

@@ -23,10 +23,10 @@ struct FractionRegion {
 /// One of the two gases.
 struct BinaryGas {
   double density = 0;       ///< initial density [kg/m³]
-  double specificHeat = 0;  ///< c_v, J/(kg K)
-  double gasConstant = 0;   ///< R, J/(kg K)
-  double viscosity = 0;     ///< Pa s
-  double conductivity = 0;  ///< W/(m K)
+  double specificHeat = 0;  ///< specific heat c_v [J/(kg K)]
+  double gasConstant = 0;   ///< gas constant R [J/(kg K)]
+  double viscosity = 0;     ///< viscosity [Pa s]
+  double conductivity = 0;  ///< conductivity [W/(m K)]
 };
 
 /// `<Model type="BinaryProperties">`: two ideal gases A and B at one temperature. With the mass fraction f of B, c_v

@@ -23,7 +23,7 @@ struct WarmThings {
 
   Vector mass;           ///< mass per volume of the cell [kg/m³]
   Vector capacity;       ///< heat capacity at constant volume, per volume of the cell [J/(m³ K)]
-  Vector temperature;    ///< K
+  Vector temperature;    ///< temperature [K]
   Vector volume;         ///< volume fraction of the cell
   Vector expansion;      ///< m R of gases that share their volume [J/(m³ K)]; 0 for bodies
   Vector stiffPressure;  ///< p + p_inf of the gases that share their volume [Pa]

@@ -11,7 +11,7 @@ namespace tushar::ice {
 struct Transfer {
   std::size_t from = 0, to = 0;
   double rate = 0;       ///< converted fraction per unit time [1/s]
-  double startTime = 0;  ///< s
+  double startTime = 0;  ///< start time [s]
 };
 
 /// Moves the fraction rate dt of a gas, at most all of it, to another one, with its volume: Uintah's model "Test". As

@@ -15,8 +15,8 @@ namespace tushar::ice {
 struct ProgrammedBurn {
   Location where;  ///< in the scene
   std::string from, to;
-  double speed = 0;               ///< D, m/s
-  double heat = 0;                ///< J/kg
+  double speed = 0;               ///< speed D [m/s]
+  double heat = 0;                ///< heat [J/kg]
   Vec3 start = Vec3::Zero();      ///< point of ignition [m]
   Vec3 direction = Vec3::Zero();  ///< normal of the plane of ignition; 0 for ignition at a point
   bool burnsInMixedCells = true;  ///< whether cells that contain another gas burn

@@ -24,16 +24,16 @@ struct GasObject {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
   Index3 particlesPerCell{{1, 1, 1}};  ///< number of particles per cell along x, y, z
-  input::Expression density;           ///< kg/m³
-  input::Expression pressure;          ///< Pa
-  input::VectorExpression velocity;    ///< m/s
+  input::Expression density;           ///< density [kg/m³]
+  input::Expression pressure;          ///< pressure [Pa]
+  input::VectorExpression velocity;    ///< velocity [m/s]
   Placement placement = Placement::midpoint;
   int seed = 0;  ///< seed for random positions
 };
 
 /// A heat source, de/dt = -rate (e - internalEnergy), such as radiation or a wall at constant temperature.
 struct Relaxation {
-  double rate = 0;            ///< 1/s
+  double rate = 0;            ///< rate [1/s]
   double internalEnergy = 0;  ///< internal energy that is approached [J/kg]
 };
 
@@ -47,7 +47,7 @@ struct Relaxation {
 struct Gas {
   std::string name;
   double gamma = 1.4;    ///< ratio of specific heats
-  double pInfinity = 0;  ///< Pa
+  double pInfinity = 0;  ///< p_inf [Pa]
   double carried = 0;    ///< part of p_inf that is included in the energy stored by particles [Pa]: 0 or all
   Location where;        ///< location of the constitutive model in the scene
   std::vector<GasObject> objects;

@@ -59,7 +59,7 @@ struct Linear {
 template <int D>
 struct CellFrame {
   Vec<D> origin;          ///< lower corner of the cell [m]
-  Vec<D> inverseSpacing;  ///< 1/m
+  Vec<D> inverseSpacing;  ///< inverse spacing [1/m]
 
   CellFrame(const Level& level, const Index<D>& cell) {
     for (int d = 0; d < D; ++d) {

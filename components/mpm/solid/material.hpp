@@ -15,8 +15,8 @@ struct Body {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
   Index3 particlesPerCell{{1, 1, 1}};  ///< number of particles per cell along x, y, z
-  input::VectorExpression velocity;    ///< m/s
-  input::Expression temperature;       ///< K
+  input::VectorExpression velocity;    ///< velocity [m/s]
+  input::Expression temperature;       ///< temperature [K]
   double color = 0;
   int levels = 1;  ///< number of particle sizes that fill the shape; negative: no particle extends beyond the shape
   /// Rows of A, and b: the body's particles start at A X + b [m] instead of X.
@@ -56,10 +56,10 @@ struct Material {
   int index = 0;       ///< index of the material in the scene
   double density = 0;  ///< initial density [kg/m^3]
   std::shared_ptr<const Model> model;
-  double specificHeat = 0;         ///< J/(kg K)
-  double meltTemperature = 0;      ///< K
-  double roomTemperature = 0;      ///< K
-  double thermalConductivity = 0;  ///< W/(m K)
+  double specificHeat = 0;         ///< specific heat [J/(kg K)]
+  double meltTemperature = 0;      ///< melting temperature [K]
+  double roomTemperature = 0;      ///< room temperature [K]
+  double thermalConductivity = 0;  ///< thermal conductivity [W/(m K)]
   double thermalExpansion = 0;     ///< coefficient of linear expansion [1/K]
   bool isRigid = false;            ///< whether the stress exerts no force
   bool transmitsForce = false;     ///< whether the material moves as one rigid body under the sum of the forces on it

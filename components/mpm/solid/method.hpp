@@ -21,11 +21,11 @@ struct Method {
   bool xpic = false;              ///< whether velocities are updated by XPIC of order 2
   bool affine = false;            ///< whether velocities are transferred to the grid by APIC
   bool projectsGradient = false;  ///< whether velocities are transferred to the grid with their gradients
-  Vec3 gravity = Vec3::Zero();    ///< m/s^2
-  double damping = 0;             ///< artificial_damping_coeff, 1/s
+  Vec3 gravity = Vec3::Zero();    ///< gravity [m/s^2]
+  double damping = 0;             ///< artificial_damping_coeff [1/s]
   std::optional<ArtificialViscosity> viscosity;
-  double minimumMassForAcceleration = 1e-199;     ///< kg
-  std::optional<double> maximumParticleVelocity;  ///< m/s
+  double minimumMassForAcceleration = 1e-199;     ///< minimum mass for acceleration [kg]
+  std::optional<double> maximumParticleVelocity;  ///< maximum particle velocity [m/s]
   /// Whether particles that are turned inside out or thrown out are removed; otherwise the run ends.
   bool removesLost = true;
   /// Smallest number of substeps for F; -n: F follows from the series of exp(L dt) up to the power n instead.
@@ -35,8 +35,8 @@ struct Method {
   bool keepsSizes = false;         ///< whether each particle stores its size
   /// Whether sizes are stored as edges in any direction, where shape functions follow them.
   bool keepsDomains = false;
-  double meanWidth = 0;            ///< mean cell width over x, y, z [m]: the length in the artificial viscosity
-  bool viscosityHeats = false;     ///< whether artificial viscosity heats particles (artificial_viscosity_heating)
+  double meanWidth = 0;         ///< mean cell width over x, y, z [m]: the length in the artificial viscosity
+  bool viscosityHeats = false;  ///< whether artificial viscosity heats particles (artificial_viscosity_heating)
   /// Number of cells within the largest length of capability::Nonlocal; 0 if there is none.
   int nonlocalLayers = 0;
   /// keepPressBCNormalToSurface: whether pressures rotate with the bodies on which they act

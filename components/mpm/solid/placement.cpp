@@ -28,7 +28,7 @@ Vec3 inCells(const Level& level) {
 
 /// A particle of a cell that is being filled.
 struct Filling {
-  Vec3 at, spacing;  ///< m
+  Vec3 at, spacing;  ///< position and spacing [m]
   double share;      ///< ratio of its extent to that of the largest particle [1]
 };
 

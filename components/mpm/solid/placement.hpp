@@ -14,7 +14,7 @@ struct Body;
 
 /// A particle that does not start at the centre of an equal part of a cell.
 struct Seed {
-  Vec3 at = Vec3::Zero();            ///< m
+  Vec3 at = Vec3::Zero();            ///< position [m]
   Matrix3 domain = Matrix3::Zero();  ///< edges of the particle in cells, one per column
   double volume = 0;                 ///< volume of the particle, in cells
 };

@@ -8,7 +8,7 @@ namespace tushar::mpm::solid {
 
 /// The `PhysicalConstants` section.
 struct PhysicalConstants {
-  Vec3 gravity = Vec3::Zero();  ///< m/s^2
+  Vec3 gravity = Vec3::Zero();  ///< gravity [m/s^2]
 };
 /// The schema of the section; `besideGas`: the section also describes a gas, which another schema reads.
 const input::Schema<PhysicalConstants>& constantsSchema(bool besideGas = false);

@@ -10,11 +10,11 @@ namespace tushar::mpm::gas::conserving {
 template <int D>
 struct GasBox {
   ParticleId id;
-  Vec<D> x, edges;                      ///< centre and edge lengths, m
-  double mass;                          ///< kg
+  Vec<D> x, edges;                      ///< centre and edge lengths [m]
+  double mass;                          ///< mass [kg]
   Vec<D> velocity;                      ///< mean velocity [m/s]
   Modes<D> modes;                       ///< modes of the motion about the mean
-  double internalEnergy, affineEnergy;  ///< J/kg
+  double internalEnergy, affineEnergy;  ///< internal energy and affine energy [J/kg]
 };
 
 /// Views of the particles that redistribute reads.

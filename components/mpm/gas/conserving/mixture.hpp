@@ -18,10 +18,10 @@ using NodeViews = std::vector<NodeView<T>>;
 /// G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; for G and S alone: R. Abgrall, J. Comput. Phys. 125
 /// (1996) 150.
 struct Mixture {
-  double density = 0;    ///< kg/m³
+  double density = 0;    ///< density [kg/m³]
   double energy = 0;     ///< internal energy per volume [J/m³]
   double softness = 0;   ///< G
-  double stiffness = 0;  ///< S, J/m³
+  double stiffness = 0;  ///< stiffness S [J/m³]
 
   double pressure() const { return (energy - stiffness) / softness; }
   double soundSpeedSquared() const { return (pressure() * (1 + softness) + stiffness) / (softness * density); }

@@ -137,9 +137,9 @@ struct Gathered {
 
   std::array<LanesVec<D>, apic ? 1 : 1 << (Axis + 1)> moments;  ///< sums of y phi_a; for apic, only the first one
   std::array<FaceVelocity, Axis + 1> lower, upper;              ///< velocities of the faces across each axis
-  LanesVec<D> moving = LanesVec<D>::Zero();                     ///< mean of v + faceTime dt a over the nodes, m/s
-  Lanes slipEnergy = 0;                                         ///< beta (2 - beta) |r|² / 2, J/kg
-  Lanes square = 0;                                             ///< |y|², J/kg
+  LanesVec<D> moving = LanesVec<D>::Zero();                     ///< mean of v + faceTime dt a over the nodes [m/s]
+  Lanes slipEnergy = 0;                                         ///< beta (2 - beta) |r|² / 2 [J/kg]
+  Lanes square = 0;                                             ///< |y|² [J/kg]
 
   Gathered() {
     moments.fill(LanesVec<D>::Zero());

@@ -34,7 +34,7 @@ inline constexpr ReductionLabel<Maximum> massProjectionRatio{
 /// The position of a particle relative to a cell (0: lower face, 1: upper face), and its density.
 struct PlacedDensity {
   double place;
-  double density;  ///< kg/m³
+  double density;  ///< density [kg/m³]
 };
 
 /// The discrepancy D_2 of the particles of a cell, sorted by position:

@@ -9,8 +9,8 @@ template <int D>
 struct CellPlaces {
   Vec<D> middle;          ///< middle of the grid [m]
   Vec<D> half;            ///< position of the middle of the grid in cells, relative to cell centres
-  Vec<D> spacing;         ///< m
-  Vec<D> inverseSpacing;  ///< 1/m
+  Vec<D> spacing;         ///< spacing [m]
+  Vec<D> inverseSpacing;  ///< inverse spacing [1/m]
 
   explicit CellPlaces(const Level& level) {
     for (int d = 0; d < D; ++d) {
@@ -45,8 +45,8 @@ class ShapeFunctions {
   }
 
  private:
-  Vec<D> middle_;           ///< m
-  Vec<D> inverse_spacing_;  ///< 1/m
+  Vec<D> middle_;           ///< middle [m]
+  Vec<D> inverse_spacing_;  ///< inverse spacing [1/m]
 };
 
 }  // namespace tushar::mpm::gas::paper

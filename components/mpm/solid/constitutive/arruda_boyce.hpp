@@ -22,7 +22,7 @@ struct ArrudaBoyce8 {
   static constexpr std::string_view name = "ArrudaBoyce8";
   static constexpr bool strainEnergyIsRate = false;
 
-  double bulkModulus = 0;     ///< K, Pa
+  double bulkModulus = 0;     ///< bulk modulus K [Pa]
   double shearModulus = 0;    ///< G for chains that never lock [Pa]
   double lockingStretch = 0;  ///< l, locking stretch [1]
 

@@ -18,8 +18,8 @@ struct CnhMms {
   static constexpr std::string_view name = "cnh_mms";
   static constexpr bool strainEnergyIsRate = false;
 
-  double bulkModulus = 0;   ///< K, Pa
-  double shearModulus = 0;  ///< G, Pa
+  double bulkModulus = 0;   ///< bulk modulus K [Pa]
+  double shearModulus = 0;  ///< shear modulus G [Pa]
 
   static const input::Schema<CnhMms>& schema() {
     static const input::Schema<CnhMms> schema =
@@ -28,7 +28,7 @@ struct CnhMms {
             .required("shear_modulus", &CnhMms::shearModulus, "Pa", "G", input::positive());
     return schema;
   }
-  /// Lamé's first constant, Pa.
+  /// Lamé's first constant [Pa].
   double lambda() const { return bulkModulus - 2.0 / 3.0 * shearModulus; }
 
   State initialState() const { return {}; }

@@ -21,8 +21,8 @@ struct CompMooneyRivlin {
   static constexpr std::string_view name = "comp_mooney_rivlin";
   static constexpr bool strainEnergyIsRate = false;
 
-  double c1 = 0, c2 = 0;    ///< Pa
-  double poissonRatio = 0;  ///< nu, 1
+  double c1 = 0, c2 = 0;    ///< c1 and c2 [Pa]
+  double poissonRatio = 0;  ///< Poisson's ratio nu [1]
 
   static const input::Schema<CompMooneyRivlin>& schema() {
     static const input::Schema<CompMooneyRivlin> schema =

@@ -24,10 +24,10 @@ struct CompNeoHook {
   static constexpr std::string_view name = "comp_neo_hook";
   static constexpr bool strainEnergyIsRate = false;
 
-  double bulkModulus = 0;   ///< K, Pa
-  double shearModulus = 0;  ///< G, Pa
+  double bulkModulus = 0;   ///< bulk modulus K [Pa]
+  double shearModulus = 0;  ///< shear modulus G [Pa]
   bool startsUnderPressure = false;
-  double initialPressure = 0;  ///< Pa
+  double initialPressure = 0;  ///< initial pressure [Pa]
 
   static const input::Schema<CompNeoHook>& schema() {
     static const input::Schema<CompNeoHook> schema = [] {

@@ -106,7 +106,7 @@ consteval bool isConstitutiveModel() {
 /// - `initialState()`: the State of a particle at the start of the run.
 /// - `updateStress`: Cauchy stress at the end of the step, Pa, from that at the start of the step; brings the State to
 ///   the end of the step.
-/// - `waveSpeed`: of the fastest elastic wave, m/s, from the density at the start of the run, kg/m^3.
+/// - `waveSpeed`: of the fastest elastic wave, m/s, from the density at the start of the run [kg/m^3].
 /// - `strainEnergyDensity`: J per m^3 of the volume at the start of the run; a hyperelastic model returns W(F), any
 ///   other the increment of the step (`strainEnergyIsRate` true).
 ///

@@ -29,11 +29,11 @@ struct GursonPlastic;
 template <bool isHp>
 struct ElasticPlastic {
   struct State {
-    double plasticStrain;                                        ///< 1
-    double plasticStrainRate;                                    ///< 1/s
-    double strainRate;                                           ///< 1/s
-    double energy;                                               ///< J/kg
-    std::array<Tensor, MaxwellDeviator::greatestCount> maxwell;  ///< s_j of the Maxwell elements, Pa
+    double plasticStrain;                                        ///< plastic strain [1]
+    double plasticStrainRate;                                    ///< plastic strain rate [1/s]
+    double strainRate;                                           ///< strain rate [1/s]
+    double energy;                                               ///< energy [J/kg]
+    std::array<Tensor, MaxwellDeviator::greatestCount> maxwell;  ///< s_j of the Maxwell elements [Pa]
   };
   using Capabilities = CapabilityList<capability::AbsentVariables, capability::ConstantsOfMaterial,
                                       capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed,
@@ -54,8 +54,8 @@ struct ElasticPlastic {
   static constexpr bool strainEnergyIsRate = true;
 
   MaterialConstants material;
-  double bulkModulus = 0;           ///< K, Pa
-  double shearModulus = 0;          ///< G, Pa
+  double bulkModulus = 0;   ///< bulk modulus K [Pa]
+  double shearModulus = 0;  ///< shear modulus G [Pa]
   /// Taylor-Quinney coefficient, the fraction of the plastic work that becomes heat [1]
   double heatedShare = 0.9;
   double initialTemperature = 294;  ///< T_0 in the equation of state [K]
@@ -68,14 +68,14 @@ struct ElasticPlastic {
   SpecificHeatModel specificHeat;
   /// Yield condition; the model is GursonPlastic if it is GursonYield.
   std::variant<VonMisesYield, GursonYield> yieldCondition;
-  StabilityCheck stability;                                   ///< which loss of stability makes particles fail
+  StabilityCheck stability;  ///< which loss of stability makes particles fail
   /// Whether porosity evolves; this and the following: only with GursonYield.
   bool poresEvolve = true;
   /// Mean and standard deviation of the initial porosity f [1].
   double initialPorosity = 0.002, porosityDeviation = 0.002;
   /// Whether the initial porosity f is normally distributed.
   bool porositySpreads = false;
-  double nucleating = 0.1;                                    ///< f_N, volume fraction of void-nucleating particles [1]
+  double nucleating = 0.1;  ///< f_N, volume fraction of void-nucleating particles [1]
   /// e_N and s_N, mean and standard deviation of the nucleation strain [1]
   double nucleationStrain = 0.3, nucleationDeviation = 0.1;
 

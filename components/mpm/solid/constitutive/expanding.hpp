@@ -7,7 +7,7 @@ namespace tushar::mpm::solid {
 /// Thermal expansion of a body.
 struct ThermalExpansion {
   double coefficient = 0;           ///< alpha, coefficient of linear expansion [1/K]
-  double referenceTemperature = 0;  ///< T_0, K
+  double referenceTemperature = 0;  ///< reference temperature T_0 [K]
 
   /// The relative volume of a free body, J_T = (1 + alpha (T - T_0))^3.
   double volume(double temperature) const {

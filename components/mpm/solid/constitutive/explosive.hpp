@@ -10,8 +10,8 @@ namespace tushar::mpm::solid {
 
 /// An explosive before it burns, p = (J^-n - 1) / (n kappa): Murnaghan, Proc. Natl. Acad. Sci. 30 (1944) 244.
 struct Murnaghan {
-  double compressibility = 0;  ///< kappa, 1/Pa
-  double exponent = 0;         ///< n, 1
+  double compressibility = 0;  ///< kappa [1/Pa]
+  double exponent = 0;         ///< exponent n [1]
 
   /// Pressure [Pa] at relative volume J.
   double pressure(double j) const { return (std::pow(j, -exponent) - 1) / (exponent * compressibility); }
@@ -24,9 +24,9 @@ struct Murnaghan {
 /// The isentrope of the products, p = A exp(-R1 J) + B exp(-R2 J) + C J^-(1 + omega): Lee, Hornig & Kury, Adiabatic
 /// Expansion of High Explosive Detonation Products, UCRL-50422 (1968).
 struct Jwl {
-  double a = 0, b = 0, c = 0;  ///< A, B, C, Pa
-  double r1 = 0, r2 = 0;       ///< R1, R2, 1
-  double omega = 0;            ///< 1
+  double a = 0, b = 0, c = 0;  ///< A, B, C [Pa]
+  double r1 = 0, r2 = 0;       ///< R1, R2 [1]
+  double omega = 0;            ///< omega [1]
 
   /// Pressure [Pa] at relative volume J.
   double pressure(double j) const {

@@ -22,11 +22,11 @@ namespace tushar::mpm::solid {
 struct FibreElasticity {
   enum class Rubber { mooneyRivlin, verondaWestmann };
 
-  double bulkModulus = 0;                ///< K, Pa
+  double bulkModulus = 0;                ///< bulk modulus K [Pa]
   double c1 = 0, c2 = 0, c3 = 0;         ///< constants of the matrix [Pa]; for VerondaWestmann, c2 is dimensionless
-  double c4 = 0;                         ///< 1
-  double c5 = 0;                         ///< Pa
-  double straight = 1;                   ///< l*, 1
+  double c4 = 0;                         ///< c4 [1]
+  double c5 = 0;                         ///< c5 [Pa]
+  double straight = 1;                   ///< straight l* [1]
   std::array<double, 3> fibre{1, 0, 0};  ///< a, along x, y, z
   Rubber rubber = Rubber::mooneyRivlin;
 
@@ -96,7 +96,7 @@ struct FibreElasticity {
     change.diagonal().array() += bulkModulus * h.trace();
     return change;
   }
-  /// P-wave modulus of the undeformed body, Pa.
+  /// P-wave modulus of the undeformed body [Pa].
   double initialModulus() const {
     const RubberSlopes w = rubberSlopes(3);
     return bulkModulus + 8.0 / 3.0 * (w.byFirst + w.bySecond) + fibreSlope(1);

@@ -14,10 +14,10 @@ struct GursonPlastic {
   using Base = ElasticPlasticHp;
   struct State {
     double plasticStrain;      ///< plastic strain of the metal between the pores [1]
-    double plasticStrainRate;  ///< 1/s
-    double strainRate;         ///< 1/s
-    double energy;             ///< J/kg
-    double porosity;           ///< f, 1
+    double plasticStrainRate;  ///< plastic strain rate [1/s]
+    double strainRate;         ///< strain rate [1/s]
+    double energy;             ///< energy [J/kg]
+    double porosity;           ///< porosity f [1]
     double dilatation;         ///< plastic dilatation [1]
     double plasticWork;        ///< plastic work in the step [J/m^3]
   };

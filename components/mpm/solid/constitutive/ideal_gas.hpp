@@ -19,9 +19,9 @@ struct IdealGas {
   static constexpr ArtificialViscosity ownViscosity{0, 6.25};
 
   MaterialConstants material;
-  double ratio = 0;              ///< gamma, 1
-  double specificHeat = 0;       ///< c_v, J/(kg K)
-  double referencePressure = 0;  ///< Pa
+  double ratio = 0;              ///< gamma [1]
+  double specificHeat = 0;       ///< specific heat c_v [J/(kg K)]
+  double referencePressure = 0;  ///< reference pressure [Pa]
 
   static const input::Schema<IdealGas>& schema() {
     static const input::Schema<IdealGas> schema =

@@ -13,8 +13,8 @@ struct NoState {};
 
 /// Base of models whose waves are those of linear elasticity at the density of the step, rho = rho_0 / det F.
 struct IsotropicModuli {
-  double bulkModulus = 0;   ///< K, Pa
-  double shearModulus = 0;  ///< G, Pa
+  double bulkModulus = 0;   ///< bulk modulus K [Pa]
+  double shearModulus = 0;  ///< shear modulus G [Pa]
 
   /// Wave speed, c = sqrt((K + 4/3 G) / rho).
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const NoState&) const {

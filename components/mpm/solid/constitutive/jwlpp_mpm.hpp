@@ -28,15 +28,15 @@ struct JwlppMpm {
   static constexpr bool strainEnergyIsRate = true;
 
   MaterialConstants material;
-  double ignitionPressure = 0;               ///< Pa
+  double ignitionPressure = 0;               ///< ignition pressure [Pa]
   double compressibility = 0, exponent = 0;  ///< kappa [1/Pa] and n [1] of the explosive
   double a = 0, b = 0, c = 0;                ///< A, B, C of the products [Pa]
   double r1 = 0, r2 = 0, omega = 0;          ///< R1, R2, omega of the products [1]
-  double rate = 0;                           ///< G, 1/(s Pa^b)
-  double power = 0;                          ///< b, 1
+  double rate = 0;                           ///< rate G [1/(s Pa^b)]
+  double power = 0;                          ///< power b [1]
   double greatestFraction = 1;               ///< largest value of F [1]
   bool startsUnderPressure = false;
-  double initialPressure = 0;  ///< Pa
+  double initialPressure = 0;  ///< initial pressure [Pa]
 
   static const input::Schema<JwlppMpm>& schema() {
     static const input::Schema<JwlppMpm> schema = makeSchema();

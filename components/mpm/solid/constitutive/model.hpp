@@ -19,23 +19,24 @@ inline constexpr int stressGroup = 64;
 /// Particles that are consecutive in memory, and pointers to the results at the end of a step that the caller requests.
 struct StressPoints {
   int count = 0;
-  double timeStep = 0;  ///< s
+  double timeStep = 0;  ///< time step [s]
   const Matrix3* oldDeformationGradient = nullptr;
   const Matrix3* deformationGradient = nullptr;
-  const Matrix3* velocityGradient = nullptr;  ///< 1/s
-  const double* temperature = nullptr;        ///< [K]; null if no model uses it
-  const Matrix3* oldStress = nullptr;         ///< [Pa]; null if particles do not store it
-  Matrix3* stress = nullptr;                  ///< [Pa]; null if not requested
+  const Matrix3* velocityGradient = nullptr;  ///< velocity gradient [1/s]
+  const double* temperature = nullptr;        ///< temperature [K]; null if no model uses it
+  const Matrix3* oldStress = nullptr;         ///< old stress [Pa]; null if particles do not store it
+  Matrix3* stress = nullptr;                  ///< stress [Pa]; null if not requested
   double* state = nullptr;                    ///< input and output; stateStride numbers for each particle
   int stateStride = 0;
   // Only for models with capability::PlaceAndTime.
-  const Vec3* position = nullptr;         ///< m
-  const double* mass = nullptr;           ///< kg
-  double time = 0;                        ///< time at the start of the step [s]
-  double* waveSpeed = nullptr;            ///< m/s
-  double* bulkSpeed = nullptr;            ///< [m/s]; null if not requested
-  double* temperatureChange = nullptr;    ///< [K]; null if not requested
-  double* strainEnergyDensity = nullptr;  ///< [J/m^3], per volume at the start of the run; null if not requested
+  const Vec3* position = nullptr;       ///< position [m]
+  const double* mass = nullptr;         ///< mass [kg]
+  double time = 0;                      ///< time at the start of the step [s]
+  double* waveSpeed = nullptr;          ///< wave speed [m/s]
+  double* bulkSpeed = nullptr;          ///< bulk speed [m/s]; null if not requested
+  double* temperatureChange = nullptr;  ///< temperature change [K]; null if not requested
+  /// Strain energy density [J/m^3], per volume at the start of the run; null if not requested.
+  double* strainEnergyDensity = nullptr;
 
   bool wantsWaveSpeedOnly() const { return !stress && !bulkSpeed && !temperatureChange && !strainEnergyDensity; }
 };

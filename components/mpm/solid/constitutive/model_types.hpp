@@ -17,9 +17,9 @@ struct ArtificialViscosity {
 /// Constants that a scene gives for a material in addition to those of its constitutive model.
 struct MaterialConstants {
   double density = 0;            ///< density at the start of the run [kg/m^3]
-  double specificHeat = 0;       ///< J/(kg K)
-  double meltTemperature = 295;  ///< K
-  double roomTemperature = 294;  ///< K
+  double specificHeat = 0;       ///< specific heat [J/(kg K)]
+  double meltTemperature = 295;  ///< melting temperature [K]
+  double roomTemperature = 294;  ///< room temperature [K]
 };
 
 /// The deformation of one material point in one time step.
@@ -27,8 +27,8 @@ struct Deformation {
   Matrix3 deformationGradient;     ///< F at the end of the step [1]
   Matrix3 oldDeformationGradient;  ///< F at the start of the step [1]
   Matrix3 velocityGradient;        ///< L = dv_i/dx_j in the step [1/s]
-  double timeStep;                 ///< s
-  double temperature;              ///< K
+  double timeStep;                 ///< time step [s]
+  double temperature;              ///< temperature [K]
   // Only for a model with capability::PlaceAndTime.
   Vec3 position = Vec3::Zero();  ///< position at the start of the step [m]
   double mass = 0;               ///< mass [kg]; per radian in axisymmetric scenes
@@ -38,7 +38,7 @@ struct Deformation {
 /// Initial properties of a particle that may determine its State.
 struct Birth {
   ParticleId id = 0;
-  double color = 0;  ///< p.color, 1
+  double color = 0;  ///< p.color [1]
 };
 
 /// A variable of a model's State that a scene may save by its label.

@@ -25,9 +25,9 @@ namespace tushar::mpm::solid {
 /// Genuchten, Soil Sci. Soc. Am. J. 44 (1980) 892, and as much water stays in the pores.
 struct MohrCoulomb : IsotropicModuli {
   struct State {
-    double suction;         ///< s, Pa
+    double suction;         ///< suction s [Pa]
     double specificVolume;  ///< ratio of the volume of the soil, including pores, to that of its grains [1]
-    double cohesion;        ///< c, Pa
+    double cohesion;        ///< cohesion c [Pa]
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::OptionalState>;
   static constexpr std::array<StateVariable, 3> stateVariables{
@@ -37,22 +37,22 @@ struct MohrCoulomb : IsotropicModuli {
   static constexpr std::string_view name = "MohrCoulomb";
   static constexpr bool strainEnergyIsRate = true;
 
-  double cohesion = 0;       ///< c, Pa
-  double frictionAngle = 0;  ///< phi, degrees
-  double dilationAngle = 0;  ///< psi, degrees
+  double cohesion = 0;       ///< cohesion c [Pa]
+  double frictionAngle = 0;  ///< friction angle phi [degrees]
+  double dilationAngle = 0;  ///< dilation angle psi [degrees]
   bool isWet = false;        ///< whether the cohesion follows from the water content and the rate
-  double strength = 0;       ///< A1, Pa
-  double waterExponent = 0;  ///< B1, 1
-  double waterContent = 1;   ///< W, 1
-  double sensitivity = 1;    ///< St, 1
-  double rateExponent = 0;   ///< beta_rate, 1
-  double referenceRate = 0;  ///< g_ref, 1/s
+  double strength = 0;       ///< strength A1 [Pa]
+  double waterExponent = 0;  ///< water exponent B1 [1]
+  double waterContent = 1;   ///< water content W [1]
+  double sensitivity = 1;    ///< sensitivity St [1]
+  double rateExponent = 0;   ///< rate exponent beta_rate [1]
+  double referenceRate = 0;  ///< reference rate g_ref [1/s]
   bool retainsWater = false;
-  double retentionM = 0, retentionN = 0;  ///< m and n of the retention curve, 1
+  double retentionM = 0, retentionN = 0;  ///< m and n of the retention curve [1]
   double retentionAlpha = 0;              ///< alpha of the retention curve [1/Pa]
-  double suctionAngle = 0;                ///< PhiB, degrees
-  double initialSuction = 0;              ///< Pa
-  double initialSpecificVolume = 0;       ///< 1
+  double suctionAngle = 0;                ///< suction angle PhiB [degrees]
+  double initialSuction = 0;              ///< initial suction [Pa]
+  double initialSpecificVolume = 0;       ///< initial specific volume [1]
 
   static const input::Schema<MohrCoulomb>& schema() {
     static const input::Schema<MohrCoulomb> schema = makeSchema();

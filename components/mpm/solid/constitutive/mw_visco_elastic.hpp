@@ -17,8 +17,8 @@ namespace tushar::mpm::solid {
 /// the material; Uintah's do not.
 struct MwViscoElastic {
   struct State {
-    double pressure;  ///< p_v, Pa
-    Tensor deviator;  ///< s_v, Pa
+    double pressure;  ///< pressure p_v [Pa]
+    Tensor deviator;  ///< deviator s_v [Pa]
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed>;
   static constexpr std::array<StateVariable, 2> stateVariables{
@@ -29,8 +29,8 @@ struct MwViscoElastic {
 
   double springShear = 0, springBulk = 0;    ///< G_e and K_e of the spring [Pa]
   double maxwellShear = 0, maxwellBulk = 0;  ///< G_v and K_v of the Maxwell element [Pa]
-  double bulkViscosity = 0;                  ///< eta_v, Pa s
-  double shearViscosity = 0;                 ///< eta_d, Pa s
+  double bulkViscosity = 0;                  ///< bulk viscosity eta_v [Pa s]
+  double shearViscosity = 0;                 ///< shear viscosity eta_d [Pa s]
 
   static const input::Schema<MwViscoElastic>& schema() {
     using Self = MwViscoElastic;

@@ -21,8 +21,8 @@ namespace tushar::mpm::solid {
 struct NonlocalDruckerPrager {
   struct State {
     double plasticStrain;      ///< plastic strain: integral of l' [1]
-    double hardening;          ///< eta, Pa
-    double nonlocalHardening;  ///< eta_n, Pa
+    double hardening;          ///< hardening eta [Pa]
+    double nonlocalHardening;  ///< nonlocal hardening eta_n [Pa]
     double plasticIncrement;   ///< plastic strain in the step [1]
     double meanIncrement;      ///< mean plastic strain in the step within l_nonlocal [1]
   };
@@ -36,14 +36,14 @@ struct NonlocalDruckerPrager {
   static constexpr std::string_view name = "nonlocal_drucker_prager";
   static constexpr bool strainEnergyIsRate = true;
 
-  double bulkModulus = 0;                                       ///< K, Pa
-  double shearModulus = 0;                                      ///< G, Pa
-  double friction = 0;                                          ///< alpha, 1
-  double dilation = 0;                                          ///< alpha_p, 1
-  double strength = 0;                                          ///< k_o, Pa
-  double localModulus = 0;                                      ///< h_local, Pa
-  double nonlocalModulus = 0;                                   ///< h_nonlocal, Pa
-  double length = 0;                                            ///< l_nonlocal, m
+  double bulkModulus = 0;                                       ///< bulk modulus K [Pa]
+  double shearModulus = 0;                                      ///< shear modulus G [Pa]
+  double friction = 0;                                          ///< alpha [1]
+  double dilation = 0;                                          ///< alpha_p [1]
+  double strength = 0;                                          ///< strength k_o [Pa]
+  double localModulus = 0;                                      ///< local modulus h_local [Pa]
+  double nonlocalModulus = 0;                                   ///< nonlocal modulus h_nonlocal [Pa]
+  double length = 0;                                            ///< length l_nonlocal [m]
   double leastStrength = 0;                                     ///< smallest strength [Pa]
   double stressAlongX = 0, stressAlongY = 0, stressAlongZ = 0;  ///< initial normal stresses [Pa]
 

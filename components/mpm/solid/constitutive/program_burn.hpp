@@ -26,9 +26,9 @@ struct ProgramBurn {
   double compressibility = 0, exponent = 0;  ///< kappa [1/Pa] and n [1] of the explosive
   double a = 0, b = 0, c = 0;                ///< A, B, C of the products [Pa]
   double r1 = 0, r2 = 0, omega = 0;          ///< R1, R2, omega of the products [1]
-  double density = 0;                        ///< rho_0, kg/m^3
-  double detonationVelocity = 0;             ///< D, m/s
-  double ignitionTime = 0;                   ///< T0, s
+  double density = 0;                        ///< density rho_0 [kg/m^3]
+  double detonationVelocity = 0;             ///< detonation velocity D [m/s]
+  double ignitionTime = 0;                   ///< ignition time T0 [s]
   std::array<double, 3> origin{};            ///< x_0, point of ignition [m]
   /// Normal of the plane of ignition through x_0; 0: ignition at the point x_0.
   std::array<double, 3> direction{};

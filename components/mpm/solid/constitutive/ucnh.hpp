@@ -20,8 +20,8 @@ namespace tushar::mpm::solid {
 template <bool plasticByDefault>
 struct NeoHookPlastic {
   struct State {
-    double plasticStrain;  ///< alpha, equivalent plastic strain, 1
-    Tensor bElBar;         ///< J^(-2/3) F_e F_eᵀ: elastic and isochoric, 1
+    double plasticStrain;  ///< alpha, equivalent plastic strain [1]
+    Tensor bElBar;         ///< J^(-2/3) F_e F_eᵀ: elastic and isochoric [1]
   };
   using Capabilities =
       CapabilityList<capability::OptionalState, capability::IgnoresTemperature, capability::FBar,
@@ -32,17 +32,17 @@ struct NeoHookPlastic {
   static constexpr std::string_view name = plasticByDefault ? "comp_neo_hook_plastic" : "UCNH";
   static constexpr bool strainEnergyIsRate = false;
 
-  double bulkModulus = 0;   ///< K, Pa
-  double shearModulus = 0;  ///< G, Pa
+  double bulkModulus = 0;   ///< bulk modulus K [Pa]
+  double shearModulus = 0;  ///< shear modulus G [Pa]
   bool isPlastic = plasticByDefault;
   std::optional<double> yieldStress;       ///< Y, yield stress [Pa]; none: elastic
-  std::optional<double> hardeningModulus;  ///< H, Pa
-  double initialPlasticStrain = 0;         ///< 1
+  std::optional<double> hardeningModulus;  ///< hardening modulus H [Pa]
+  double initialPlasticStrain = 0;         ///< initial plastic strain [1]
   bool yieldSpreads = false;               ///< whether the yield stress differs between particles: see UcnhVar
-  double yieldRange = 0;                   ///< largest deviation from Y, Pa
+  double yieldRange = 0;                   ///< largest deviation from Y [Pa]
   int yieldSeed = 0;
   bool startsUnderPressure = false;
-  double initialPressure = 0;  ///< Pa
+  double initialPressure = 0;  ///< initial pressure [Pa]
 
   static const input::Schema<NeoHookPlastic>& schema() {
     using Self = NeoHookPlastic;
@@ -133,11 +133,11 @@ struct NeoHookPlastic {
  private:
   /// The elastic trial state, and the amount by which it exceeds the yield surface.
   struct Trial {
-    Matrix3 elastic;       ///< b, 1
-    Matrix3 stress;        ///< s = G dev b, Pa
+    Matrix3 elastic;       ///< elastic b [1]
+    Matrix3 stress;        ///< s = G dev b [Pa]
     Matrix3 normal;        ///< s / |s|
-    double size;           ///< |s|, Pa
-    double shear;          ///< mu, Pa
+    double size;           ///< |s| [Pa]
+    double shear;          ///< shear modulus mu [Pa]
     double hardening = 0;  ///< H / (3 mu)
     double excess = 0;     ///< q, the decrease of |s| by the return [Pa]
 

@@ -21,13 +21,13 @@ using ViscoplasticFlow = std::variant<SuvicI>;
 /// strain (I - b⁻¹)/2, or the mean stress exceeds failure_variable_mean.
 struct ViscoPlastic {
   struct State {
-    double plasticStrain;      ///< 1
-    double plasticStrainRate;  ///< 1/s
-    double yield;              ///< Pa
-    double drag;               ///< Pa
+    double plasticStrain;      ///< plastic strain [1]
+    double plasticStrainRate;  ///< plastic strain rate [1/s]
+    double yield;              ///< yield stress [Pa]
+    double drag;               ///< drag stress [Pa]
     double failed;             ///< 1 if the particle has failed
     double failureVariable;    ///< stress [Pa] or strain [1] at which the particle fails
-    Tensor backStress;         ///< Pa
+    Tensor backStress;         ///< back stress [Pa]
   };
   using Capabilities = CapabilityList<capability::ConstantsOfMaterial, capability::BulkSpeed,
                                       capability::InitialWaveSpeed, capability::TemperatureChange>;
@@ -44,8 +44,8 @@ struct ViscoPlastic {
   static constexpr double heatedShare = 0.9;  ///< Taylor-Quinney coefficient, as in Uintah [1]
 
   MaterialConstants material;
-  double bulkModulus = 0;   ///< K, Pa
-  double shearModulus = 0;  ///< G, Pa
+  double bulkModulus = 0;   ///< bulk modulus K [Pa]
+  double shearModulus = 0;  ///< shear modulus G [Pa]
   std::variant<HyperelasticVolume, HypoelasticVolume> equationOfState;
   ViscoplasticFlow flow;
   double initialTemperature = 269.15;  ///< reference temperature of the equation of state [K]

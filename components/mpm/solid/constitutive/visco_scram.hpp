@@ -19,11 +19,11 @@ namespace tushar::mpm::solid {
 /// The step is implicit in s, so that it is stable for any time step; without cracks it is exact.
 struct ViscoScram {
   struct State {
-    double crackRadius;               ///< c, m
-    double viscousHeating;            ///< K/s
-    double crackHeating;              ///< K/s
-    double volumeHeating;             ///< cooling by expansion, K/s
-    std::array<Tensor, 5> deviators;  ///< s_n, Pa
+    double crackRadius;               ///< crack radius c [m]
+    double viscousHeating;            ///< viscous heating [K/s]
+    double crackHeating;              ///< crack heating [K/s]
+    double volumeHeating;             ///< cooling by expansion [K/s]
+    std::array<Tensor, 5> deviators;  ///< deviators s_n [Pa]
   };
   using Capabilities = CapabilityList<capability::ConstantsOfMaterial, capability::BulkSpeed,
                                       capability::InitialWaveSpeed, capability::TemperatureChange>;
@@ -41,21 +41,21 @@ struct ViscoScram {
   static constexpr bool strainEnergyIsRate = true;
 
   MaterialConstants material;
-  double poissonRatio = 0;                                       ///< nu, 1
-  double crackScale = 0;                                         ///< a, m
-  double crackPower = 0;                                         ///< m, 1
-  double greatestCrackSpeed = 0;                                 ///< m/s
-  double toughness = 0;                                          ///< K_0, Pa m^(1/2)
-  double crackFriction = 0;                                      ///< mu, 1
-  double initialCrackRadius = 0;                                 ///< m
-  double tensileSpeedUp = 0;                                     ///< factor for cracks in tension, 1
-  double g1 = 0, g2 = 0, g3 = 0, g4 = 0, g5 = 0;                 ///< G_n, Pa
-  double rate1 = 0, rate2 = 0, rate3 = 0, rate4 = 0, rate5 = 0;  ///< 1/tau_n, 1/s
-  double gruneisen = 0;                                          ///< 1
+  double poissonRatio = 0;                                       ///< Poisson's ratio nu [1]
+  double crackScale = 0;                                         ///< crack scale a [m]
+  double crackPower = 0;                                         ///< crack power m [1]
+  double greatestCrackSpeed = 0;                                 ///< largest crack speed [m/s]
+  double toughness = 0;                                          ///< toughness K_0 [Pa m^(1/2)]
+  double crackFriction = 0;                                      ///< crack friction mu [1]
+  double initialCrackRadius = 0;                                 ///< initial crack radius [m]
+  double tensileSpeedUp = 0;                                     ///< factor for cracks in tension [1]
+  double g1 = 0, g2 = 0, g3 = 0, g4 = 0, g5 = 0;                 ///< G_n [Pa]
+  double rate1 = 0, rate2 = 0, rate3 = 0, rate4 = 0, rate5 = 0;  ///< 1/tau_n [1/s]
+  double gruneisen = 0;                                          ///< Grüneisen parameter [1]
   bool ratesFollowTemperature = false;
-  double shiftTemperature = 298;  ///< T_0 of Williams, Landel & Ferry, K
-  double shift1 = 6.5;            ///< C_1, 1
-  double shift2 = 120;            ///< C_2, K
+  double shiftTemperature = 298;  ///< T_0 of Williams, Landel & Ferry [K]
+  double shift1 = 6.5;            ///< shift1 C_1 [1]
+  double shift2 = 120;            ///< shift2 C_2 [K]
   /// Coefficient of linear expansion [1/K]; if it is not 0, the model is ExpandingViscoScram.
   double thermalExpansion = 0;
 
@@ -101,15 +101,15 @@ struct ViscoScram {
 
  private:
   struct Element {
-    double modulus;  ///< G_n, Pa
-    double rate;     ///< 1/tau_n, 1/s
+    double modulus;  ///< modulus G_n [Pa]
+    double rate;     ///< 1/tau_n [1/s]
   };
   using Elements = std::array<Element, 5>;
   /// The load in a step that opens the cracks.
   struct CrackLoad {
     double pressure;       ///< pressure on the faces of the cracks [Pa]; 0 in tension
     double stress;         ///< (s:s)^(1/2) under pressure, (sigma:sigma)^(1/2) in tension [Pa]
-    double greatestSpeed;  ///< m/s
+    double greatestSpeed;  ///< largest speed [m/s]
   };
 
   double shearModulus() const { return g1 + g2 + g3 + g4 + g5; }

@@ -20,8 +20,8 @@ namespace tushar::mpm::solid {
 struct ViscoTransIsoHyper : FibreElasticity {
   struct State {
     double stretch;                   ///< stretch of the fibres [1]
-    Tensor elasticStress;             ///< s_e, Pa
-    std::array<Tensor, 6> histories;  ///< h_k, Pa
+    Tensor elasticStress;             ///< elastic stress s_e [Pa]
+    std::array<Tensor, 6> histories;  ///< histories h_k [Pa]
   };
   using Capabilities = CapabilityList<capability::AbsentVariables, capability::IgnoresTemperature,
                                       capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed>;
@@ -38,8 +38,8 @@ struct ViscoTransIsoHyper : FibreElasticity {
   static constexpr std::string_view name = "visco_trans_iso_hyper";
   static constexpr bool strainEnergyIsRate = false;
 
-  double y1 = 0, y2 = 0, y3 = 0, y4 = 0, y5 = 0, y6 = 0;  ///< 1
-  double t1 = 0, t2 = 0, t3 = 0, t4 = 0, t5 = 0, t6 = 0;  ///< s
+  double y1 = 0, y2 = 0, y3 = 0, y4 = 0, y5 = 0, y6 = 0;  ///< y1, y2, y3, y4, y5 and y6 [1]
+  double t1 = 0, t2 = 0, t3 = 0, t4 = 0, t5 = 0, t6 = 0;  ///< t1, t2, t3, t4, t5 and t6 [s]
 
   static const input::Schema<ViscoTransIsoHyper>& schema() {
     static const input::Schema<ViscoTransIsoHyper> schema = makeSchema();
@@ -102,7 +102,7 @@ struct ViscoTransIsoHyper : FibreElasticity {
 
  private:
   struct Element {
-    double share;  ///< y_k, 1
+    double share;  ///< share y_k [1]
     double time;   ///< t_k [s]; 0: the element is omitted
   };
   Element element(int k) const {

@@ -17,9 +17,9 @@ struct Water {
   static constexpr std::string_view name = "water";
   static constexpr bool strainEnergyIsRate = true;
 
-  double bulkModulus = 0;  ///< K, Pa
-  double viscosity = 0;    ///< mu, Pa s
-  double exponent = 0;     ///< gamma, 1
+  double bulkModulus = 0;  ///< bulk modulus K [Pa]
+  double viscosity = 0;    ///< viscosity mu [Pa s]
+  double exponent = 0;     ///< gamma [1]
 
   static const input::Schema<Water>& schema() {
     static const input::Schema<Water> schema =

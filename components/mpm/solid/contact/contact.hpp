@@ -30,10 +30,10 @@ struct Motion {
 /// How materials interact where they share nodes: one `contact` of a scene.
 struct Contact {
   enum class Type {
-    singleVelocity,     ///< the materials move as one: no slip, no separation
-    specified,          ///< the materials follow a master, whose velocity may be given over time
-    friction,           ///< the materials separate freely and slide with Coulomb friction
-    planeFriction,      ///< like friction, along the plane that separates their particles (see SeparatingPlane)
+    singleVelocity,  ///< the materials move as one: no slip, no separation
+    specified,       ///< the materials follow a master, whose velocity may be given over time
+    friction,        ///< the materials separate freely and slide with Coulomb friction
+    planeFriction,   ///< like friction, along the plane that separates their particles (see SeparatingPlane)
     /// The materials separate from a master, whose velocity may be given, and slide on it along such planes.
     specifiedFriction,
   };
@@ -44,8 +44,8 @@ struct Contact {
   /// Whether the other materials follow the master along x, y, z.
   std::array<bool, 3> direction{false, false, true};
   bool directionIsGiven = false;                         ///< whether `direction` is given in the scene
-  double stopTime = std::numeric_limits<double>::max();  ///< s
-  Vec3 velocityAfterStop = Vec3::Zero();                 ///< m/s
+  double stopTime = std::numeric_limits<double>::max();  ///< stop time [s]
+  Vec3 velocityAfterStop = Vec3::Zero();                 ///< velocity after stop [m/s]
   /// The master's velocity over time [m/s]; empty: the master moves freely.
   Profile<Vec3> profile;
   /// Centre [m] and angular velocity [1/s] of the master's rotation; empty: no rotation.
@@ -65,8 +65,7 @@ struct Contact {
   bool oneNormal = true;
   bool keepsMomentum = false;   ///< friction only: one normal for all, and contact only if all stresses are compressive
   double separationFactor = 0;  ///< friction only: distance in cells beyond which bodies do not touch
-  double volumeConstraint =
-      0;  ///< friction only: fraction of the volume around a node that must be filled for contact
+  double volumeConstraint = 0;  ///< friction only: fraction of the volume around a node that must be filled for contact
 
   bool concerns(int material) const;
   /// The indices of those among the first `count` materials that take part.
@@ -96,7 +95,7 @@ void moveAsOne(const Patch& patch, const Contact& contact, const Records& record
 /// At nodes of the master, gives the other materials its velocity along the directions of the contact.
 template <int D>
 void followMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records);
-/// The velocity of the master at a node, m/s: its current velocity, unless its motion is prescribed.
+/// The velocity of the master at a node [m/s]: its current velocity, unless its motion is prescribed.
 template <int D>
 Vec<D> masterVelocity(const Patch& patch, const Contact& contact, const std::optional<Motion>& motion, double dt,
                       const Records& records, const Index<D>& node);
@@ -119,8 +118,8 @@ bool isExcluded(const Contact& contact, const Records& records, const Index<D>& 
 
 /// The causes of velocity changes in a step other than stresses and loads.
 struct Acceleration {
-  Vec3 gravity = Vec3::Zero();  ///< m/s^2
-  double damping = 0;           ///< 1/s
+  Vec3 gravity = Vec3::Zero();  ///< gravity [m/s^2]
+  double damping = 0;           ///< damping [1/s]
 };
 /// The force that holds a body at a node against its stresses and loads [N]: - m ((v* - v) / dt - g + damping v) of a
 /// record that holds v* and v.

@@ -16,8 +16,8 @@ struct Touch {
 /// The effect of friction on a body at a node.
 template <int D>
 struct FrictionImpulse {
-  Vec<D> change = Vec<D>::Zero();  ///< change of the velocity, m/s
-  double heat = 0;                 ///< kinetic energy dissipated by friction, J/kg
+  Vec<D> change = Vec<D>::Zero();  ///< change of the velocity [m/s]
+  double heat = 0;                 ///< kinetic energy dissipated by friction [J/kg]
 };
 
 /// A body that is pressed against others or approaches them does not penetrate them, and slides as far as friction with
@@ -30,9 +30,9 @@ template <int D>
 struct ContactSurface {
   /// sum_p m_p grad S_i [kg/m], pointing out of the body; in axisymmetric scenes [kg/m^4]
   NodeView<const Vec<D>> massGradient;
-  NodeView<const Vec<D>> position;      ///< sum_p S_i m_p x_p, kg m
-  NodeView<const Matrix3> stress;       ///< sum_p S_i sigma_p, Pa
-  NodeView<const double> volume;        ///< sum_p S_i V_p, including images beyond symmetry planes, m^3
+  NodeView<const Vec<D>> position;  ///< sum_p S_i m_p x_p [kg m]
+  NodeView<const Matrix3> stress;   ///< sum_p S_i sigma_p [Pa]
+  NodeView<const double> volume;    ///< sum_p S_i V_p, including images beyond symmetry planes [m^3]
 
   static ContactSurface from(auto& take) {
     return {.massGradient = take(requiresNew(g::massGradient<D>)),

@@ -10,11 +10,11 @@ namespace tushar::mpm::solid {
 
 /// The state of one particle at the end of a step that determines the growth of damage.
 struct DamageConditions {
-  const Matrix3& deformation;  ///< F, 1
-  double volume;               ///< m^3
-  double plasticStrainRate;    ///< 1/s
-  double temperature;          ///< K
-  double timeStep;             ///< s
+  const Matrix3& deformation;  ///< deformation F [1]
+  double volume;               ///< volume [m^3]
+  double plasticStrainRate;    ///< plastic strain rate [1/s]
+  double temperature;          ///< temperature [K]
+  double timeStep;             ///< time step [s]
 };
 
 /// Damage of one particle.
@@ -80,11 +80,11 @@ struct HancockMackenzieDamage {
 /// Strack, Int. J. Appl. Ceram. Technol. 7 (2010) 606; Uintah's `Brittle`.
 struct BrittleDamage {
   static constexpr std::string_view name = "Brittle";
-  double threshold = 57;         ///< r_0, Pa^(1/2)
-  double fractureEnergy = 11.2;  ///< G_f, J/m^2
-  double shape = 0.1;            ///< D, 1
-  double greatestStep = 0.1;     ///< largest growth of d in one step, 1
-  double young = 0;              ///< E, Pa
+  double threshold = 57;         ///< threshold r_0 [Pa^(1/2)]
+  double fractureEnergy = 11.2;  ///< fracture energy G_f [J/m^2]
+  double shape = 0.1;            ///< shape D [1]
+  double greatestStep = 0.1;     ///< largest growth of d in one step [1]
+  double young = 0;              ///< Young's modulus E [Pa]
 
   static const input::Schema<BrittleDamage>& schema();
   DamageState initial(double, ParticleId) const { return {0, threshold, false}; }
@@ -104,7 +104,7 @@ struct ThresholdDamage {
   bool scalesWithVolume = false;
   std::optional<double> referenceVolume;  ///< volume to which the threshold refers [m^3]
   std::optional<double> exponent;
-  double frictionAngle = 0;  ///< degrees
+  double frictionAngle = 0;  ///< friction angle [degrees]
   double tensileCutoff = 0;  ///< largest tension, as a fraction of the cohesion
   bool localizes = true;
 

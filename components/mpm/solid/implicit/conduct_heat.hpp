@@ -157,10 +157,10 @@ class NodalHeat {
   const OfRank<HeatedParticles<D>>& particles_;
   bool resets_grid_;
   NodeMap<D> nodes_;
-  std::vector<double> capacity_, before_, after_;  ///< J/K, K, K
+  std::vector<double> capacity_, before_, after_;  ///< heat capacity [J/K], temperature before and after the step [K]
   /// Smallest heat capacity of a node, for nodes to which particles contribute only gradients [J/K].
   double least_ = 0;
-  std::vector<std::optional<double>> given_;       ///< K
+  std::vector<std::optional<double>> given_;  ///< given temperatures [K]
 };
 
 /// Computes the rate of change of the nodal temperatures in the step. Throws NumericalError if the solver fails.

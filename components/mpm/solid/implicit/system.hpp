@@ -14,9 +14,9 @@ struct PointSources {
   PointGroup group;
   const Patch* patch = nullptr;
   Placed<D> placed;
-  const Vec<D>* velocity = nullptr;       ///< m/s
+  const Vec<D>* velocity = nullptr;       ///< velocity [m/s]
   const Vec<D>* acceleration = nullptr;   ///< acceleration [m/s^2]; null in the first step of a run, for 0
-  const Vec<D>* externalForce = nullptr;  ///< N
+  const Vec<D>* externalForce = nullptr;  ///< external force [N]
 };
 
 /// The equations of an implicit step: at its end the forces at each node balance,

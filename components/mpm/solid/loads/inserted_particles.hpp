@@ -10,10 +10,10 @@ namespace tushar::mpm::solid {
 
 /// An event at one time: the particles of one color move by a distance and get a new velocity.
 struct Insertion {
-  double time = 0;  ///< s
+  double time = 0;  ///< time [s]
   double color = 0;
-  Vec3 shift = Vec3::Zero();     ///< m
-  Vec3 velocity = Vec3::Zero();  ///< m/s
+  Vec3 shift = Vec3::Zero();     ///< shift [m]
+  Vec3 velocity = Vec3::Zero();  ///< velocity [m/s]
 
   /// Whether the insertion happens in the step of length `dt` [s] that begins at `start` [s].
   bool isIn(double start, double dt) const { return start <= time && time < start + dt; }

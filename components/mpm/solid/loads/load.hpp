@@ -64,8 +64,8 @@ struct SurfaceLoad {
 
 /// A tag `PhysicalBC/MPM/force`: a force per mass on the particles that start in a box or within one spacing of it.
 struct BodyLoad {
-  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< m
-  Vec3 forceDensity = Vec3::Zero();                 ///< N/kg
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< lower corner and upper corner [m]
+  Vec3 forceDensity = Vec3::Zero();                 ///< force density [N/kg]
 
   bool acts(const Vec3& point, const Vec3& spacing) const {
     return ((point - lower + spacing).array() >= 0).all() && ((upper + spacing - point).array() >= 0).all();

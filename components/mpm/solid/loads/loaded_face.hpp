@@ -12,7 +12,7 @@ namespace tushar::mpm::solid {
 
 /// The face of a particle on which a pressure acts.
 struct LoadedFace {
-  std::array<Vec3, 4> corners;  ///< m
+  std::array<Vec3, 4> corners;  ///< corners [m]
   double stretch;               ///< ratio of the face's area to its initial area
 };
 
@@ -29,7 +29,7 @@ struct ParticleBox {
 /// The forces of a particle's loads at the corners of one of its faces.
 struct CornerLoad {
   Vec3 force;                   ///< force [N], of which a quarter acts at each corner
-  std::array<Vec3, 4> corners;  ///< m
+  std::array<Vec3, 4> corners;  ///< corners [m]
 };
 
 /// The pressures and torques on a particle; `packed` contains their numbers in the form of p.loadCurveID. Without a

@@ -10,9 +10,9 @@ namespace tushar::mpm::solid {
 
 /// The constants of a linear or neo-Hookean elastic material.
 struct Elastic {
-  double lambda, shear;  ///< Lamé's constants, Pa
-  double young;          ///< Young's modulus, Pa
-  double density;        ///< at the start, kg/m^3
+  double lambda, shear;  ///< Lamé's constants [Pa]
+  double young;          ///< Young's modulus [Pa]
+  double density;        ///< at the start [kg/m^3]
 };
 
 /// The constants of a material with the model cnh_mms.

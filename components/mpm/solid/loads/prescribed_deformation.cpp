@@ -93,7 +93,7 @@ PrescribedDeformation::PrescribedDeformation(std::vector<Point> points) : points
 struct PrescribedDeformation::Moment {
   Matrix3 stretched, rate;  ///< F_s, and its time derivative [1/s]
   Matrix3 turned, now;      ///< Q_0 and Q
-  Matrix3 spin;             ///< dQ/dt Q^T, 1/s
+  Matrix3 spin;             ///< dQ/dt Q^T [1/s]
 };
 
 PrescribedDeformation::Moment PrescribedDeformation::at(double time) const {

@@ -15,8 +15,8 @@ namespace tushar::mpm::solid {
 class PrescribedDeformation {
  public:
   struct Point {
-    double time = 0;                            ///< s
-    Matrix3 deformation = Matrix3::Identity();  ///< F without the rotation, 1
+    double time = 0;                            ///< time [s]
+    Matrix3 deformation = Matrix3::Identity();  ///< F without the rotation [1]
     double angle = 0;                           ///< angle of the rotation since the previous point [degrees]
     Vec3 axis = Vec3::UnitX();                  ///< axis of this rotation, with length 1
   };

@@ -239,7 +239,7 @@ void startDeformation(const Patch& patch, const Material& material, const Start&
 }
 
 /// The initial stress of a particle [Pa]: if it starts under pressure, the stress that follows from its F and
-/// temperature (K), otherwise that of the model.
+/// temperature [K], otherwise that of the model.
 inline Matrix3 startStress(const Material& material, const Matrix3& f, double temperature, double* state) {
   if (material.model->initialVolumeRatio() == 1) return material.model->initialStress();
   const Matrix3 zero = Matrix3::Zero();

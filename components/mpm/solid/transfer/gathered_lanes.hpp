@@ -10,7 +10,7 @@ namespace tushar::mpm::solid {
 /// same as with Gathered.
 template <int D>
 struct GatheredLanes {
-  std::array<Lanes, D> after, before;            ///< sum_i S_i v*_i and sum_i S_i v_i, m/s
+  std::array<Lanes, D> after, before;            ///< sum_i S_i v*_i and sum_i S_i v_i [m/s]
   std::array<std::array<Lanes, D>, D> gradient;  ///< gradient of v* [1/s], by axis and component
 };
 

@@ -10,7 +10,7 @@ struct ShapeTraits {
   bool deform = false;     ///< whether shape functions follow F
   /// Number of layers of cells around a patch whose particles contribute to the nodes of the patch.
   int reach = 1;
-  int ghostNodes = 0;      ///< number of layers of nodes beyond those of a patch to which its particles contribute
+  int ghostNodes = 0;  ///< number of layers of nodes beyond those of a patch to which its particles contribute
 };
 template <class Shape>
 inline constexpr ShapeTraits traitsOf{Shape::hasSize, Shape::deforms, Shape::reach, Shape::ghostNodes};
@@ -18,7 +18,7 @@ inline constexpr ShapeTraits traitsOf{Shape::hasSize, Shape::deforms, Shape::rea
 /// Views of the particle variables of a material that shape functions read: positions, sizes and deformations.
 template <int D>
 struct Placed {
-  ParticleView<const Vec<D>> x;             ///< m
+  ParticleView<const Vec<D>> x;             ///< position [m]
   Sizes<D> size;                            ///< initial sizes
   OptionalView<const Matrix3> deformation;  ///< F [1], if shape functions follow it
 

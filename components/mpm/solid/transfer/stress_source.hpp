@@ -8,8 +8,8 @@ namespace tushar::mpm::solid {
 
 /// Stresses of particles that are contiguous in memory: stored stresses, or those that follow from F.
 struct StressSource {
-  const Matrix3* stress = nullptr;       ///< [Pa]; null if the stress is a function of F alone
-  const double* volume = nullptr;        ///< [m^3]; null if and only if `stress` is
+  const Matrix3* stress = nullptr;       ///< stress [Pa]; null if the stress is a function of F alone
+  const double* volume = nullptr;        ///< volume [m^3]; null if and only if `stress` is
   const Matrix3* deformation = nullptr;  ///< F [1]; null if and only if `stress` is not
 };
 

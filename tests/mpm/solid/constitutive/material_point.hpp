@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::solid::testing {
 
-/// A rotation about (1, 2, 3) by an angle, rad.
+/// A rotation about (1, 2, 3) by an angle [rad].
 inline Matrix3 rotation(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
 }

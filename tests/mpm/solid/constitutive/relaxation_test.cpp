@@ -8,7 +8,7 @@ namespace {
 
 constexpr double roundOff = 1e-12;  ///< some hundred operations, each exact to 1e-16
 constexpr double strain = 1e-3;
-constexpr double sudden = 1e-12;  ///< s; nothing relaxes by more than a part in 1e9 in it
+constexpr double sudden = 1e-12;  ///< sudden [s]; nothing relaxes by more than a part in 1e9 in it
 
 double equivalent(const Matrix3& stress) { return std::sqrt(1.5) * deviator(stress).norm(); }
 

@@ -10,7 +10,7 @@ namespace tushar::mpm::solid::arenisca {
 
 /// A stress given by its invariants, in the axes of its deviator.
 struct Invariants {
-  double i1, rootJ2;  ///< Pa
+  double i1, rootJ2;  ///< i1 and root j2 [Pa]
   LodeAngle theta;
 
   explicit Invariants(const Matrix3& stress) : i1(stress.trace()) {

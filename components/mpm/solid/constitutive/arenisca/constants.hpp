@@ -20,7 +20,7 @@ struct Constants {
   double b2 = 0;             ///< 3 times the pressure at which the bulk modulus increases [Pa]
   double b3 = 0,
          /// Reduction of the bulk modulus by plastic compaction [Pa], and the strain for that reduction [1].
-         b4 = 0;
+      b4 = 0;
   double g0 = 0;             ///< shear modulus [Pa]
   double g1 = 0, g2 = 0;     ///< Poisson's ratio at low pressure, and its increase at high pressure [1]; 0: G = g0
   double p0 = 0;             ///< I1 at which pores begin to collapse [Pa]
@@ -44,7 +44,7 @@ struct Constants {
   double matrixBulk() const { return b0 + b1; }
   /// phi_0, initial porosity.
   double porosity() const { return 1 - std::exp(-p3); }
-  /// C_1 = K_f (1 - phi_0) + K_m phi_0, Pa
+  /// C_1 = K_f (1 - phi_0) + K_m phi_0 [Pa]
   double mixedBulk() const { return fluidBulk * (1 - porosity()) + matrixBulk() * porosity(); }
   /// Whether a fluid fills the pores at a volumetric strain; at larger strains it is under tension and ruptures.
   bool isSaturated(double strain) const {

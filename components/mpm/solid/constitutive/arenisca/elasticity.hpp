@@ -105,7 +105,7 @@ inline double fluidStiffness(const Constants& c, double zeta, double plasticStra
           phi * fluid * std::exp((3 * c.fluidPressure + zeta) / (3 * fluid)));
 }
 
-/// Pressure of the fluid at a volumetric strain, Pa.
+/// Pressure of the fluid at a volumetric strain [Pa].
 inline double porePressure(const Constants& c, double strain) {
   if (!c.isSaturated(strain)) return 0;
   const double mixed = c.mixedBulk(), grains = std::exp(strain * c.fluidBulk / mixed),

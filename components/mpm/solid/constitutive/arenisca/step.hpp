@@ -131,7 +131,7 @@ class Substep {
   Matrix3 trial_stress_;
   Invariants trial_;
   double start_volume_;  ///< volumetric plastic strain
-  double stiffness_;     ///< stiffness of the fluid, Pa
+  double stiffness_;     ///< stiffness of the fluid [Pa]
 };
 
 /// Number of substeps for a step that leaves the yield surface with a tangent cap: `mostSubsteps` per 0.1 % of strain,

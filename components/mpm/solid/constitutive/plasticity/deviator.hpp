@@ -34,8 +34,8 @@ struct MaxwellDeviator {
   static constexpr int greatestCount = 5;
 
   int count = 0;
-  std::array<double, greatestCount> modulus{};  ///< mu_j, Pa
-  std::array<double, greatestCount> time{};     ///< tau_j, s
+  std::array<double, greatestCount> modulus{};  ///< modulus mu_j [Pa]
+  std::array<double, greatestCount> time{};     ///< time tau_j [s]
 
   static const input::Schema<MaxwellDeviator>& schema() {
     static const input::Schema<MaxwellDeviator> schema = makeSchema();

@@ -13,12 +13,12 @@ struct VolumeState {
   double oldMeanStress;       ///< mean stress at the start of the step [Pa], tension positive
   double dilatation;          ///< dilatation in the step, tr D dt [1]
   double volume;              ///< J at the end of the step [1]
-  double temperature;         ///< K
-  double initialTemperature;  ///< K
+  double temperature;         ///< temperature [K]
+  double initialTemperature;  ///< initial temperature [K]
   double energy;              ///< energy gained since the start [J/kg]
-  double bulkModulus;         ///< Pa
-  double density;             ///< rho_0, kg/m^3
-  double specificHeat;        ///< J/(kg K)
+  double bulkModulus;         ///< bulk modulus [Pa]
+  double density;             ///< density rho_0 [kg/m^3]
+  double specificHeat;        ///< specific heat [J/(kg K)]
 };
 
 /// Hypoelastic mean stress: p_new = p + K tr D dt, tension positive.
@@ -52,9 +52,9 @@ struct HyperelasticVolume {
 struct MieGruneisen {
   static constexpr std::string_view name = "mie_gruneisen_temperature";
 
-  double soundSpeed = 0;  ///< C_0, m/s
-  double gruneisen = 0;   ///< Gamma_0, 1
-  double slope = 0;       ///< S_alpha, 1
+  double soundSpeed = 0;  ///< speed of sound C_0 [m/s]
+  double gruneisen = 0;   ///< Gamma_0 [1]
+  double slope = 0;       ///< slope S_alpha [1]
 
   static const input::Schema<MieGruneisen>& schema() {
     static const input::Schema<MieGruneisen> schema =
@@ -81,9 +81,9 @@ struct MieGruneisen {
 struct MieGruneisenEnergy {
   static constexpr std::string_view name = "mie_gruneisen";
 
-  double soundSpeed = 0;          ///< C_0, m/s
-  double gruneisen = 0;           ///< Gamma_0, 1
-  double s1 = 0, s2 = 0, s3 = 0;  ///< 1
+  double soundSpeed = 0;          ///< speed of sound C_0 [m/s]
+  double gruneisen = 0;           ///< Gamma_0 [1]
+  double s1 = 0, s2 = 0, s3 = 0;  ///< s1, s2 and s3 [1]
 
   static const input::Schema<MieGruneisenEnergy>& schema() {
     using Self = MieGruneisenEnergy;

@@ -19,8 +19,8 @@ struct IsotropicHardening {
   using Capabilities = CapabilityList<capability::Hardening>;
   static constexpr std::string_view name = "isotropic_hardening";
 
-  double yieldStress = 0;  ///< sigma_Y, Pa
-  double modulus = 0;      ///< K, Pa
+  double yieldStress = 0;  ///< sigma_Y [Pa]
+  double modulus = 0;      ///< modulus K [Pa]
 
   static const input::Schema<IsotropicHardening>& schema() {
     static const input::Schema<IsotropicHardening> schema =
@@ -44,11 +44,11 @@ struct JohnsonCook {
   using Capabilities = CapabilityList<capability::Hardening>;
   static constexpr std::string_view name = "johnson_cook";
 
-  double a = 0, b = 0;            ///< Pa
-  double c = 0, n = 0, m = 0;     ///< 1
-  double referenceRate = 1;       ///< epdot_0, 1/s
-  double roomTemperature = 298;   ///< T_r, K
-  double meltTemperature = 1793;  ///< T_m, K
+  double a = 0, b = 0;            ///< a and b [Pa]
+  double c = 0, n = 0, m = 0;     ///< c, n and m [1]
+  double referenceRate = 1;       ///< epdot_0 [1/s]
+  double roomTemperature = 298;   ///< room temperature T_r [K]
+  double meltTemperature = 1793;  ///< melting temperature T_m [K]
 
   static const input::Schema<JohnsonCook>& schema() {
     static const input::Schema<JohnsonCook> schema =
@@ -95,10 +95,10 @@ struct ZerilliArmstrong {
   using Capabilities = CapabilityList<>;
   static constexpr std::string_view name = "zerilli_armstrong";
 
-  double c0 = 0, b = 0, b0 = 0, k = 0;  ///< Pa
-  double n = 0;                         ///< 1
-  double alpha0 = 0, alpha1 = 0;        ///< 1/K
-  double beta0 = 0, beta1 = 0;          ///< 1/K
+  double c0 = 0, b = 0, b0 = 0, k = 0;  ///< c0, b, b0 and k [Pa]
+  double n = 0;                         ///< n [1]
+  double alpha0 = 0, alpha1 = 0;        ///< alpha0 and alpha1 [1/K]
+  double beta0 = 0, beta1 = 0;          ///< beta0 and beta1 [1/K]
 
   static const input::Schema<ZerilliArmstrong>& schema() {
     using Self = ZerilliArmstrong;

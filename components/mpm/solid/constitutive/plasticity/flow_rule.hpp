@@ -11,12 +11,12 @@ namespace tushar::mpm::solid {
 
 /// The state of a material point on which its yield stress depends.
 struct FlowState {
-  double plasticStrain;          ///< equivalent plastic strain, 1
-  double strainRate;             ///< equivalent strain rate, 1/s
-  double temperature;            ///< K
-  double shearModulus;           ///< Pa
-  double density = 0;            ///< kg/m^3
-  double meltTemperature = 0;    ///< K
+  double plasticStrain;          ///< equivalent plastic strain [1]
+  double strainRate;             ///< equivalent strain rate [1/s]
+  double temperature;            ///< temperature [K]
+  double shearModulus;           ///< shear modulus [Pa]
+  double density = 0;            ///< density [kg/m^3]
+  double meltTemperature = 0;    ///< melting temperature [K]
   double plasticStrainRate = 0;  ///< plastic strain rate, averaged over the step [1/s]
 };
 

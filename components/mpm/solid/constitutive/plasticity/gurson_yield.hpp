@@ -27,8 +27,8 @@ struct VonMisesYield {
 struct GursonYield {
   static constexpr std::string_view name = "gurson";
   double q1 = 1.5, q2 = 1, q3 = 2.25;
-  double acceleration = 4;         ///< k, 1
-  double criticalPorosity = 0.05;  ///< f_c, 1
+  double acceleration = 4;         ///< acceleration k [1]
+  double criticalPorosity = 0.05;  ///< critical porosity f_c [1]
 
   static const input::Schema<GursonYield>& schema() {
     static const input::Schema<GursonYield> schema =
@@ -69,7 +69,7 @@ struct GursonYield {
 inline constexpr double greatestPorosity = 0.999;
 
 /// Return to Gurson's surface with associated flow: Aravas, Int. J. Numer. Meth. Engng 24 (1987) 1395. `yieldStress(x)`
-/// is sigma_y after a plastic strain x of the metal, Pa; `meanStress(t)` after a plastic dilatation t, Pa.
+/// is sigma_y after a plastic strain x of the metal [Pa]; `meanStress(t)` after a plastic dilatation t, Pa.
 template <class YieldStress, class MeanStress>
 class GursonReturn {
  public:

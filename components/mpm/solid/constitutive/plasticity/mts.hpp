@@ -19,18 +19,18 @@ struct MechanicalThreshold {
   using Capabilities = CapabilityList<>;
   static constexpr std::string_view name = "mts_model";
 
-  double athermal = 0;              ///< sigma_a, Pa
-  double shearModulus = 0;          ///< mu_0, Pa
-  double boltzmann = 0;             ///< k/b^3, Pa/K
-  double energyI = 0, energyE = 0;  ///< g_0i, g_0e, 1
-  double rateI = 0, rateE = 0;      ///< r_0i, r_0e, 1/s
+  double athermal = 0;              ///< sigma_a [Pa]
+  double shearModulus = 0;          ///< shear modulus mu_0 [Pa]
+  double boltzmann = 0;             ///< k/b^3 [Pa/K]
+  double energyI = 0, energyE = 0;  ///< g_0i, g_0e [1]
+  double rateI = 0, rateE = 0;      ///< r_0i, r_0e [1/s]
   double pI = 0, qI = 0, pE = 0, qE = 0;
-  double sigmaI = 0;                      ///< Pa
-  double a0 = 0, a1 = 0, a2 = 0, a3 = 0;  ///< Pa, Pa, Pa s^(1/2), Pa/K
-  double alpha = 0;                       ///< 1
-  double rateSaturated = 0;               ///< r_es0, 1/s
-  double energySaturated = 0;             ///< g_0es, 1
-  double sigmaSaturated = 0;              ///< sigma_es0, Pa
+  double sigmaI = 0;                      ///< sigma_i [Pa]
+  double a0 = 0, a1 = 0, a2 = 0, a3 = 0;  ///< a0 and a1 [Pa], a2 [Pa s^(1/2)], a3 [Pa/K]
+  double alpha = 0;                       ///< alpha [1]
+  double rateSaturated = 0;               ///< rate saturated r_es0 [1/s]
+  double energySaturated = 0;             ///< energy saturated g_0es [1]
+  double sigmaSaturated = 0;              ///< sigma_es0 [Pa]
 
   static const input::Schema<MechanicalThreshold>& schema() {
     static const input::Schema<MechanicalThreshold> schema = makeSchema();

@@ -17,10 +17,10 @@ namespace tushar::mpm::solid {
 /// section 3.3.
 struct ReturnTangent {
   Matrix3 strain;                                 ///< e, strain of the step
-  Matrix3 trial;                                  ///< s, trial deviator [Pa]
-  double modulus = 0;                             ///< G, Pa
+  Matrix3 trial;                                  ///< trial deviator s [Pa]
+  double modulus = 0;                             ///< modulus G [Pa]
   double excess = 0;                              ///< q, decrease of |s| by the return [Pa]
-  double hardening = 0;                           ///< H = d sigma_y / d e_p, Pa
+  double hardening = 0;                           ///< H = d sigma_y / d e_p [Pa]
   double byRate = 0;                              ///< derivative of sigma_y by the logarithm of the strain rate [Pa]
   double modulusByVolume = 0, yieldByVolume = 0;  ///< derivatives of G and of sigma_y by ln J [Pa]
 

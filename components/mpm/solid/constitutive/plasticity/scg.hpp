@@ -18,16 +18,16 @@ struct SteinbergCochranGuinan {
   using Capabilities = CapabilityList<capability::Hardening, capability::PlasticRate>;
   static constexpr std::string_view name = "steinberg_cochran_guinan";
 
-  double shearModulus = 0;            ///< mu_0, Pa
-  double yieldStress = 0;             ///< sigma_0, Pa
+  double shearModulus = 0;            ///< shear modulus mu_0 [Pa]
+  double yieldStress = 0;             ///< sigma_0 [Pa]
   double greatest = 0;                ///< Y_max, largest yield stress [Pa]
-  double beta = 0, n = 0;             ///< 1
-  double initialStrain = 0;           ///< epsilon_p0, 1
-  double c1 = 0;                      ///< 1/s
-  double c2 = 0;                      ///< Pa s
-  double kinkEnergy = 0;              ///< U_k, eV
-  double boltzmann = 8.617333262e-5;  ///< k, eV/K
-  double peierls = 0;                 ///< sigma_P, Pa
+  double beta = 0, n = 0;             ///< beta and n [1]
+  double initialStrain = 0;           ///< epsilon_p0 [1]
+  double c1 = 0;                      ///< c1 [1/s]
+  double c2 = 0;                      ///< c2 [Pa s]
+  double kinkEnergy = 0;              ///< kink energy U_k [eV]
+  double boltzmann = 8.617333262e-5;  ///< Boltzmann's constant k [eV/K]
+  double peierls = 0;                 ///< sigma_P [Pa]
 
   static const input::Schema<SteinbergCochranGuinan>& schema() {
     using Self = SteinbergCochranGuinan;

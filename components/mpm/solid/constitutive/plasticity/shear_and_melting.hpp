@@ -10,10 +10,10 @@ namespace tushar::mpm::solid {
 
 /// Arguments of shear and melting models.
 struct Compression {
-  double pressure;             ///< Pa
+  double pressure;             ///< pressure [Pa]
   double ratio;                ///< ratio of the density to the initial density [1]
-  double temperature;          ///< K
-  double density = 0;          ///< kg/m^3
+  double temperature;          ///< temperature [K]
+  double density = 0;          ///< density [kg/m^3]
   double meltTemperature = 0;  ///< melting temperature [K]; only for the shear modulus
 };
 
@@ -33,9 +33,9 @@ struct ConstantShear {
 /// 1498, equation 1.
 struct ScgShear {
   static constexpr std::string_view name = "scg_shear";
-  double initial = 0;        ///< mu_0, Pa
-  double byPressure = 0;     ///< A, 1/Pa
-  double byTemperature = 0;  ///< B, 1/K
+  double initial = 0;        ///< initial value mu_0 [Pa]
+  double byPressure = 0;     ///< pressure coefficient A [1/Pa]
+  double byTemperature = 0;  ///< temperature coefficient B [1/K]
 
   static const input::Schema<ScgShear>& schema() {
     static const input::Schema<ScgShear> schema =
@@ -55,9 +55,9 @@ struct ScgShear {
 /// The shear modulus G = mu_0 - D / (exp(T_0/T) - 1): Varshni, Phys. Rev. B 2 (1970) 3952.
 struct MtsShear {
   static constexpr std::string_view name = "mts_shear";
-  double initial = 0;      ///< mu_0, Pa
-  double fall = 0;         ///< D, Pa
-  double temperature = 0;  ///< T_0, K
+  double initial = 0;      ///< initial value mu_0 [Pa]
+  double fall = 0;         ///< coefficient D [Pa]
+  double temperature = 0;  ///< temperature T_0 [K]
 
   static const input::Schema<MtsShear>& schema() {
     static const input::Schema<MtsShear> schema =
@@ -77,11 +77,11 @@ struct MtsShear {
 /// T/T_m, eta = rho/rho_0, and 0 above t = 1 + zeta: Nadal & Le Poac, J. Appl. Phys. 93 (2003) 2472.
 struct NpShear {
   static constexpr std::string_view name = "np_shear";
-  double initial = 0;     ///< mu_0, Pa
-  double zeta = 0;        ///< 1
-  double byPressure = 0;  ///< mu'/mu_0, 1/Pa
-  double lindemann = 0;   ///< C, 1
-  double atomicMass = 0;  ///< m, u
+  double initial = 0;     ///< initial value mu_0 [Pa]
+  double zeta = 0;        ///< zeta [1]
+  double byPressure = 0;  ///< mu'/mu_0 [1/Pa]
+  double lindemann = 0;   ///< Lindemann constant C [1]
+  double atomicMass = 0;  ///< atomic mass m [u]
 
   static const input::Schema<NpShear>& schema() {
     static const input::Schema<NpShear> schema =
@@ -121,9 +121,9 @@ struct ConstantMelting {
 /// equation 5.
 struct ScgMelting {
   static constexpr std::string_view name = "scg_Tm";
-  double initial = 0;    ///< T_m0, K
-  double gruneisen = 0;  ///< Gamma_0, 1
-  double a = 0;          ///< 1
+  double initial = 0;    ///< initial value T_m0 [K]
+  double gruneisen = 0;  ///< Gamma_0 [1]
+  double a = 0;          ///< a [1]
 
   static const input::Schema<ScgMelting>& schema() {
     static const input::Schema<ScgMelting> schema =

@@ -10,10 +10,10 @@ namespace tushar::mpm::solid {
 
 /// Arguments of a model of the specific heat.
 struct HeatState {
-  double temperature;  ///< K
+  double temperature;  ///< temperature [K]
   double ratio;        ///< ratio of the density to the initial density [1]
-  double density;      ///< kg/m^3
-  double bulkModulus;  ///< Pa
+  double density;      ///< density [kg/m^3]
+  double bulkModulus;  ///< bulk modulus [Pa]
 };
 
 /// A constant specific heat, <specific_heat> of the material.
@@ -30,7 +30,7 @@ struct ConstantHeat {
 /// MacDonald & MacDonald, Phys. Rev. B 24 (1981) 1715.
 struct CopperHeat {
   static constexpr std::string_view name = "copper_Cp";
-  double transition = 270;                                   ///< temperature of the transition [K]
+  double transition = 270;  ///< temperature of the transition [K]
   /// A, B, C, D below the transition, from J/(kg K^4) to J/(kg K)
   double a0 = 0.0000416, b0 = 0.027, c0 = 6.21, d0 = 142.6;
   /// A_1 and B_1 above the transition, J/(kg K^2) and J/(kg K)
@@ -62,7 +62,7 @@ struct CopperHeat {
 /// Rev. B 9 (1974) 2981; the constants are of 4340 steel.
 struct SteelHeat {
   static constexpr std::string_view name = "steel_Cp";
-  double transition = 1040;                                ///< T_c, K
+  double transition = 1040;                                ///< transition T_c [K]
   double a0 = 190.14, b0 = 273.75, c0 = 418.3, n0 = 0.2;   ///< A, B, C [J/(kg K)] and n [1] below the transition
   double a1 = 465.21, b1 = 267.52, c1 = 58.16, n1 = 0.35;  ///< the same constants above the transition
 
@@ -96,7 +96,7 @@ struct SteelHeat {
 struct CubicHeat {
   static constexpr std::string_view name = "cubic_Cp";
   double a = 1, b = 1;                    ///< constants of Grüneisen's coefficient a + b/eta [1]
-  double expansion = 0;                   ///< beta, 1/K
+  double expansion = 0;                   ///< expansion beta [1/K]
   double c0 = 0, c1 = 0, c2 = 0, c3 = 0;  ///< c_0 to c_3: kg K^4/J, kg K^3/J, kg K^2/J, kg K/J
 
   static const input::Schema<CubicHeat>& schema() {

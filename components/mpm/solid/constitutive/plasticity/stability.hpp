@@ -15,9 +15,9 @@ namespace tushar::mpm::solid {
 ///
 ///     K tr D 1 + 2 G dev D - beta (n : D) n,   beta = (2 G)^2 / (2 G + 2 H/3),   n = dev sigma / |dev sigma|.
 struct PlasticTangent {
-  double bulk = 0;       ///< K, Pa
-  double shear = 0;      ///< G, Pa
-  double hardening = 0;  ///< H = d sigma_y / d e_p, Pa
+  double bulk = 0;       ///< bulk K [Pa]
+  double shear = 0;      ///< shear modulus G [Pa]
+  double hardening = 0;  ///< H = d sigma_y / d e_p [Pa]
 
   double softening() const { return 4 * shear * shear / (2 * shear + 2.0 / 3.0 * hardening); }
   /// The work D : (rate of the stress) [Pa/s^2]; `normal` is n.

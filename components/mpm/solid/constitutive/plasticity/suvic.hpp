@@ -21,26 +21,26 @@ namespace tushar::mpm::solid {
 struct SuvicI {
   /// Internal stresses [Pa].
   struct Stresses {
-    double yield;  ///< R, yield stress
-    double drag;   ///< R, yield stress
-    Matrix3 back;  ///< K, drag stress
+    double yield;  ///< yield stress R
+    double drag;   ///< yield stress R
+    Matrix3 back;  ///< drag stress K
   };
   static constexpr std::string_view name = "suvic_i";
 
-  double backGrowth = 75e6;         ///< A1, Pa
-  double backSaturation = 0.1e6;    ///< B, back stress
-  double backExponent = 4;          ///< n, 1
-  double referenceRate = 7.794e-8;  ///< e0, 1/s
-  double rateFactor = 5e9;          ///< A, 1/s
-  double activationEnergy = 67500;  ///< Q, J/mol
-  double gasConstant = 8.3144;      ///< R_u, J/(mol K)
-  double temperature = 269.15;      ///< T, K
-  double rateExponent = 4;          ///< N, 1
-  double yieldSaturation = 0.8e6;   ///< R0, Pa
-  double yieldExponent = 4;         ///< m, 1
-  double yieldGrowth = 1600e6;      ///< A3, Pa
-  double dragGrowth = 95e6;         ///< A5, Pa
-  double stressSaturation = 1e6;    ///< S0, Pa
+  double backGrowth = 75e6;         ///< back growth A1 [Pa]
+  double backSaturation = 0.1e6;    ///< back stress B
+  double backExponent = 4;          ///< back exponent n [1]
+  double referenceRate = 7.794e-8;  ///< reference rate e0 [1/s]
+  double rateFactor = 5e9;          ///< rate factor A [1/s]
+  double activationEnergy = 67500;  ///< activation energy Q [J/mol]
+  double gasConstant = 8.3144;      ///< gas constant R_u [J/(mol K)]
+  double temperature = 269.15;      ///< temperature T [K]
+  double rateExponent = 4;          ///< rate exponent N [1]
+  double yieldSaturation = 0.8e6;   ///< yield saturation R0 [Pa]
+  double yieldExponent = 4;         ///< yield exponent m [1]
+  double yieldGrowth = 1600e6;      ///< yield growth A3 [Pa]
+  double dragGrowth = 95e6;         ///< drag growth A5 [Pa]
+  double stressSaturation = 1e6;    ///< stress saturation S0 [Pa]
   double initialDrag = 0.05e6;      ///< initial K [Pa]
   double initialYield = 0;          ///< initial R [Pa]
 
@@ -70,8 +70,8 @@ struct SuvicI {
     double kept;     ///< factor 1/(1 + A1 e/B') of the back stress [1]
     Matrix3 z;       ///< s_trial - kept B [Pa]
     double reduced;  ///< equivalent reduced stress (3/2 z:z)^(1/2) [Pa]
-    double yield;    ///< R, Pa
-    double drag;     ///< K, Pa
+    double yield;    ///< yield stress R [Pa]
+    double drag;     ///< drag stress K [Pa]
   };
   struct Step {
     const SuvicI& model;

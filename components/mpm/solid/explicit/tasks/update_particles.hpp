@@ -149,7 +149,7 @@ template <class Shape, int D = Shape::dimension>
 
 /// The results of a constitutive model for up to stressGroup particles, besides their stresses and wave speeds.
 struct StressResults {
-  std::array<double, stressGroup> bulkSpeed;      ///< m/s
+  std::array<double, stressGroup> bulkSpeed;      ///< bulk speed [m/s]
   std::array<double, stressGroup> energyDensity;  ///< strain energy density [J/m^3 of the initial volume]
 };
 
@@ -197,7 +197,7 @@ void heatByViscosity(const Material& material, double growth, const StateUpdate<
 }
 
 /// Updates the artificial viscosity of particles starting with `first`, and its heat; the arrays of velocity gradients
-/// and bulk wave speeds (m/s) start with the first particle.
+/// and bulk wave speeds [m/s] start with the first particle.
 template <int D>
 void updateViscosity(const Material& material, const Method& method, double dt, const StateUpdate<D>& u,
                      const Matrix3* velocityGradient, const double* bulkSpeed, int first, int count) {
