@@ -44,7 +44,7 @@ struct AmrSettings {
 AmrSettings readAmr(const input::Element& section, const simulation::ComponentKind* kind,
                     input::Diagnostics& diagnostics);
 /// Determines when and where to refine the grid of a component: by its own criteria if the scene has none. Reports
-/// variables that component lacks.
+/// variables that the component lacks.
 simulation::RegridSettings settled(AmrSettings amr, const simulation::Component& component,
                                    input::Diagnostics& diagnostics);
 /// Removes node variables from the saved ones, with a note: they are not defined between levels.

@@ -61,8 +61,8 @@ void initialize(const Patch& patch, const Settings& settings, CellView<const dou
   });
 }
 
-/// Several gases at the centre of a cell or, since scenes cut out the shapes of bodies, at the nearest cell centre
-/// where there are any. Throws InputError where there are none, or they do not fill the cell.
+/// The gases at the centre of a cell or, because scenes cut out the shapes of bodies, at the nearest cell centre that
+/// has gas. Throws InputError if there is none, or if the gases do not fill the cell.
 template <int D>
 ice::MixtureStart<D> gasesOf(const Level& level, const std::vector<euler::Settings>& gases, const Index<D>& cell) {
   const auto pointOf = [&](const Index<D>& of) { return level.expandPoint<D>(level.cellCentre<D>(of)); };

@@ -19,17 +19,17 @@ struct MechanicalThreshold {
   using Capabilities = CapabilityList<>;
   static constexpr std::string_view name = "mts_model";
 
-  double athermal = 0;              ///< sigma_a [Pa]
+  double athermal = 0;              ///< athermal stress sigma_a [Pa]
   double shearModulus = 0;          ///< shear modulus mu_0 [Pa]
-  double boltzmann = 0;             ///< k/b^3 [Pa/K]
-  double energyI = 0, energyE = 0;  ///< g_0i, g_0e [1]
-  double rateI = 0, rateE = 0;      ///< r_0i, r_0e [1/s]
+  double boltzmann = 0;             ///< ratio k/b^3 [Pa/K]
+  double energyI = 0, energyE = 0;  ///< activation energies g_0i and g_0e [1]
+  double rateI = 0, rateE = 0;      ///< reference rates r_0i and r_0e [1/s]
   double pI = 0, qI = 0, pE = 0, qE = 0;
   double sigmaI = 0;                      ///< sigma_i [Pa]
   double a0 = 0, a1 = 0, a2 = 0, a3 = 0;  ///< a0 and a1 [Pa], a2 [Pa s^(1/2)], a3 [Pa/K]
   double alpha = 0;                       ///< alpha [1]
-  double rateSaturated = 0;               ///< rate saturated r_es0 [1/s]
-  double energySaturated = 0;             ///< energy saturated g_0es [1]
+  double rateSaturated = 0;               ///< reference rate of saturation r_es0 [1/s]
+  double energySaturated = 0;             ///< activation energy of saturation g_0es [1]
   double sigmaSaturated = 0;              ///< sigma_es0 [Pa]
 
   static const input::Schema<MechanicalThreshold>& schema() {

@@ -22,14 +22,14 @@ struct SuvicI {
   /// Internal stresses [Pa].
   struct Stresses {
     double yield;  ///< yield stress R
-    double drag;   ///< yield stress R
-    Matrix3 back;  ///< drag stress K
+    double drag;   ///< drag stress K
+    Matrix3 back;  ///< back stress B
   };
   static constexpr std::string_view name = "suvic_i";
 
-  double backGrowth = 75e6;         ///< back growth A1 [Pa]
-  double backSaturation = 0.1e6;    ///< back stress B
-  double backExponent = 4;          ///< back exponent n [1]
+  double backGrowth = 75e6;         ///< back stress growth A1 [Pa]
+  double backSaturation = 0.1e6;    ///< back stress saturation B0 [Pa]
+  double backExponent = 4;          ///< back stress exponent n [1]
   double referenceRate = 7.794e-8;  ///< reference rate e0 [1/s]
   double rateFactor = 5e9;          ///< rate factor A [1/s]
   double activationEnergy = 67500;  ///< activation energy Q [J/mol]
