@@ -17,7 +17,7 @@ namespace {
 
 void complain(const std::string& sentence) { fmt::print(stderr, "sus: {}\n", withNumber(sentence)); }
 
-/// Adds a dash to Uintah's options: -validate becomes --validate. Single letters stay.
+/// Adds a dash to Uintah's options: -validate becomes --validate. Options of a single letter are unchanged.
 std::string withTwoDashes(const std::string& word) {
   const bool oneDash = word.size() > 2 && word[0] == '-' && word[1] != '-' && std::isalpha(word[1]);
   return oneDash ? "-" + word : word;
@@ -42,7 +42,7 @@ double checkpointInterval(const std::string& text) {
   return *seconds;
 }
 
-/// Names of all options that are shown, with two dashes.
+/// Names of all documented options, with two dashes.
 std::vector<std::string> optionNames(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
@@ -51,7 +51,7 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   return names;
 }
 
-/// The words in the order for CLI11, the last first; the word after --petsc is not changed.
+/// The words in the order that CLI11 expects, the last one first; the word after --petsc is not changed.
 std::vector<std::string> backwards(const std::vector<std::string>& given) {
   std::vector<std::string> words;
   for (const std::string& word : given)
@@ -60,7 +60,7 @@ std::vector<std::string> backwards(const std::vector<std::string>& given) {
   return words;
 }
 
-/// Reports the invalid words of the command line: unknown options, as given, or a second scene.
+/// Reports the invalid words of the command line: unknown options, as the user wrote them, or a second scene.
 void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, const std::string& scene) {
   const std::vector<std::string> unknown = app.remaining(), names = optionNames(app);
   bool options = false;
@@ -143,14 +143,14 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("-V,--version", arguments.version, "version, commit, compiler and libraries");
 }
 
-/// The problem with the command line, in a sentence.
+/// Describes the problem with the command line in a sentence.
 std::string sentenceOf(const CLI::App* app, const CLI::Error& error) {
   const std::string text = CLI::FailureMessage::simple(app, error);
   const std::size_t line = text.find('\n');
   return withNumber(text.substr(0, line)) + (line == std::string::npos ? "" : text.substr(line));
 }
 
-/// `--check --json SCENE`: the word after --json is the scene if there is no other.
+/// Handles `--check --json SCENE`: if there is no other scene, the word after --json is the scene.
 void settleJson(const CLI::App& app, Arguments& arguments) {
   arguments.asksForJson = app.count("--json") > 0;
   if (arguments.check && arguments.scene.empty()) std::swap(arguments.scene, arguments.run.jsonPath);

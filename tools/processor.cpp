@@ -14,7 +14,7 @@
 
 namespace {
 
-/// The first set of instructions that is missing; a null pointer if there is none.
+/// The first required instruction set that the processor lacks; a null pointer if there is none.
 TUSHAR_ANY_PROCESSOR const char* missingInstructions() {
   __builtin_cpu_init();
   // clang-format off
@@ -45,7 +45,7 @@ TUSHAR_ANY_PROCESSOR void say(const char* text) {
   if (write(STDERR_FILENO, text, std::strlen(text)) < 0) _exit(1);
 }
 
-/// Called before main.
+/// Checks the processor; called before main.
 TUSHAR_ANY_PROCESSOR void checkProcessor() {
   const char* const missing = missingInstructions();
   if (missing == nullptr) return;

@@ -6,15 +6,16 @@
 
 namespace tushar {
 
-/// The commit that was configured, in 12 digits; `unknown` outside a clone.
+/// The commit from which the program was configured, in 12 digits; `unknown` outside a clone.
 extern const char* const buildCommit;
 /// The compiler flags of the whole program.
 extern const char* const buildFlags;
 
-/// Version, commit, compiler and libraries except PETSc, which is loaded only for a solve; nothing about a run.
+/// Version, commit, compiler and libraries; without PETSc, which is loaded only for a solve, and without facts about a
+/// run.
 output::RunRecord buildRecord();
 
-/// The same and PETSc, a line each.
+/// The same information including PETSc, one item per line.
 std::string versionText();
 
 }  // namespace tushar

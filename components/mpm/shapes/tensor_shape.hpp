@@ -206,7 +206,7 @@ struct TensorShape {
     }
 
     Index<D> cell_;
-    std::array<Real, D> first_;  ///< factors for each axis and each node along it
+    std::array<Real, D> first_;                  ///< factors for each axis and each node along it
     std::array<std::array<Real, n>, D> s_, ds_;  ///< by axis and node along it
     std::array<Real, Axisymmetric ? n : 0> hoop_;
     std::array<std::array<Real, D>, D == 1 ? 0 : rows> factors_;

@@ -19,9 +19,9 @@ struct Problem {
   Start start;
   /// Prescribed motion of all bodies; null: forces move them.
   std::shared_ptr<const PrescribedDeformation> motion = nullptr;
-  std::vector<Insertion> insertions = {};                         ///< insertions of particles, in the order of the file
-  std::shared_ptr<const Surroundings> surroundings = nullptr;     ///< surrounding medium; null: there is none
-  std::vector<InputProblem> notes = {};                           ///< notes on bodies without particles
+  std::vector<Insertion> insertions = {};                      ///< insertions of particles, in the order of the file
+  std::shared_ptr<const Surroundings> surroundings = nullptr;  ///< surrounding medium; null: there is none
+  std::vector<InputProblem> notes = {};                        ///< notes on bodies without particles
 };
 
 /// Solids with any shape functions, with explicit or implicit steps.

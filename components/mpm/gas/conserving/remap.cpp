@@ -10,7 +10,7 @@ template <int D>
 struct CellSums {
   static constexpr std::size_t mass = 0, internal = 1, kinetic = 2;
   static constexpr std::size_t momentum = 3;
-  static constexpr std::size_t offset = momentum + D;   ///< index of the first of D sums of m dx
+  static constexpr std::size_t offset = momentum + D;  ///< index of the first of D sums of m dx
   /// Index of the first of D sums of m (dx² + l²/12), where l is the length of the part.
   static constexpr std::size_t square = offset + D;
   /// Index of the first sum of m (u dx_d + B_d l_d²/12): D for each axis.

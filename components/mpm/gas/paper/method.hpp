@@ -11,7 +11,7 @@ namespace tushar::mpm::gas::paper {
 enum class VolumeModel {
   /// An equal share of the cell, V_c / N_c, (5) of the paper, in each step: neither mass nor energy is conserved.
   cellShare,
-  tracked,    ///< its own volume: mass is constant, volume is mass over density; mass and total energy are conserved
+  tracked,  ///< its own volume: mass is constant, volume is mass over density; mass and total energy are conserved
 };
 
 /// The section `gas_dynamics`: the settings of the gas method.

@@ -25,7 +25,7 @@ struct PointGroup {
   std::size_t first = 0;  ///< index of the first particle among all points of the system
   const double *mass = nullptr, *temperature = nullptr;
   const Matrix3 *oldDeformation = nullptr, *oldStress = nullptr;
-  const double* oldState = nullptr;     ///< state before the step, stateSize numbers for each particle
+  const double* oldState = nullptr;  ///< state before the step, stateSize numbers for each particle
   /// State at the end of the step, stateSize numbers for each particle; null: not requested.
   double* newState = nullptr;
   double* strainEnergy = nullptr;       ///< strain energy [J]; null: not requested
@@ -54,7 +54,7 @@ class PointStates {
   std::vector<Matrix3> deformation, stress;  ///< deformation gradient F [1], and Cauchy stress [Pa]
   /// Gradient of the displacement with respect to the position at the start of the step [1].
   std::vector<Matrix3> gradient;
-  std::vector<double> stretch;    ///< factor of F in F-bar, which is passed to the model [1]
+  std::vector<double> stretch;  ///< factor of F in F-bar, which is passed to the model [1]
 
   /// Whether F-bar applies to the points of a run: only for models that support it.
   bool sharesVolume(const PointRun& run) const { return shares_volume_ && run.group->material->model->supportsFBar(); }
