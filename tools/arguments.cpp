@@ -89,7 +89,7 @@ void declareWorkers(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--behind", arguments.run.behind,
                  "largest part of an output, in MB, that a writer may keep in memory while the run continues; by "
-                 "default the average part of a rank, at least 16. 0: the run waits until the output is written")
+                 "default the average share of a rank, at least 16. 0: the run waits until the output is written")
       ->check(CLI::Range(0, 1'000'000));
 }
 
@@ -120,14 +120,14 @@ void declare(CLI::App& app, Arguments& arguments) {
       "write a checkpoint at this interval of wall time, such as 30s, 10min or 2h, in addition to those of the scene");
   app.add_option("--load", arguments.modules, "load a module of your own: a shared library; may be repeated")
       ->allow_extra_args(false);
-  app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
+  app.add_option("--output", arguments.run.outputFolder, "create the .uda folder in this folder");
   app.add_option("--petsc", arguments.petsc,
                  "options for PETSc, as one quoted argument: --petsc \"-ksp_monitor -ksp_type gmres\"");
-  app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
+  app.add_flag("--quiet", arguments.run.quiet, "print neither progress nor report on the screen");
   app.add_flag("--check,--validate", arguments.check,
                "check the scene and compute its initial state, without running or writing anything");
   app.add_option("--dry-run", arguments.dryRun,
-                 "compile the tasks of one rank out of N and print their cost, without running anything")
+                 "compile the tasks of one of N ranks and print their cost, without a run")
       ->check(CLI::Range(1, 10'000'000));
   app.add_flag("--schedule", arguments.schedule,
                "print the tasks in order, what they read and write, and which are left out");

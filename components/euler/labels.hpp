@@ -22,7 +22,7 @@ inline constexpr CellLabel<double> pressure{"c.pressure", "Pa", "pressure"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> velocity{"c.velocity", "m/s", "velocity"};
 template <int D>
-inline constexpr CellLabel<Vec<D>> mach{"c.mach", "1", "speed over the speed of sound"};
+inline constexpr CellLabel<Vec<D>> mach{"c.mach", "1", "Mach number: speed divided by the speed of sound"};
 inline constexpr CellLabel<double> internalEnergy{"c.internalEnergy", "J/kg", "internal energy per mass"};
 /// State variables of each gas, if there are several.
 inline constexpr CellLabel<double> gasMass{"c.gasMass", "kg/m^3",

@@ -51,7 +51,7 @@ simulation::ComponentKind kind() {
     input::refuseOtherValues(section, "time_integrator", {"explicit"},
                              "for implicit steps, use <SimulationComponent type=\"implicit_heat\"/>");
     input::refuseTag(section, "Solver",
-                     "explicit steps solve no system; <SimulationComponent type=\"implicit_heat\"/> does");
+                     "explicit steps solve no linear system; <SimulationComponent type=\"implicit_heat\"/> does");
     return section;
   }();
   simulation::ComponentKind kind =

@@ -31,7 +31,7 @@ const Schema<WavesSection>& wavesSchema() {
                   "far-field pressure, towards which the pressure of the gas relaxes", input::positive())
         .value("sigma", &WavesSection::sigma, 0.27, "1",
                "the pressure relaxes at the rate sigma (1 - M^2) c over the grid's length", input::nonNegative())
-        .ignored("material", "there is one gas")
+        .ignored("material", "there is only one gas")
         .ignored("Li_scale", "waves are not scaled");
     return tags;
   }();

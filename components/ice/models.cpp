@@ -31,7 +31,7 @@ const Schema<ScalarRegion>& startSchema() {
                "instead of <scalar>, the sum over axes of sin(2 pi freq d), where d goes from 0 to 1 across the region")
         .value("freq", &ScalarRegion::waves, Vec3::Zero(), "1", "number of waves along each axis")
         .value("linearInitialize", &ScalarRegion::isLinear, false, "1", "adds slope · d, with the same d")
-        .value("slope", &ScalarRegion::slope, Vec3::Zero(), "1", "rise across the region along each axis")
+        .value("slope", &ScalarRegion::slope, Vec3::Zero(), "1", "increase across the region along each axis")
         .ignored("coeff", "belongs to profiles that a formula can describe")
         .ignoredAttribute("name", "a note for readers");
     for (const char* tag : {"triangularInitialize", "quadraticInitialize", "cubicInitialize",
@@ -108,7 +108,7 @@ const Schema<PassiveScalarSection>& passiveScalarSchema() {
   static const Schema<PassiveScalarSection> schema =
       Schema<PassiveScalarSection>("PassiveScalar", "A quantity per mass that is transported with the gas.")
           .requiredSection("scalar", &PassiveScalarSection::scalar, scalarSchema())
-          .ignored("material", "there is one gas");
+          .ignored("material", "there is only one gas");
   return schema;
 }
 

@@ -43,7 +43,7 @@ const Schema<Counterflow>& counterflowSchema() {
   static const Schema<Counterflow> schema =
       Schema<Counterflow>("counterflow", "Gas flows in along x and out along y.")
           .required("strainRate", &Counterflow::strainRate, "1/s",
-                    "a in v_x = -a (x - m), where m is half the grid's length")
+                    "strain rate a in v_x = -a (x - m), where m is half the length of the grid")
           .ignored("referenceCell", "the pressure follows from density and temperature");
   return schema;
 }

@@ -46,12 +46,12 @@ inline constexpr OnWalls<D> wallYield{
      {"c.wallYieldAbove", "m/(s^2 Pa)", "acceleration per pressure of walls at the upper faces"}}};
 /// Labels of the state before small cells are merged with others.
 inline constexpr CellLabel<double> unsharedDensity{"c.unsharedDensity", "kg/m^3",
-                                                   "before small cells are merged with others"};
+                                                   "density of the gas before small cells are merged with others"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> unsharedMomentum{"c.unsharedMomentum", "kg/(m^2 s)",
-                                                    "before small cells are merged with others"};
+                                                    "momentum of the gas before small cells are merged with others"};
 inline constexpr CellLabel<double> unsharedEnergy{"c.unsharedEnergy", "J/m^3",
-                                                  "before small cells are merged with others"};
+                                                  "energy of the gas before small cells are merged with others"};
 /// Labels of each of several gases, indexed by the gas: its mass per volume of the cell, its volume fraction of the gas
 /// and,
 /// before small cells are merged, its mass and volume per volume of the cell.
@@ -93,12 +93,14 @@ inline constexpr CellLabel<Vec<D>> massFlow{
 inline constexpr CellLabel<double> leakSinceStart{"c.leakSinceStart", "kg/m^3",
                                                   "gas that leaked through bodies in the cell"};
 /// Labels of a body that burns.
-inline constexpr CellLabel<double> reactantMass{"c.reactantMass", "kg/m^3", "of the body that burns"};
-inline constexpr CellLabel<double> reactantVolume{"c.reactantVolume", "1", "fraction of the cell that it fills"};
-inline constexpr CellLabel<double> reactantTemperature{"c.reactantTemperature", "K", "of the body that burns"};
+inline constexpr CellLabel<double> reactantMass{"c.reactantMass", "kg/m^3", "mass of the burning body per cell volume"};
+inline constexpr CellLabel<double> reactantVolume{"c.reactantVolume", "1",
+                                                  "fraction of the cell that the burning body fills"};
+inline constexpr CellLabel<double> reactantTemperature{"c.reactantTemperature", "K", "temperature of the burning body"};
 inline constexpr CellLabel<double> otherVolume{"c.otherVolume", "1", "fraction of the cell that other bodies fill"};
 inline constexpr CellLabel<double> hottestBody{
-    "c.hottestBody", "K", "greatest temperature of the bodies that fill more than a fifth of the cell; 0 without any"};
+    "c.hottestBody", "K",
+    "highest temperature of any body that fills more than a fifth of the cell; 0 if there is none"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> burnRate{
     "c.burnRate", "kg/(m^3 s)", "mass that burns at the lower faces, per cell volume; negative where the gas is above"};
@@ -106,22 +108,22 @@ template <int D>
 inline constexpr CellLabel<Vec<D>> blowing{
     "c.blowing", "m/s", "speed of new gas away from walls at the lower faces; negative where the gas is above"};
 template <int D>
-inline constexpr CellLabel<Vec<D>> recoil{"c.recoil", "Pa",
-                                          "of new gas on walls at the lower faces; negative where the gas is above"};
+inline constexpr CellLabel<Vec<D>> recoil{
+    "c.recoil", "Pa", "pressure of new gas on walls at the lower faces; negative where the gas is above"};
 inline constexpr CellLabel<double> burnRateWithin{
     "c.burnRateWithin", "kg/(m^3 s)", "mass that burns in a cell with a remnant of a body, per cell volume"};
 /// Labels of a body with cracks that burns.
-inline constexpr CellLabel<double> bodyPressure{"c.bodyPressure", "Pa", "mean pressure of the body that burns"};
-inline constexpr CellLabel<double> crackRadius{"c.crackRadius", "m", "radius of its widest cracks"};
-inline constexpr CellLabel<double> burnMode{"c.burnMode", "1",
-                                            "how it burns: 0 not, 1 at its surface, 2 in cracks, 3 a flame comes"};
-inline constexpr CellLabel<double> burnPressure{"c.burnPressure", "Pa", "pressure at which it burns"};
-inline constexpr CellLabel<double> waited{"c.waited", "s", "time since a flame is beside the cell"};
+inline constexpr CellLabel<double> bodyPressure{"c.bodyPressure", "Pa", "mean pressure of the burning body"};
+inline constexpr CellLabel<double> crackRadius{"c.crackRadius", "m", "radius of the widest cracks of the burning body"};
+inline constexpr CellLabel<double> burnMode{
+    "c.burnMode", "1", "mode of burning: 0 none, 1 at the surface, 2 in cracks, 3 waiting for a flame"};
+inline constexpr CellLabel<double> burnPressure{"c.burnPressure", "Pa", "pressure at which the body burns"};
+inline constexpr CellLabel<double> waited{"c.waited", "s", "time for which a flame has been beside the cell"};
 inline constexpr CellLabel<double> inductionTime{"c.inductionTime", "s", "time after which the cell burns"};
 inline constexpr CellLabel<double> burntShare{"c.burntShare", "1", "fraction of c.reactantMass that burns in the step"};
 inline constexpr CellLabel<double> burntSinceStart{"c.burntSinceStart", "kg/m^3", "mass that burned in the cell"};
 inline constexpr CellLabel<double> gasDensity{"c.gasDensity", "kg/m^3",
-                                              "mass per volume of the gas; 0 where there is none"};
+                                              "mass per volume of the gas; 0 in cells without gas"};
 }  // namespace c
 
 namespace p {
@@ -129,7 +131,7 @@ using namespace mpm::solid::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> boxEdges{"p.boxEdges", "1",
                                                 "edges of the box that represents the particle, in cells"};
-inline constexpr ParticleLabel<double> unburned{"p.unburned", "1", "remaining fraction of its initial mass"};
+inline constexpr ParticleLabel<double> unburned{"p.unburned", "1", "remaining fraction of the particle's initial mass"};
 }  // namespace p
 namespace g {
 using namespace mpm::solid::g;
@@ -149,7 +151,7 @@ inline constexpr ReductionLabel<VectorSum> impulse{"GasImpulseOnBodies", "N s",
 inline constexpr ReductionLabel<Sum> work{"GasWorkOnBodies", "J", "work of the gas on walls since the start"};
 inline constexpr ReductionLabel<Sum> heat{"GasHeatToBodies", "J", "heat from the gas to bodies since the start"};
 inline constexpr ReductionLabel<Sum> burntMass{"BurntMass", "kg", "mass of bodies that burned since the start"};
-inline constexpr ReductionLabel<Sum> reactionHeat{"ReactionHeat", "J", "heat released by this burning"};
+inline constexpr ReductionLabel<Sum> reactionHeat{"ReactionHeat", "J", "heat released by burning since the start"};
 inline constexpr ReductionLabel<Sum> leak{"GasLeak", "kg", "gas that leaked through bodies since the start"};
 inline constexpr ReductionLabel<Sum> mergedCells{
     "MergedCells", "1", "number of cells whose gas was merged with that of a neighbour in the last step"};

@@ -23,10 +23,9 @@ const input::Schema<State>& stateSchema() {
           .required("density", &State::density, "kg/m^3", "rho", input::nonNegative())
           .required("pressure", &State::pressure, "Pa", "p", input::nonNegative())
           .value("velocity", &State::velocity, 0, "m/s", "u, along the normal")
-          .optional("gamma", &State::gamma, "1", "the value of this gas, if the two gases differ",
-                    input::greaterThan(1))
+          .optional("gamma", &State::gamma, "1", "value for this gas, if the two gases differ", input::greaterThan(1))
           .ours()
-          .optional("p_infinity", &State::pInfinity, "Pa", "the value of this gas, if the two gases differ",
+          .optional("p_infinity", &State::pInfinity, "Pa", "value for this gas, if the two gases differ",
                     input::nonNegative())
           .ours();
   return schema;

@@ -49,7 +49,7 @@ input::Schema<S> vortexSchema(const std::string& name, std::string_view sentence
       .required("centre", memberOf<S>(&VortexTags::centre), "m", "centre of the vortex at t = 0")
       .ours()
       .value("velocity", memberOf<S>(&VortexTags::velocity), Vec3::Zero(), "m/s",
-             "velocity of the flow that carries the vortex")
+             "velocity of the flow in which the vortex moves")
       .ours()
       .template choice<int>("axis", memberOf<S>(&VortexTags::axis), {{"x", 0}, {"y", 1}, {"z", 2}}, 2,
                             "the axis of rotation")

@@ -203,7 +203,7 @@ std::string rebalancingLine(const Report& report) {
   if (change.times == 0) return "";
   return fmt::format(
       "  patches changed ranks {} time{}, last after step {}: this reduced the load of the busiest rank from {:.2f} to "
-      "{:.2f} times its share\n",
+      "{:.2f} times the mean load\n",
       change.times, change.times == 1 ? "" : "s", change.step, change.before, change.after);
 }
 

@@ -128,7 +128,7 @@ const Schema<VariableTag>& variableSchema() {
 const Schema<CriteriaSection>& criteriaSchema() {
   static const Schema<CriteriaSection> schema =
       Schema<CriteriaSection>("Refinement_Criteria_Thresholds",
-                              "Where finer cells are needed; if there are several criteria, the one that requests the "
+                              "Criteria for finer cells; if there are several criteria, the one that requests the "
                               "finest cells prevails.")
           .list("Variable", &CriteriaSection::variables, variableSchema(), "a refinement criterion");
   return schema;
@@ -178,7 +178,7 @@ const Schema<RegridderSection>& regridderSchema() {
                   "whether the refinement follows the state; true by default if there is a <Variable> or, for mpm, if "
                   "<max_levels> is above 1. Without a <Variable>, euler refines at jumps of c.density, c.pressure and "
                   "c.mach above 0.02; mpm needs none, as the finest level follows its particles")
-        .value("regrid_once", &RegridderSection::once, false, "1", "refine only at the start")
+        .value("regrid_once", &RegridderSection::once, false, "1", "whether the grid is refined only at the start")
         .optional("max_levels", &RegridderSection::maxLevels, "1",
                   "largest number of levels, including the coarsest; by default the number that follows from the "
                   "Levels of Grid, but at least 2 if the grid is adaptive",

@@ -103,7 +103,7 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
   for (const std::string_view name : sideNames) sides.emplace_back(name, static_cast<int>(sides.size()));
   const auto point = [](const char* what) { return std::string(what) + ", such as 0 0.5 0.5"; };
   return Schema<FaceSection>("Face", "A side of the grid, or a part of one.")
-      .optionalChoiceAttribute("side", &FaceSection::side, sides, "the whole of this side except its parts")
+      .optionalChoiceAttribute("side", &FaceSection::side, sides, "this whole side, except its parts")
       .optionalChoiceAttribute("circle", &FaceSection::circle, sides, "the part of this side inside a circle")
       .optionalChoiceAttribute("annulus", &FaceSection::annulus, sides, "the part between two circles")
       .optionalChoiceAttribute("ellipse", &FaceSection::ellipse, sides, "the part inside an ellipse")
@@ -130,7 +130,7 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
       .optionalAttribute("outer_lower", &FaceSection::outerLower, "m", point("a corner of a rectangulus"))
       .optionalAttribute("outer_upper", &FaceSection::outerUpper, "m", point("the opposite corner"))
       .ignoredAttribute("name", "a note for readers")
-      .list("BCType", &FaceSection::conditions, condition, "the condition for a variable there");
+      .list("BCType", &FaceSection::conditions, condition, "the condition for a variable on this side or part");
 }
 
 namespace {

@@ -44,15 +44,15 @@ const Schema<TimeSettings>& timeSchema() {
           .value("max_delt_increase", &TimeSettings::maxDeltIncrease, unlimited, "1",
                  "largest relative growth of the time step from one step to the next; 0 or less means no limit")
           .value("timestep_multiplier", &TimeSettings::timestepMultiplier, 1, "1",
-                 "factor on the time step that the physics allows", input::positive())
+                 "factor by which the stable time step is multiplied", input::positive())
           .value("max_Timesteps", &TimeSettings::maxTimesteps, std::numeric_limits<int>::max(), "1",
                  "number of steps after which the run ends", input::positive())
           .value("max_wall_time", &TimeSettings::maxWallTime, unlimited, "s",
                  "wall time after which the run writes its output and ends", input::positive())
           .value("end_at_max_time_exactly", &TimeSettings::endAtMaxTimeExactly, false, "1",
-                 "shorten the last step so that it ends at maxTime")
+                 "whether the last step is shortened so that it ends at maxTime")
           .value("clamp_time_to_output", &TimeSettings::clampTimeToOutput, false, "1",
-                 "shorten steps so that outputs are at multiples of outputInterval")
+                 "whether steps are shortened so that outputs are at multiples of outputInterval")
           .value("recompute_timestep", &TimeSettings::recomputeTimeStep, false, "1",
                  "if a value becomes unphysical, undo the step and repeat it with half the time step, up to 20 times")
           .ours()
@@ -73,7 +73,7 @@ const Schema<SaveRequest>& saveSchema() {
   static const Schema<SaveRequest> schema =
       Schema<SaveRequest>("save", "A variable to be saved.")
           .requiredAttribute("label", &SaveRequest::label, "1", "its name, such as p.x or KineticEnergy")
-          .attributeValue("material", &SaveRequest::material, "", "1", "save it for this material only")
+          .attributeValue("material", &SaveRequest::material, "", "1", "save the variable for this material only")
           .ignoredAttribute("levels", "all levels are saved")
           .ignoredAttribute("compression", "<compression> in <DataArchiver> applies to all variables")
           .ignoredAttribute("table_lookup", "belongs to components that read tables")
@@ -130,7 +130,7 @@ const Schema<CheckpointSettings>& checkpointSchema() {
       Schema<Settings>("checkpoint",
                        "The whole state, from which sus --restart continues: at the start, at one of these "
                        "intervals, and at the end.")
-          .attributeValue("cycle", &Settings::cycle, 2, "1", "how many checkpoints are kept", input::atLeast(1))
+          .attributeValue("cycle", &Settings::cycle, 2, "1", "number of checkpoints to keep", input::atLeast(1))
           .optionalAttribute("interval", &Settings::interval, "s", "simulated time between checkpoints",
                              input::positive())
           .optionalAttribute("timestepInterval", &Settings::timestepInterval, "1",
@@ -178,15 +178,17 @@ const Schema<ArchiveSettings>& archiveSchema() {
                  input::nonNegative())
           .value("outputTimestepInterval", &ArchiveSettings::outputTimestepInterval, 0, "1", "steps between outputs",
                  input::nonNegative())
-          .flag("outputInitTimestep", &ArchiveSettings::outputInitTimestep, "also save the state at the start")
-          .flag("outputLastTimestep", &ArchiveSettings::outputLastTimestep, "also save the state at the end")
-          .flag("outputDoubleAsFloat", &ArchiveSettings::doubleAsFloat, "save with 7 digits")
+          .flag("outputInitTimestep", &ArchiveSettings::outputInitTimestep,
+                "whether to save the state at the start, too")
+          .flag("outputLastTimestep", &ArchiveSettings::outputLastTimestep, "whether to save the state at the end, too")
+          .flag("outputDoubleAsFloat", &ArchiveSettings::doubleAsFloat,
+                "whether to save real numbers with 7 digits only")
           .custom("compression", readCompression, {"compression"},
                   "gzip level, from 0 (none, the default) to 9; gzip means 1; none, rle and tryall mean 0")
           .forms({input::patternForm({"compression"}, R"(.*gzip.*|none|rle|tryall|\+?0*[0-9](\.0*)?)")})
-          .ignoredAttribute("type", "there is one kind of archive: HDF5 with an index for ParaView")
+          .ignoredAttribute("type", "there is only one kind of archive: HDF5 with an index for ParaView")
           .ignored("save_crack_geometry", "there are no cracks")
-          .ignored("PIDX", "there is one kind of archive: HDF5 with an index for ParaView")
+          .ignored("PIDX", "there is only one kind of archive: HDF5 with an index for ParaView")
           .list("save", &ArchiveSettings::saves, saveSchema(), "a variable to be saved")
           .section("checkpoint", &ArchiveSettings::checkpoint, checkpointSchema())
           .check([](const ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {

@@ -64,7 +64,7 @@ const Schema<FractionSection>& fractionSchema() {
   static const Schema<FractionSection> schema =
       Schema<FractionSection>("scalar", "The mass fraction of B.")
           .requiredSection("constants", &FractionSection::constants, constantsOfTwo())
-          .list("geom_object", &FractionSection::regions, region, "a region; elsewhere there is A alone", 1)
+          .list("geom_object", &FractionSection::regions, region, "a region; outside the regions there is only A", 1)
           .ignoredAttribute("name", "the mass fraction is saved as scalar-f")
           .ignored("test_conservation", "TotalMass-B is computed if it is saved");
   return schema;

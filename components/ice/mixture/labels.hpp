@@ -22,11 +22,10 @@ namespace c {
 
 /// Variables of each of several gases, computed only if a scene saves them.
 inline constexpr CellLabel<double> ownDensity{"c.ownDensity", "kg/m^3",
-                                              "mass of a gas per volume of that gas; 0 where there is none"};
+                                              "mass of a gas per volume of this gas; 0 in cells without it"};
 
 /// Variables of BinaryProperties.
-inline constexpr CellLabel<double> massFraction{"c.massFraction", "1",
-                                                "mass of the second of two gases over that of both"};
+inline constexpr CellLabel<double> massFraction{"c.massFraction", "1", "mass fraction of the second of two gases"};
 
 }  // namespace c
 

@@ -44,7 +44,7 @@ inline constexpr ParticleLabel<Works> work{
     "p.work", "J",
     "work on the particle since the start: by loads and gravity, by faces of the grid, by contact; dissipated by "
     "viscosity and damping, stored as strain, dissipated by plastic flow; and 1/2 m v^2 at the start"};
-inline constexpr ParticleLabel<double> heatFlux{"p.externalHeatFlux", "W", "heat per time from loads"};
+inline constexpr ParticleLabel<double> heatFlux{"p.externalHeatFlux", "W", "heat flow from loads"};
 inline constexpr ParticleLabel<int> loadCurves{
     "p.loadCurveID", "1",
     "number of the load on the particle, or 0, plus the numbers of further loads times 256 and 65536"};

@@ -168,7 +168,7 @@ Schema<Body> bodyTags() {
       .value("velocity", &Body::velocity, input::VectorExpression(), "m/s", "velocity at the start")
       .value("temperature", &Body::temperature, input::Expression(293.0), "K", "temperature at the start",
              input::nonNegative())
-      .value("color", &Body::color, 0, "1", "a number that its particles store as p.color")
+      .value("color", &Body::color, 0, "1", "a number that the particles of the body store as p.color")
       .value("numLevelsParticleFilling", &Body::levels, 1, "1",
              "number of particle sizes, each half the previous one, that fill the shape up to its surface; negative: "
              "no particle extends beyond the surface",
@@ -244,7 +244,7 @@ const Schema<Material>& materialSchema() {
                 describeModels)
         .forms({input::onceForm("constitutive_model", modelAlternatives, 1)})
         .custom("damage_model", readDamage, {"damage_model", "erosion"},
-                "when particles fail, and which strength they have after failure", describeDamage)
+                "when particles fail, and what strength they then have", describeDamage)
         .forms(damageForms())
         .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start", 1);
     acceptUintahsTags(material);

@@ -12,7 +12,7 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
     {"refine_particles", "use a larger <res> to give the body more particles"},
     {"use_cohesive_zones", "give the bodies a <contact>"},
     {"do_scalar_diffusion", "heat conduction obeys the same equation"},
-    {"coupled_flow_analysis", "there is one phase"},
+    {"coupled_flow_analysis", "there is only one phase"},
     {"AMR", "solids are on one level: choose a higher <resolution>"},
     {"DoCapDensity", "remove it: density is not capped"},
     {"DoGranularMPM", "remove it"},
@@ -25,7 +25,7 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
 /// Tags of Uintah that have no effect in Tushar, with the reasons.
 inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it"},
-    {"create_new_particles", "particles stay as they are"},
+    {"create_new_particles", "particles are not split or merged"},
     {"CanAddMPMMaterial", "all materials exist from the start"},
     {"DeleteGeometryObjects", "shapes are not stored"},
     {"computeNodalHeatFlux", "it has no effect"},

@@ -143,7 +143,8 @@ const Schema<Torus>& Torus::schema() {
   static const Schema<Torus> schema =
       shapeSchema<Torus>("torus", "A ring.")
           .required("center", &Torus::center, "m", "centre")
-          .required("major_radius", &Torus::majorRadius, "m", "radius of the ring", nonNegative())
+          .required("major_radius", &Torus::majorRadius, "m",
+                    "radius of the ring, from its axis to the centre of the tube", nonNegative())
           .required("minor_radius", &Torus::minorRadius, "m", "radius of the tube", positive())
           .requiredChoice("axis", &Torus::axis, {{"x", 0}, {"y", 1}, {"z", 2}}, "axis of the ring")
           .value("theta", &Torus::theta, 0.0, "rad",

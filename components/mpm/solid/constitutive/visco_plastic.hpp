@@ -144,10 +144,11 @@ struct ViscoPlastic {
                "principal strain does")
         .value("failure_by_pressure", &Self::byPressure, false, "1",
                "true: the mean stress is compared with the limit instead")
-        .value("failure_variable_mean", &Self::failureVariable, 1e30, "1", "stress (Pa) or strain at which they fail")
+        .value("failure_variable_mean", &Self::failureVariable, 1e30, "1",
+               "stress (Pa) or strain at which particles fail")
         .value("zero_stress_upon_failure", &Self::losesStress, true, "1", "whether failed particles bear no stress")
         .value("allow_no_tension", &Self::losesTension, false, "1",
-               "whether failed particles that bear stress bear only pressure");
+               "whether failed particles that bear stress bear only a pressure");
     typedTag(tags, "visco_plasticity_model", &Self::flow, "the model of the inelastic strain rate", true);
     typedTag(tags, "equation_of_state", &Self::equationOfState,
              "the model of the mean stress; default_hyper if left out", false);

@@ -148,7 +148,7 @@ void addKinds(Schema<ContactSection>& contact) {
                 input::between(1, 2))
       .optional("ExcludeMaterial", &ContactSection::excluded, "1",
                 "for rigid, specified, single_velocity: does not act at nodes with this material", input::nonNegative())
-      .ignored("vel_fields", "an older name of materials");
+      .ignored("vel_fields", "an older name of <materials>");
 }
 
 /// Declares the motion of the master, for contacts that have one.
@@ -169,7 +169,7 @@ void addMaster(Schema<ContactSection>& contact) {
       .value("include_rotation", &ContactSection::turns, false, "1",
              "for specified: the master also rotates; each line of <filename> is `time vx vy vz cx cy cz wx wy wz`, "
              "where c is a point on the axis (m) and w the angular velocity (1/s)")
-      .ignored("rigid_material", "an older name of master_material");
+      .ignored("rigid_material", "an older name of <master_material>");
 }
 
 void addFriction(Schema<ContactSection>& contact) {

@@ -36,7 +36,7 @@ const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
         .required("D3", &Self::d3, "1", "factor of the triaxiality")
         .required("D4", &Self::d4, "1", "factor of the logarithm of the rate")
         .required("D5", &Self::d5, "1", "factor of the temperature")
-        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller values of damage are treated as 0",
+        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "damage below this value is treated as 0",
                input::nonNegative())
         .ignored("D0", "Uintah does not use it either")
         .ignored("Dc", "Uintah does not use it either");
@@ -65,8 +65,8 @@ const Schema<BrittleDamage>& BrittleDamage::schema() {
     tags.value("brittle_damage_initial_threshold", &Self::threshold, 57, "Pa^(1/2)", "r_0", input::positive())
         .value("brittle_damage_fracture_energy", &Self::fractureEnergy, 11.2, "J/m^2", "G_f", input::positive())
         .value("brittle_damage_constant_D", &Self::shape, 0.1, "1", "shape of the softening", input::positive())
-        .value("brittle_damage_max_damage_increment", &Self::greatestStep, 0.1, "1", "largest growth in one step",
-               input::positive())
+        .value("brittle_damage_max_damage_increment", &Self::greatestStep, 0.1, "1",
+               "largest growth of damage in one step", input::positive())
         .ignored("brittle_damage_recoveryCoeff", "damage does not heal")
         .ignored("brittle_damage_printDamage", "save p.damage");
     refuseSwitch(tags, "brittle_damage_allowRecovery", "damage does not heal");
@@ -101,9 +101,9 @@ void declareThreshold(Schema<Self>& tags) {
               Distribution::constant, "distribution of the threshold among the particles")
       .value("failure_seed", of<Self>(&Base::seed), 0, "1", "seed of the random thresholds, which differ from Uintah's")
       .choice("scaling", of<Self>(&Base::scalesWithVolume), {{"none", false}, {"kayenta", true}}, false,
-              "small particles are stronger: (reference_volume / volume)^(1/exponent)")
+              "whether small particles are stronger: (reference_volume / volume)^(1/exponent)")
       .optional("reference_volume", of<Self>(&Base::referenceVolume), "m^3",
-                "volume of a particle whose threshold is not scaled", input::positive())
+                "volume of particles whose threshold is not scaled", input::positive())
       .optional("exponent", of<Self>(&Base::exponent), "1", "exponent of the scaling; the Weibull modulus by default",
                 input::positive())
       .value("friction_angle", of<Self>(&Base::frictionAngle), 0, "degrees", "for MohrCoulomb", input::between(0, 89))

@@ -67,9 +67,9 @@ void addLimits(Schema<MpmSection>& mpm) {
   mpm.value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
             "smallest allowed mass of a particle (Uintah removes lighter ones)", input::nonNegative())
       .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
-             "lighter nodes are accelerated only by gravity", input::nonNegative())
+             "nodes lighter than this are accelerated only by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
-                "faster particles are slowed down to 9/10 of this speed", input::positive())
+                "particles faster than this are slowed down to 9/10 of this speed", input::positive())
       .choice(
           "lost_particles", &MpmSection::removesLost, {{"remove", true}, {"stop", false}}, true,
           "what happens when a step turns a particle inside out (det F <= 0) or throws it through a symmetry plane: it "
@@ -88,7 +88,7 @@ void addUpdates(Schema<MpmSection>& mpm) {
              "the velocity from which stresses are computed: that of the grid at the end of the step (usl), the new "
              "velocity of the particles, interpolated to the grid (musl), or that of the grid at the start (usf)")
       .ours()
-      .value("XPIC2", &MpmSection::xpic, false, "1", "particles are updated by extended PIC of order 2")
+      .value("XPIC2", &MpmSection::xpic, false, "1", "whether particles are updated by extended PIC of order 2")
       .value(
           "UseGradientEnhancedVelocityProjection", &MpmSection::projectsGradient, false, "1",
           "the velocity that particles contribute to nodes includes their velocity gradient; not with heat conduction")
@@ -106,7 +106,7 @@ void addUpdates(Schema<MpmSection>& mpm) {
 /// Declares the tags of the prescribed deformation of bodies, and of particles that enter later.
 void addPrescribedMotion(Schema<MpmSection>& mpm) {
   mpm.value("UsePrescribedDeformation", &MpmSection::prescribesDeformation, false, "1",
-            "all bodies move as prescribed in <PrescribedDeformationFile>, independently of their stress")
+            "whether all bodies move as prescribed in <PrescribedDeformationFile>, independently of their stress")
       .value("PrescribedDeformationFile", &MpmSection::deformationFile, "time_defgrad_rotation", "1",
              "a file with 14 numbers per point in time: time (s), the components of the deformation gradient row by "
              "row, and the angle (degrees) and axis of a rotation since the previous point")
@@ -134,17 +134,18 @@ void addSurroundings(Schema<MpmSection>& mpm) {
              "pressures act at the corners of the faces of particles, whose area changes with F (Sadeghirad, Brannon & "
              "Guilkey 2013). As in Uintah, no pressure acts on particles without a face within 26 degrees of the "
              "surface, and a <torque> acts only where a pressure acts, with four times its value")
-      .value("keepPressBCNormalToSurface", &MpmSection::turnsPressures, false, "1",
-             "pressures rotate with the particles that they act on; otherwise they keep their initial direction")
-      .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
+      .value(
+          "keepPressBCNormalToSurface", &MpmSection::turnsPressures, false, "1",
+          "whether pressures rotate with the particles on which they act; otherwise they keep their initial direction")
+      .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "whether heat is conducted")
       .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
-             "if heat is conducted, friction heats the materials")
+             "whether friction heats the materials, if heat is conducted")
       .choice("RunMMSProblem", &MpmSection::manufactured,
               {{"none", ""},
                {"AxisAligned", "AxisAligned"},
                {"ExpandingRing", "ExpandingRing"},
                {"GeneralizedVortex", "GeneralizedVortex"}},
-              "", "start from a manufactured solution, and apply its body force")
+              "", "the manufactured solution from which the run starts and whose body force acts")
       .value("withColor", &MpmSection::withColor, false, "1",
              "accepted for compatibility with Uintah: p.color exists if it is saved");
 }

@@ -61,9 +61,9 @@ void declareSteps(Schema<Section>& schema) {
              "after this many iterations or more, the next time step is shorter", input::atLeast(1))
       .value("num_iters_to_increase_delT", &Section::increase, 4, "1",
              "after at most this many iterations, the next time step is longer", input::nonNegative())
-      .value("delT_decrease_factor", &Section::decreaseFactor, 0.6, "1", "factor of a shorter time step",
+      .value("delT_decrease_factor", &Section::decreaseFactor, 0.6, "1", "factor by which the time step is shortened",
              input::between(0.1, 1))
-      .value("delT_increase_factor", &Section::increaseFactor, 2, "1", "factor of a longer time step",
+      .value("delT_increase_factor", &Section::increaseFactor, 2, "1", "factor by which the time step is lengthened",
              input::atLeast(1));
 }
 
@@ -113,7 +113,7 @@ const Schema<Section>& sectionSchema() {
         .value("use_load_curves", &Section::useLoadCurves, false, "1", "whether the loads of <PhysicalBC> act")
         .value("withColor", &Section::withColor, false, "1",
                "accepted for compatibility with Uintah: p.color exists if it is saved")
-        .value("DoImplicitHeatConduction", &Section::heat, false, "1", "heat is conducted, by backward Euler")
+        .value("DoImplicitHeatConduction", &Section::heat, false, "1", "whether heat is conducted, by backward Euler")
         .ignored("DoExplicitHeatConduction", "heat is conducted implicitly if DoImplicitHeatConduction is true")
         .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0, "conduction is transient")
         .ignored("artificial_damping_coeff", "as in Uintah, only explicit steps are damped")

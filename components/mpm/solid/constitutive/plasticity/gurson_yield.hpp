@@ -37,7 +37,7 @@ struct GursonYield {
             .required("q2", &GursonYield::q2, "1", "factor of the mean stress", input::positive())
             .required("q3", &GursonYield::q3, "1", "factor of the square of the porosity, usually q1^2",
                       input::nonNegative())
-            .required("k", &GursonYield::acceleration, "1", "factor on the porosity above f_c, where pores coalesce",
+            .required("k", &GursonYield::acceleration, "1", "factor of the porosity above f_c, where pores coalesce",
                       input::positive())
             .required("f_c", &GursonYield::criticalPorosity, "1", "porosity at which pores begin to coalesce",
                       input::between(0, 1));

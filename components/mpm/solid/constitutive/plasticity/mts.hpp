@@ -67,7 +67,7 @@ struct MechanicalThreshold {
     tags.required("a_0", &Self::a0, "Pa", "hardening at the start")
         .required("a_1", &Self::a1, "Pa", "growth of the hardening with the logarithm of the rate")
         .required("a_2", &Self::a2, "Pa s^(1/2)", "growth of the hardening with the square root of the rate")
-        .required("a_3", &Self::a3, "Pa/K", "fall of the hardening with the temperature")
+        .required("a_3", &Self::a3, "Pa/K", "decrease of the hardening with the temperature")
         .required("alpha", &Self::alpha, "1", "shape of the saturation of hardening", input::positive())
         .required("edot_es0", &Self::rateSaturated, "1/s", "reference rate of saturation", input::positive())
         .required("g_0es", &Self::energySaturated, "1", "activation energy of saturation", input::positive())
@@ -75,7 +75,7 @@ struct MechanicalThreshold {
         .ignored("theta_IV", "as in Uintah, hardening falls to 0 at saturation")
         .ignored("D", "it is part of the <shear_modulus_model>")
         .ignored("T_0", "it is part of the <shear_modulus_model>");
-    refuseTag(tags, "T_c", "there is one phase");
+    refuseTag(tags, "T_c", "there is only one phase");
     tags.check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
       if (read.pI > 0 && !(read.energyI > 0 && read.rateI > 0 && read.qI > 0))
         diagnostics.error(element, "g_0i, edot_0i and q_i must be greater than 0 if p_i is");

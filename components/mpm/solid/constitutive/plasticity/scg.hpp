@@ -35,11 +35,11 @@ struct SteinbergCochranGuinan {
         input::Schema<Self>("flow_model", "The yield stress of Steinberg, Cochran, Guinan and Lund.")
             .required("mu_0", &Self::shearModulus, "Pa", "shear modulus in the reference state", input::positive())
             .required("sigma_0", &Self::yieldStress, "Pa", "yield stress without hardening", input::positive())
-            .required("Y_max", &Self::greatest, "Pa", "yield stress that hardening never passes", input::positive())
+            .required("Y_max", &Self::greatest, "Pa", "largest yield stress after hardening", input::positive())
             .required("beta", &Self::beta, "1", "factor of the plastic strain", input::nonNegative())
             .required("n", &Self::n, "1", "exponent of the hardening", input::nonNegative())
             .value("epsilon_p0", &Self::initialStrain, 0, "1", "plastic strain at the start", input::nonNegative())
-            .value("C1", &Self::c1, 0, "1/s", "rate of thermal activation; 0: the rate does not matter",
+            .value("C1", &Self::c1, 0, "1/s", "rate of thermal activation; 0: the strain rate has no effect",
                    input::nonNegative())
             .value("C2", &Self::c2, 0, "Pa s", "drag coefficient of dislocations", input::nonNegative())
             .value("energy_to_form_kink_pair", &Self::kinkEnergy, 0, "eV", "U_k", input::nonNegative())

@@ -65,7 +65,8 @@ struct MtsShear {
                                 "Varshni's shear modulus, which belongs to the mechanical threshold stress.")
             .required("mu_0", &MtsShear::initial, "Pa", "shear modulus at 0 K", input::positive())
             .required("D", &MtsShear::fall, "Pa", "scale of the decrease with the temperature", input::nonNegative())
-            .required("T_0", &MtsShear::temperature, "K", "temperature at which it begins to fall", input::positive());
+            .required("T_0", &MtsShear::temperature, "K", "temperature at which the shear modulus begins to decrease",
+                      input::positive());
     return schema;
   }
   double modulus(const Compression& c, double) const {
@@ -130,7 +131,7 @@ struct ScgMelting {
         input::Schema<ScgMelting>("melting_temp_model", "The Steinberg-Cochran-Guinan melting temperature.")
             .required("T_m0", &ScgMelting::initial, "K", "melting temperature without pressure", input::positive())
             .required("Gamma_0", &ScgMelting::gruneisen, "1", "Grüneisen parameter", input::nonNegative())
-            .required("a", &ScgMelting::a, "1", "fall of the Grüneisen parameter with the density",
+            .required("a", &ScgMelting::a, "1", "decrease of the Grüneisen parameter with the density",
                       input::nonNegative());
     return schema;
   }
