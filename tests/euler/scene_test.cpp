@@ -15,12 +15,12 @@ double densityError(Overrides overrides, int cells) {
   return -1;
 }
 
-/// Sod's scene with a piece of text replaced.
+/// Returns Sod's scene with a piece of text replaced.
 std::string changedScene(const std::string& from, const std::string& to) {
   return test::changedScene("ups/euler/sod.ups", from, to);
 }
 
-/// What is wrong with the scene, without its place.
+/// Returns the error message for a scene, without its place.
 std::string problemOf(const std::string& scene) {
   try {
     test::runScene(scene, {});

@@ -32,7 +32,7 @@ grid::Domain lineWith(const Conditions& lower, const Conditions& upper) {
   return domain;
 }
 
-/// A line of four cells of 1/4 m with gas of 1 kg/m³ at rest, and with a pressure of 3 Pa that `rise` [Pa/m] changes.
+/// A line of four cells of 1/4 m with gas of 1 kg/m³ at rest and pressure 3 Pa plus a gradient `rise` [Pa/m].
 class Line {
  public:
   Line(const Conditions& lower, const Conditions& upper, double rise = 0) : grid_(lineWith(lower, upper)) {

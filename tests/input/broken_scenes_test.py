@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Broken scenes: each gets its sentence, a documented exit code, and nothing is written."""
+"""Broken scenes: each gives its error message and a documented exit code, and writes nothing."""
 import pathlib
 import subprocess
 import sys

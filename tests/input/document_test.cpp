@@ -77,7 +77,7 @@ TEST(Document, SaysThatAFolderIsNoFile) {
   EXPECT_EQ(problemsOfFile(folder), Lines{folder + ": this is a folder, but must be a file"});
 }
 
-/// A surface of triangles is named without the ends of its two files, NAME.pts and NAME.tri.
+/// A triangle surface is named without the extensions of its two files, NAME.pts and NAME.tri.
 TEST(Document, FindsTheFilesOfASurfaceAboveAndBesideTheScene) {
   const std::filesystem::path above = test::newFolder("surfaces"), beside = above / "scenes" / "hearts";
   std::filesystem::create_directories(beside);

@@ -16,7 +16,7 @@ PiecePtr pieceOf(const std::string& shapes) {
   return piece;
 }
 
-/// All children of a section M are taken for geom_objects; `inside` starts on line 2, column 1.
+/// Returns the problems of `inside`, read as geom_objects of a section M; it starts on line 2, column 1.
 Lines problemsOf(const std::string& inside) {
   const Document document = documentOf("<M>\n" + inside + "</M>");
   Diagnostics diagnostics;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Solids: what a scene asks for and the method would pass over, or give another meaning, is refused at its place."""
+"""Input for solids that the method would ignore or misread is refused at its place."""
 import pathlib
 import sys
 import tempfile

@@ -30,10 +30,10 @@ inline double gasResidual(const GasReference& gas, const Vec3& x, double t, doub
   return std::max({std::abs(mass), momentum.cwiseAbs().maxCoeff(), std::abs(pressure)});
 }
 
-/// Greatest difference of any field of two states.
+/// Returns the largest difference of any field between two states.
 inline double difference(const GasState& a, const GasState& b) { return (toFields(a) - toFields(b)).abs().maxCoeff(); }
 
-/// Mean over a box by n^3 midpoints (one along an axis without extent).
+/// Returns the mean over a box by n^3 midpoints (one along an axis without extent).
 inline GasState midpointMean(const GasReference& gas, const Vec3& lower, const Vec3& upper, double t, int n) {
   std::array<int, 3> count;
   for (int d = 0; d < 3; ++d) count[d] = upper[d] > lower[d] ? n : 1;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Bodies whose particles have places of their own: mass, momentum, expansion, and a restart on other patches."""
+"""Bodies with given particle positions: mass, momentum, expansion, and a restart on other patches."""
 import math
 import pathlib
 import sys
