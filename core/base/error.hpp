@@ -64,10 +64,9 @@ class TaskError : public std::runtime_error {
 /// Exception for a non-finite or unphysical value: which value, where, when, and what the user can try.
 class NumericalError : public std::runtime_error {
  public:
-  /// `what` names the value and its position; `advice` says what to try. If it is empty, the component's advice is
-  /// used.
-  /// `value` is the name of the value alone, `cell` the number of its cell: if several patches report an error, the one
-  /// in the lowest cell is kept, so that the layout does not matter.
+  /// `what` names the value and its position; `advice` is a suggestion to the user, by default that of the component.
+  /// `value` is only the name of the value, and `cell` the index of its cell: if several patches report an error, the
+  /// one in the lowest cell is kept, so that the layout does not matter.
   NumericalError(const std::string& what, std::string advice, std::string value = {}, std::uint64_t cell = 0)
       : std::runtime_error(what), advice_(std::move(advice)), value_(std::move(value)), cell_(cell) {}
   const std::string& advice() const { return advice_; }

@@ -14,8 +14,8 @@
 
 namespace tushar {
 
-/// As many numbers as fit into one vector register of the processor. An operation acts on each of them as it does on a
-/// number alone, to the same bits, so that results do not depend on which numbers share a register.
+/// As many numbers as fit into one vector register of the processor. An operation on the register gives each lane the
+/// same bits as the operation on a single number, so results do not depend on which numbers share a register.
 class Lanes {
  public:
 #if defined(__AVX512F__)
@@ -99,8 +99,8 @@ class Lanes {
     return __builtin_shufflevector(low, high, (Start + Lane)...);
   }
 
-  /// Puts component Which of register Next and later registers into `sum`, which contains that of the previous
-  /// registers.
+  /// Adds component Which of register Next and of all later registers to `sum`, which already contains the previous
+  /// ones.
   template <int numbers, int Which, int Next, int... Lane>
   [[gnu::always_inline]] static void takeRegisters(Register& sum, const double* from,
                                                    std::integer_sequence<int, Lane...> lanes) {
@@ -150,8 +150,8 @@ template <int step = Lanes::count / 2>
   if constexpr (step > 1) transpose<step / 2>(rows);
 }
 
-/// Loads `numbers` consecutive numbers from the address at(k) for each lane k: element c of the result has at(k)[c]
-/// there.
+/// Loads `numbers` consecutive numbers from the address at(k) for each lane k: lane k of element c of the result is
+/// at(k)[c].
 template <int numbers, class At>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> columnsOf(At&& at) {
   constexpr int inSquares = numbers / Lanes::count * Lanes::count;
@@ -265,7 +265,7 @@ inline double greatest(Lanes x) {
 
 }  // namespace tushar
 
-/// Lets Eigen's vectors and matrices hold Lanes.
+/// Allows Lanes as the scalar type of Eigen's vectors and matrices.
 namespace Eigen {
 template <>
 struct NumTraits<tushar::Lanes> : NumTraits<double> {

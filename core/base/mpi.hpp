@@ -37,8 +37,8 @@ class FailedElsewhere : public std::runtime_error {
 
 /// The ranks that run a simulation together, as seen from one of them.
 ///
-/// All but `receive` are collective: every rank calls them, in the same order. With one rank they return at once, and
-/// MPI is not needed.
+/// All functions except `receive` are collective: every rank calls them, in the same order. On a single rank they
+/// return at once and do not use MPI.
 class Communicator {
  public:
   struct Native;
@@ -86,7 +86,8 @@ class Communicator {
   std::string broadcast(const std::string& text, int from = 0) const;
   /// Returns the texts of all ranks, ordered by rank, on every rank. Slow: meant for errors.
   std::vector<std::string> gather(const std::string& mine) const;
-  /// Runs a function on rank 0 only. If it throws, its exception passes on there, and the others throw FailedElsewhere.
+  /// Runs a function on rank 0 only. If it throws, rank 0 throws its exception, and the other ranks throw
+  /// FailedElsewhere.
   void onFirst(const std::function<void()>& action) const;
 
   /// Waits for the next message of rank `from` with this tag.

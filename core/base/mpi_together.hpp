@@ -38,8 +38,8 @@ struct Letter {
   Bytes bytes;
 };
 
-/// Delivers messages: at most one from each rank to each other rank. `take(from, bytes)` gets those for this rank, in
-/// any order. `outbox` keeps the messages until they are sent.
+/// Delivers messages: at most one from each rank to each other rank. Calls `take(from, bytes)` for each message to this
+/// rank, in any order. `outbox` keeps the messages until they are sent.
 void exchange(const Communicator& ranks, Outbox& outbox, std::vector<Letter> letters,
               const std::function<void(int from, const Bytes& bytes)>& take);
 

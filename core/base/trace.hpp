@@ -42,8 +42,8 @@ class Span {
 };
 
 /// The recorded spans of all threads of this rank, as events in Chrome's trace format (ph X: name, category, start and
-/// length in microseconds; pid is the rank, tid the thread), separated by commas. Time between two spans in which a
-/// thread but the first had nothing to do is a wait. Not while threads record.
+/// length in microseconds; pid is the rank, tid the thread), separated by commas. On all threads except the first, idle
+/// time between two spans is recorded as a wait. Must not be called while threads record.
 std::string events(int rank);
 
 /// Makes a file in this format from the events of all ranks.

@@ -37,9 +37,9 @@ class StoredState {
   std::vector<output::Dataset> datasets_;
 };
 
-/// Loads a stored state as the old values, on any patches; each rank reads what its own patches need. `checks` checks
-/// what is read, then the rest. Collective. Throws DamageError, and InputError for a variable of `required` that the
-/// file lacks or has in another form, or that has another number of values.
+/// Loads a stored state as the old values, on any patches; each rank reads only what its own patches need. `checks`
+/// verifies the part that is read, then the rest. Collective. Throws DamageError, and InputError if a variable of
+/// `required` is missing in the file, or has another form or number of values there.
 void readState(const output::Hdf5Input& file, data::Warehouse& warehouse, const StateNames& names,
                const std::vector<std::string>& required, output::CheckedParts& checks);
 

@@ -11,8 +11,8 @@ struct SummaryOver {
   int axis = -1;  ///< kernel axis across which planes are summarised; -1 for the whole grid
 };
 
-/// Minimum, maximum and sum of each component: over all cells or nodes, or for each plane. Sums over several levels
-/// count a cell by its volume over that of the coarsest.
+/// Minimum, maximum and sum of each component: over all cells or nodes, or for each plane. On several levels, sums
+/// weight a cell by its volume relative to a cell of the coarsest level.
 struct Summary {
   output::Array least, greatest, sum;
 };

@@ -6,9 +6,9 @@
 
 namespace tushar::data {
 
-/// Memory released by variables, kept for later ones. A buffer is not given to a variable that needs much less than it
-/// holds, so that each size finds its own buffers again in the next step. Free memory is bounded: the pool and all that
-/// it has lent hold at most `bound()` bytes together. Not for several threads at once.
+/// Memory released by variables, kept for later variables. A buffer is not reused for a variable that is much smaller
+/// than the buffer, so that in the next step each size finds its own buffers again. Memory is bounded: free and used
+/// buffers of the pool have at most `bound()` bytes together. Not thread-safe.
 class BufferPool {
  public:
   /// Enlarges a buffer to `bytes`, with memory from the pool if there is enough; the first `keep` bytes are preserved.

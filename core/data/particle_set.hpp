@@ -41,11 +41,11 @@ struct GhostRun {
 
 /// The particles of one material on a patch, cell by cell.
 ///
-/// Places count from the first particle of the patch. Owned particles stand there, sorted by (cell, id). Ghosts, those
-/// of the cells around the patch that belong to other patches, stand where their own patch has them, if that is on the
-/// same rank: before (places below 0) or behind. Only those of other ranks and of periodic images are copies. The index
-/// of cells brings all into one order: sums run cell by cell in lexicographic order and by id within a cell, so they do
-/// not depend on who owns what.
+/// Positions in memory are counted from the first particle of the patch. The patch's own particles are stored from
+/// there on, sorted by (cell, id). Ghosts are particles of other patches in the cells around this patch. If their patch
+/// is on the same rank, they are accessed in its memory, before (at negative positions) or behind; only ghosts from
+/// other ranks and from periodic images are copies. The index of cells defines one order for all: sums run over cells
+/// in lexicographic order, and by id within a cell, so they do not depend on which patch owns a particle.
 class ParticleSet {
  public:
   /// Makes the set empty, for a patch and the cells of the grid within `reach` of it.

@@ -164,8 +164,9 @@ struct Norm {
 inline constexpr ReductionLabel<Minimum> delT{"delT", "s", "time step"};
 
 /// The largest factor by which the time step may be multiplied without violating a bound. If a task of
-/// scheduleTimeAdvance computes less than 1, the step is undone and repeated with a smaller one; the reason names the
-/// bound. The step ends with that task, so that no later one sees the invalid values. The old state stays as it is.
+/// scheduleTimeAdvance computes a value below 1, the step is undone and repeated with a smaller time step; the reason
+/// names the bound. The step ends with this task, so that no later task reads the invalid values. The old state is
+/// preserved.
 inline constexpr ReductionLabel<Minimum> recomputeTimeStep{
     "recomputeTimeStep", "1", "factor by which to multiply the time step so that every bound holds"};
 

@@ -10,9 +10,9 @@ namespace tushar::data {
 /// The label of the fluxes of a cell variable through the rims of patches; it exists until the program ends.
 const Label& rimLabelOf(const Label& label);
 
-/// The fluxes of a variable through the faces of a patch at which its level ends: the amount per area and time, along
-/// the axis. None if there is one level, and where nothing needs them. Several tasks of a step each add their part;
-/// the sum is 0 before the first.
+/// The fluxes of a variable through those faces of a patch at which its level ends: the amount per unit area and time,
+/// along the axis. Empty on a single level, and where no task needs the fluxes. Several tasks of a step may each add a
+/// part; the sum starts at 0.
 template <class T>
 class RimFlux {
  public:

@@ -11,10 +11,10 @@ namespace tushar::data {
 struct Label;
 
 /// The positions of a rank's patches in the single buffer of a variable, counted in values. Each patch has a slot;
-/// behind the last come copies of particles whose own place is elsewhere: on another rank, or one period away.
+/// copies of particles whose original is on another rank or one period away follow after the last slot.
 ///
-/// Layouts do not change: variables with the same layout share one, and where particles need other slots there is a new
-/// one.
+/// A layout never changes: variables with the same layout share it, and if particles need other slots, a new layout is
+/// made.
 struct Slots {
   std::vector<std::size_t> first;  ///< start of each slot, indexed by the patch on its rank
   std::vector<std::size_t> room;   ///< for particles: capacity of each slot
@@ -22,7 +22,7 @@ struct Slots {
   std::size_t end = 0;             ///< end of the last slot
 
   /// Whether particles can move here from the slots `other` within the same memory: each slot is one of `other` and not
-  /// larger, or is behind all of them. So no patch overwrites values that another has still to move.
+  /// larger, or is behind all of them. Then no patch overwrites values that another patch has not yet moved.
   bool extends(const Slots& other) const;
 };
 

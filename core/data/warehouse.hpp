@@ -131,9 +131,9 @@ class Warehouse {
   /// Assigns slots to the sets of a material, whose particles are complete on all patches; if possible, the slots of
   /// `base`.
   void layOut(Generation generation, int material, Generation base);
-  /// Moves a particle variable from the previous slots of the sets to those of generation `set`. Values in slots that
-  /// stay are kept; patches with other slots have undefined values. If the variable has other memory now, returns the
-  /// previous one, which the caller gives back.
+  /// Moves a particle variable from the previous slots of the sets to those of generation `set`. Values in unchanged
+  /// slots are kept; patches with other slots have undefined values. If the variable now has other memory, returns the
+  /// previous buffer, which the caller must release.
   Buffer follow(Generation generation, int number, Generation set);
   /// The memory of a variable, and the positions of patches and sets in it.
   std::byte* memory(Generation generation, int number) { return storage(generation, number).memory.data(); }

@@ -26,8 +26,8 @@ struct BlockId {
 class BlockTree {
  public:
   /// A tree without refined blocks. `roots`: blocks of level 0 along the kernel axes (1 beyond `dimension`);
-  /// `periodic[d]` != 0 if the grid repeats; `levels`: the most levels, from 1 to 16. Throws std::invalid_argument
-  /// where this does not hold, or the finest level has more than 2^20 blocks along an axis.
+  /// `periodic[d]` != 0 if the grid is periodic along axis d; `levels`: maximum number of levels, from 1 to 16. Throws
+  /// std::invalid_argument for other values, or if the finest level has more than 2^20 blocks along an axis.
   BlockTree(int dimension, const Index3& roots, const Index3& periodic, int levels);
 
   int dimension() const { return dimension_; }
@@ -49,11 +49,10 @@ class BlockTree {
   /// Whether a block is refined. A periodic image is refined if its original is.
   bool isRefined(const BlockId& block) const { return levelAt(block) > block.level; }
 
-  /// The tree in which only these blocks are refined: all of `wanted`, those of `kept` that are refined now, and those
-  /// that this implies, namely ancestors, and neighbours of refined blocks, so that leaves that touch differ by at most
-  /// one level. Images along periodic axes count as the blocks they are of; blocks of the last level, and blocks
-  /// outside the grid along other axes, are passed over. Their order, and how often each is there, are of no
-  /// consequence.
+  /// The tree in which exactly these blocks are refined: all of `wanted`, those of `kept` that are refined now, and all
+  /// blocks that these imply, that is, ancestors, and neighbours of refined blocks, so that adjacent leaves differ by
+  /// at most one level. Periodic images count as their originals. Blocks of the last level, and blocks outside the grid
+  /// along other axes, are ignored. The order of blocks, and duplicates, do not matter.
   BlockTree regridded(const std::vector<BlockId>& wanted, const std::vector<BlockId>& kept) const;
 
   /// Leaves as numbers, sorted along the curve, for checkpoints and messages. A number consists of the interleaved bits

@@ -91,10 +91,10 @@ struct ConditionsOfPart {
 /// The part index that stands for the rest of a side, outside all its parts.
 inline constexpr int restOfSide = -1;
 
-/// The conditions at the faces x-, x+, y-, y+, z-, z+, in this order. A face without conditions is free.
+/// The conditions at the faces x-, x+, y-, y+, z-, z+, in this order. A face without conditions is open.
 ///
-/// Parts of a side have conditions of their own. There those of the whole side hold for no material that a part has
-/// conditions for; where a part has none at all, for none.
+/// Parts of a side may have their own conditions. On such a part, the conditions of the whole side do not apply to
+/// materials for which the part has conditions, and to no material if the part has no conditions at all.
 struct BoundaryConditions {
   std::array<std::vector<BoundaryCondition>, 6> faces;
   std::array<std::vector<ConditionsOfPart>, 6> parts;

@@ -16,9 +16,9 @@ namespace tushar::grid {
 
 /// The grid of a run, with its levels and patches, as one rank sees it.
 ///
-/// Patches are numbered along Morton's curve; a rank has consecutive ones. Where there is one level, only these are
-/// kept: any other is made when it is needed, so that a grid of a million patches takes no more memory on a rank than
-/// its own.
+/// Patches are numbered along Morton's curve, and a rank owns consecutive ones. On a single level, only these are
+/// stored and other patches are constructed on demand, so that a rank needs memory only for its own patches even if the
+/// grid has a million.
 class Grid {
  public:
   /// One level is split into patches as the domain says; along an axis with fewer cells than requested patches, a patch

@@ -31,15 +31,15 @@ struct Domain {
   BoundaryConditions boundaries;
 };
 
-/// A grid of cells of one size: its geometry and its boundary conditions. A run's grid has one or several levels, each
-/// with half the cell width of the one before (see Grid); cells and nodes are counted on each level from 0.
+/// A grid of cells of one size: its geometry and its boundary conditions. The grid of a run has one or several levels,
+/// each with half the cell width of the previous level (see Grid); on each level, cells and nodes are counted from 0.
 ///
-/// Kernels run in `dimension()` axes. An axis of the scene is left out when it has no extent, or has one cell
-/// between two symmetry planes or repeats one cell; the axes that remain keep their order.
+/// Kernels use `dimension()` axes. An axis of the scene is omitted if it has no extent, or has one cell between two
+/// symmetry planes or one periodic cell; the other axes keep their order.
 ///
-/// Along a periodic axis cells and nodes are numbered on beyond both ends: those outside the grid are images of those
-/// inside, and ghosts of the patches there.  The first and the last node of the grid are one and the same; both patches
-/// complete it.
+/// Along a periodic axis, cell and node indices continue beyond both ends: outside the grid they refer to images of the
+/// cells inside, and to ghosts of the patches there. The first and the last node of the grid are identical; both
+/// patches complete it.
 class Level {
  public:
   explicit Level(const Domain& domain) : Level(domain, 0, 1, nullptr) {}
@@ -109,7 +109,7 @@ class Level {
   /// The axes that the grid does not use, as text such as `y, z`; empty if it uses all.
   std::string axesLeftOut() const;
   /// The periodic images of the grid that contain cells of a box, as shifts in cells: cell c + shift is an image of c.
-  /// Zero among them where the box holds cells of the grid.
+  /// The zero shift is among them if the box contains cells of the grid itself.
   std::vector<Index3> imagesOverlapping(const Box& cells) const;
   /// The cell of the grid whose periodic image a given cell is.
   template <int D>
@@ -120,8 +120,8 @@ class Level {
     }
     return cell;
   }
-  /// Index of a cell in lexicographic order, x fastest, starting at 0; independent of the patches. Where there are
-  /// finer levels, that of the first of its cells of the finest.
+  /// Index of a cell in lexicographic order, x fastest, starting at 0; independent of the patches. If there are finer
+  /// levels, returns the index of the first of the finest cells in this cell.
   template <int D>
   std::uint64_t cellNumber(const Index<D>& cell) const {
     std::uint64_t number = 0;

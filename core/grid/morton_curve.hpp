@@ -9,11 +9,11 @@
 namespace tushar::grid {
 
 /// Blocks between cuts along each axis, in Morton order (G. M. Morton, A Computer Oriented Geodetic Data Base and a New
-/// Technique in File Sequencing, IBM 1966): neighbours on the curve are near in space, so consecutive blocks have few
-/// faces to others.
+/// Technique in File Sequencing, IBM 1966): neighbours on the curve are close in space, so consecutive blocks have few
+/// faces to other blocks.
 ///
-/// Any number of blocks along an axis. Nothing is kept for each block: a place is found by halving the grid, in as many
-/// steps as the number of blocks has bits.
+/// The number of blocks along an axis is arbitrary. Nothing is stored for individual blocks: a position is found by
+/// halving the grid, in as many steps as the number of blocks has bits.
 class MortonCurve {
  public:
   /// `cuts[d]`: the first cell of each block along axis d, followed by the end of the last block.

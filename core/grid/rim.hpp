@@ -23,8 +23,8 @@ struct RimPiece {
   std::size_t size() const { return cells.size() * (isFiner ? 2 : 1); }
 };
 
-/// The faces at which a patch meets other levels, ordered by axis, side and index of the other patch. Any patch of the
-/// grid.
+/// The faces at which a patch, which may be any patch of the grid, meets other levels, ordered by axis, side and index
+/// of the other patch.
 std::vector<RimPiece> rimsOf(const Grid& grid, const Patch& patch);
 
 /// Number of values that a patch stores for its rim pieces.

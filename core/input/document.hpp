@@ -12,10 +12,11 @@ namespace tushar::input {
 
 /// A scene file as a tree of tags with their locations in the file.
 ///
-/// `<include href="other.xml" section="A/B"/>` is replaced by that section of the other file, its tag included (by what
-/// is below the root where no section is given; by what is below the tag with `excludeSectionTag="true"`). `href` is
-/// relative to the including file, and so is what a tag such as `<file>` names: its text becomes an absolute path, so
-/// that the scene as text() gives it finds the file from any folder.
+/// `<include href="other.xml" section="A/B"/>` is replaced by that section of the other file, including its tag.
+/// Without `section`, it is replaced by the contents of the root tag, and with `excludeSectionTag="true"`, by the
+/// contents of the section's tag. `href` is relative to the including file, and so are the file names in tags such as
+/// `<file>`: their text becomes an absolute path, so that the scene that text() returns finds the files from any
+/// folder.
 class Document {
  public:
   /// Reads a file. Reports all problems to `diagnostics`; after an error, the document has only an empty root.

@@ -195,9 +195,9 @@ bool collectAbove(const Element& from, const Element& until, std::vector<Element
   return false;
 }
 
-/// The labelled shapes above a given shape in the same section of the scene (MaterialProperties, PhysicalBC, …): each
-/// section has its own labels, which hide those of other sections. Parts of the section that are read first count as
-/// above.
+/// The labelled shapes above a given shape in the same section of the scene (MaterialProperties, PhysicalBC, …). Each
+/// section has its own labels, which hide those of other sections. Parts of the section that are read first also count
+/// as above.
 std::vector<Element> labelledAbove(const Element& shape) {
   Element section = shape, part = shape;
   while (section.parent() && section.parent()->parent()) {

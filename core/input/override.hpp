@@ -28,8 +28,8 @@ struct Override {
 /// Reads `PATH=VALUE`; returns none, with an error in `diagnostics`, if the text has another form.
 std::optional<Override> parseOverride(std::string_view text, const Location& where, Diagnostics& diagnostics);
 
-/// Sets the value below `root`, creating missing tags. From then on, the location of new tags, and of the tag or
-/// attribute that is set, is `where`.
+/// Sets the value below `root`, creating missing tags. `where` becomes the location of new tags, and of the tag or
+/// attribute that is set.
 void apply(const Override& change, Node& root, const Location& where, Diagnostics& diagnostics);
 
 }  // namespace tushar::input

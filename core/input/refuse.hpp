@@ -29,8 +29,8 @@ void noteAttribute(const Element& given, const std::string& attribute, const std
 void refuseTypes(SchemaBase& schema, const std::string& tag, const std::vector<std::string>& available,
                  const std::string& sentence);
 
-/// Refuses each entry of a list whose `member` is not greater than that of the previous entry. `tags` are the tags of
-/// the entries.
+/// Reports an error for each entry of a list whose `member` is not greater than that of the previous entry. `tags` are
+/// the tags of the entries.
 template <class T, class Member>
 void refuseDescent(const std::vector<T>& entries, Member T::*member, const std::vector<Element>& tags,
                    const std::string& problem, Diagnostics& diagnostics) {

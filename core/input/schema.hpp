@@ -25,11 +25,11 @@ T S::*memberOf(T Base::*member) {
 }
 
 /// Describes how to read one tag into a structure S: each tag and attribute that it may contain is declared once, with
-/// its type, default, unit, limits and description. Reading, the messages and the manual all come from these
+/// its type, default, unit, limits and description. Reading, error messages and the manual are all based on these
 /// declarations.
 ///
-/// S must be default-constructible. Units are as in "m/s"; "1" means none. Schemas that are passed to others are kept
-/// by reference and must outlive them (make them function-local statics).
+/// S must be default-constructible. Units are written as in "m/s"; "1" means dimensionless. Schemas passed to other
+/// schemas are stored by reference and must outlive them (make them function-local statics).
 template <class S>
 class Schema : public SchemaBase {
  public:
@@ -178,9 +178,9 @@ class Schema : public SchemaBase {
     return put(attribute(textEntry(name, sentence)));
   }
 
-  /// Reads what declarations cannot express. `reader` is called once with the element of *this* schema, whether or not
-  /// any of the tags that it `takes` over (`name` itself if none are listed) is given. `Read` is a function of an S&,
-  /// an Element and Diagnostics.
+  /// Declares a function that reads what declarations cannot express. `reader` is called once with the element of
+  /// *this* schema, even if none of the tags listed in `takes` (`name` itself if none are listed) is given. `Read` is a
+  /// function of an S&, an Element and Diagnostics.
   template <class Read>
   Schema& custom(std::string_view name, Read reader, std::vector<std::string> takes, std::string_view sentence,
                  std::function<void(std::ostream&, int)> describeBelow = {}) {
@@ -247,8 +247,8 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// The address of `member` in an S whose type is erased. From here on, the entries do not depend on S, so that the
-  /// compiler makes them once for each type of value.
+  /// The address of `member` in an S whose type is erased. The entries do not depend on S, so that the compiler
+  /// generates them only once for each type of value.
   template <class M>
   static Reach<M> reach(M S::*member) {
     return Reach<M>(member);

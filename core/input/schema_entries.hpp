@@ -24,8 +24,8 @@ namespace tushar::input {
 template <class E>
 using Choices = std::vector<std::pair<std::string, E>>;
 
-/// The address of a member in an object whose type is erased; M is T, an optional T or a list of T. Does what
-/// std::function would, except for each structure the compiler makes one function in place of five.
+/// The address of a member in an object whose type is erased; M is T, an optional T or a list of T. Works like
+/// std::function, but the compiler generates one function per structure instead of five.
 template <class M>
 class Reach {
  public:

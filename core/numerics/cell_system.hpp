@@ -88,8 +88,8 @@ class CellSystem {
   std::size_t rowOf(std::size_t p, const Index<D>& cell) const {
     return static_cast<std::size_t>(number_(levelOf(p), cell));
   }
-  /// Determines from the equations of cells at the faces of patches which cells of other ranks are used, and the number
-  /// of entries in the rows of such equations; the equations of other cells contain only direct neighbours.
+  /// Determines, from the equations of cells at the faces of patches, which cells of other ranks are used, and the
+  /// number of entries in the rows of these equations; the equations of all other cells contain only direct neighbours.
   template <class EquationOf>
   void meetOthers(EquationOf&& equationOf) {
     forEachCell([&](std::size_t p, const Index<D>& cell) {

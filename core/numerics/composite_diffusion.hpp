@@ -8,18 +8,19 @@
 
 namespace tushar::numerics {
 
-/// div(k grad phi) by finite volumes over all levels of a grid, for linear systems. Between cells of one width, and at
-/// the sides of the grid, it is Diffusion. A face between levels is cut into those of the finer cells. The flux through
-/// each, outwards, with the resistance R = h/2 / k(-h/4) + h / k(h/2) between the middles of the finer and the coarser
-/// cell, is
+/// div(k grad phi) by finite volumes over all levels of a grid, for linear systems. Between cells of equal width, and
+/// at the sides of the grid, it is identical to Diffusion. A face between levels is divided into the faces of the finer
+/// cells. With the resistance R = h/2 / k(-h/4) + h / k(h/2) between the centres of the finer and the coarser cell, the
+/// outward flux through each of them is
 ///
 ///     F = 4/5 (phi* - phi_1) / R + 1/5 k_12 (phi_1 - phi_2) / h,
 ///
-/// where phi_1 is in the finer cell, phi_2 in the one behind it, phi* in the coarser one, interpolated along the face
-/// to the line through both (FaceInterpolation), and h the finer width. With constant k this is the slope at the face
-/// of the parabola through the three (Martin & Cartwright, Solving Poisson's Equation Using Adaptive Mesh Refinement,
-/// 1996), of second order; it stays so where k varies, and keeps the flux right where k jumps at the face. Both cells
-/// take the same F, so that nothing is lost. The system is not symmetric.
+/// where phi_1 is the value in the finer cell, phi_2 that in the cell behind it, phi* that in the coarser cell,
+/// interpolated along the face to the line through both finer cells (FaceInterpolation), and h the finer width. For
+/// constant k this is the slope at the face of the parabola through the three values (Martin & Cartwright, Solving
+/// Poisson's Equation Using Adaptive Mesh Refinement, 1996), which is of second order. It remains so if k varies, and
+/// the flux is correct if k jumps at the face. Both cells use the same F, so the scheme is conservative. The system is
+/// not symmetric.
 template <int D>
 class CompositeDiffusion {
  public:

@@ -53,9 +53,9 @@ struct Balance {
   }
 };
 
-/// div(k grad phi) by finite volumes, centred and of second order. At a side of the grid with a Dirichlet condition phi
-/// is given, with a Neumann condition its outward derivative; no flux goes through any other. Parts of a side may have
-/// conditions of their own. Between cells k is the harmonic mean.
+/// div(k grad phi) by finite volumes, centred and of second order. At a side of the grid, phi is given by a Dirichlet
+/// condition, or its outward derivative by a Neumann condition; other sides have no flux. Parts of a side may have
+/// conditions of their own. Between cells, k is the harmonic mean.
 template <int D>
 class Diffusion {
  public:
@@ -63,8 +63,8 @@ class Diffusion {
   Diffusion(const grid::Level& level, const input::Expression& k, const grid::BoundaryLabel<double>& phi)
       : level_(level), k_(k), sides_(level.sides(phi)) {}
 
-  /// div(k grad phi) in a cell, for explicit steps. At a side of the grid, k is the value in the cell. The view has a
-  /// ghost cell.
+  /// div(k grad phi) in a cell, for explicit steps. At a side of the grid, k is the value in the cell. The view needs
+  /// one layer of ghost cells.
   double operator()(const data::CellView<const double>& phi, const Index<D>& cell) const {
     double sum = 0;
     forEachFace(cell, [&](int d, int side, const Index<D>& next, bool isInside) {
@@ -89,7 +89,7 @@ class Diffusion {
     return sum;
   }
   /// The integral of div(k grad phi) over a cell, for linear systems: the sum over its faces of A k (phi_n - phi) / h.
-  /// At a side of the grid k is that of the side.
+  /// At a side of the grid, k is the value at the side.
   Balance<D> balance(const Index<D>& cell) const {
     const double own = inCell(cell);
     Balance<D> balance;

@@ -74,8 +74,8 @@ class FaceInterpolation {
     visit(cell + inwards * 2, u * (u - 1) / 2);
     return (u - 1) * (u - 2) / 2 - 1;
   }
-  /// Visits the cells in the term s_a s_b times the mixed difference, which is the mean over those corners of the cell
-  /// whose other cells exist.
+  /// Visits the cells in the term s_a s_b times the mixed difference. The difference is the mean over those corners of
+  /// the cell at which all other cells exist.
   template <class Visit>
   double addMixed(int level, const Index<D>& cell, int a, int b, const std::array<double, D>& shift,
                   Visit&& visit) const {

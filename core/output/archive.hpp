@@ -31,9 +31,8 @@ struct ArchivePoint {
 };
 
 /// The `.uda` folder of a run: the scene, an index, one HDF5 file per output, an XDMF file with which ParaView opens
-/// them, and a text file per global quantity. One process writes it, with other ranks that help with the outputs. Any
-/// function may throw FileError, which names the file
-/// and the system's reason.
+/// them, and a text file per global quantity. One process writes it; other ranks help with the outputs. Any function
+/// may throw FileError, which names the file and the system's reason.
 ///
 ///     sod.uda -> sod.uda.001      link to the newest run
 ///     sod.uda.001/input.xml       the scene
@@ -43,17 +42,18 @@ struct ArchivePoint {
 ///                 KineticEnergy.dat
 ///                 t00042.h5       /grid, /particles/<material>/<label>, /cells/…, /nodes/…, /reference/<column>
 ///
-/// Files other than `.dat` are put in place whole by a rename, so that a killed run leaves none of them torn; lines of
-/// `.dat` files are with the system at once. index.xml and the XDMF file list all outputs, and may be behind by a
-/// second or a twentieth of the run's time, so that an output takes as long however many there are.
+/// Files other than `.dat` are written under another name and then renamed, so that a killed run leaves no incomplete
+/// files; lines of `.dat` files are passed to the system at once. index.xml and the XDMF file list all outputs. They
+/// may be out of date by a second or a twentieth of the run time, so that the cost of an output does not grow with the
+/// number of outputs.
 class Archive {
  public:
   /// Makes the folder `filebase.NNN`, where NNN is one above the largest existing number, and points the link
   /// `filebase` to it. Throws FileError if `filebase` exists and is not a link, or if nothing can be written there.
   Archive(const std::filesystem::path& filebase, const std::string& inputXml, const ArchiveOptions& options = {});
   /// Continues in the folder of another run from some point; later outputs and lines of `.dat` files are removed.
-  /// `name` is that of the filebase. Where index.xml is damaged, the point's is taken; what the XDMF file lacks is read
-  /// from the outputs.
+  /// `name` is the name of the filebase. If index.xml is damaged, it is replaced by the index of the point; entries
+  /// missing in the XDMF file are read from the outputs.
   Archive(const std::filesystem::path& folder, const std::string& name, const ArchivePoint& from,
           const std::string& inputXml, const ArchiveOptions& options);
   /// Flushes; errors are ignored, so call flush() first to detect them.
@@ -71,9 +71,9 @@ class Archive {
   void keepUp();
   /// Writes index.xml and the XDMF file if they are out of date.
   void flush();
-  /// Waits until the lines of globals are on the disk. Returns the current extent of the archive: stored in a
-  /// checkpoint, it replaces lists that are out of date, or that a power cut destroys. Outputs may go with it, except
-  /// for those of the last seconds only.
+  /// Waits until the lines of globals are on the disk. Returns the current extent of the archive. Stored in a
+  /// checkpoint, it replaces lists that are out of date or that a power failure has destroyed. Outputs can be lost as
+  /// well, but only those of the last seconds.
   ArchivePoint sync(int step, double time);
 
   /// The folder of this run, such as `sod.uda.001`.

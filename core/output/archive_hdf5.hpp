@@ -29,8 +29,8 @@ struct VirtualPart {
 /// Precision of real numbers: as chosen when the file was opened, or always 8 bytes.
 enum class Precision { asAsked, full };
 
-/// Writes one HDF5 file. It needs no MPI and never starts MPI. Each function may throw FileError with the path and the
-/// reason: the system's, or else the innermost of HDF5, whose own printing is kept silent.
+/// Writes one HDF5 file. It neither needs nor initialises MPI. Each function may throw FileError with the path and the
+/// reason: that of the system or, failing that, the innermost error of HDF5, whose own printing is suppressed.
 class Hdf5File {
  public:
   /// Creates the file, replacing an existing one. Real numbers are stored in 4 bytes if `doubleAsFloat`, and all are

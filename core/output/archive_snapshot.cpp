@@ -52,8 +52,8 @@ void writeGroup(Hdf5File& out, const ParticleBlock& block) {
   out.attribute(group, "index", block.materialIndex);
 }
 
-/// Adds the reference table. Modules that compare with the same solution give the same table: the first of each column
-/// is kept.
+/// Adds the reference table. If several modules compare with the same solution, they provide the same table; the first
+/// of each column is kept.
 void addReference(std::vector<Dataset>& all, const std::vector<Array>& columns) {
   std::vector<std::string> added;
   for (const Array& column : columns) {

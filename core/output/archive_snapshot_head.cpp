@@ -50,8 +50,8 @@ std::vector<ParticleBlock> particlesOf(const Hdf5Input& file, const ArchiveIndex
 /// Fields sorted by their offset in the file, which is the order in which they were created.
 using PlacedFields = std::map<std::uint64_t, FieldBlock>;
 
-/// Adds the fields in an HDF5 group: those of a material or, for the root, those without material and those of each
-/// group in it.
+/// Adds the fields in an HDF5 group: those of a material or, for the root group, the fields without material and those
+/// in each subgroup.
 void addFields(const Hdf5Input& file, const ArchiveIndex& index, const FieldBlock& like, const std::string& group,
                PlacedFields& all) {
   for (const std::string& name : file.names(group)) {

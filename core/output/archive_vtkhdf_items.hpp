@@ -44,8 +44,8 @@ struct ShownOutput {
   std::vector<LevelRows> levels{};
 };
 
-/// Removes the output of a step, if there is one. Steps ascend, so that looking from the end on takes no longer the
-/// more there are.
+/// Removes the output of a step, if there is one. Steps ascend, so the search starts at the end, and its time does not
+/// depend on the number of outputs.
 template <class Output>
 void removeStep(std::vector<Output>& outputs, int step) {
   auto found = outputs.end();

@@ -14,10 +14,10 @@
 
 namespace tushar::output {
 
-/// The XDMF file with which ParaView shows an archive: a temporal collection of point clouds for each material, and one
-/// of uniform grids for the cells and one for the nodes. On a refined grid, these are collections of spatial
-/// collections, with a uniform grid for each box. The numbers stay in the HDF5 files. The text of each output waits in
-/// a scratch file until the whole is written. Beside it, what the VTKHDF files show.
+/// The XDMF file with which ParaView shows an archive: a temporal collection of point clouds for each material, one of
+/// uniform grids for the cells, and one for the nodes. On a refined grid, these are collections of spatial collections,
+/// with a uniform grid for each box. The values stay in the HDF5 files. The text of each output is kept in a scratch
+/// file until the whole file is written. Also keeps what the VTKHDF files show.
 class XdmfIndex {
  public:
   /// `file` is the path of the XDMF file.

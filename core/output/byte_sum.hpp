@@ -12,10 +12,10 @@
 namespace tushar::output {
 
 /// A checksum of the bytes of a file. Several ranks compute it together, each from the bytes that it has read, in any
-/// order: the sum of w_k r^k modulo the prime 2^61 - 1, where w_k is the k-th word of 8 bytes of the file, 0 at bytes
-/// that do not belong to it. So sums of different bytes add up to that of all. A changed byte always changes it; of
-/// other changes, one in 2e18 goes unnoticed (Karp and Rabin, Efficient randomized pattern-matching algorithms, IBM J.
-/// Res. Dev. 31 (1987) 249-260).
+/// order: the sum of w_k r^k modulo the prime 2^61 - 1, where w_k is the k-th 8-byte word of the file, with zeros for
+/// bytes that another rank has read. The sums of the ranks therefore add up to the sum of the whole file. A single
+/// changed byte always changes the checksum; of other changes, one in 2e18 is not detected (Karp and Rabin, Efficient
+/// randomized pattern-matching algorithms, IBM J. Res. Dev. 31 (1987) 249-260).
 class ByteSum {
  public:
   /// Adds consecutive bytes of the file, starting at position `at`. Fastest if positions increase by equal steps.

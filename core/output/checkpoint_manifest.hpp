@@ -23,9 +23,10 @@ struct FilePart {
 inline constexpr int manifestFormat = 3;
 
 /// Writes the file `manifest` into a folder. Its lines are `format 3`; the sum, the size and the name of each file; and
-/// `sum first-last name` for each part of 64 kB and more, whose bytes the sum of its file leaves out. The last line is
-/// the XXH64 of those before. The writers share the bytes among themselves. Everything is then on the disk. Collective;
-/// all have the same parts. FileError on a rank that cannot, FailedElsewhere on the others.
+/// `sum first-last name` for each part of at least 64 kB, whose bytes are excluded from the sum of its file. The last
+/// line is the XXH64 of all previous lines. The writers divide the bytes among themselves. On return, everything is on
+/// the disk. Collective; all ranks must pass the same parts. Throws FileError on a rank that fails, and FailedElsewhere
+/// on the others.
 void writeManifest(const std::filesystem::path& folder, const Writers& writers = {},
                    const std::vector<FilePart>& parts = {});
 
@@ -37,10 +38,9 @@ struct Inspection {
   std::vector<FilePart> parts{};  ///< parts that have not been checked yet
 };
 
-/// Inspects a folder, but does not read the parts. Ranks share the bytes among themselves. Collective; all get the
-/// same.
-/// Understands manifests of older versions, which may have no parts, and the XXH64 of files or that of the XXH64 of
-/// their blocks of 2^24 bytes.
+/// Inspects a folder, but does not read the parts. Ranks divide the bytes among themselves. Collective; all ranks get
+/// the same result. Also reads manifests of older versions, which have no parts, and contain the XXH64 of each file or
+/// the XXH64 of the XXH64s of its blocks of 2^24 bytes.
 Inspection inspect(const std::filesystem::path& folder, const mpi::Communicator& ranks = mpi::Communicator::alone());
 
 /// Describes the damage in a folder, including the parts; empty if there is none. Collective; all get the same result.

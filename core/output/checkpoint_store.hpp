@@ -16,18 +16,18 @@ namespace tushar::output {
 ///                             t00040/    the one before
 ///                             t00050/    files, and the manifest, which shows whether they are as they were written
 ///
-/// A checkpoint is written under a temporary name, brought to the disk, and then renamed; only then LATEST is replaced
-/// (by a rename, too), and only then the oldest is removed. So a run that is killed, or finds the disk full, leaves the
-/// checkpoints before as they were.
+/// A checkpoint is written under a temporary name, flushed to the disk, and then renamed. Only then is LATEST replaced
+/// (by a rename, too), and only then is the oldest checkpoint removed. So a run that is killed, or finds the disk full,
+/// leaves the previous checkpoints intact.
 class CheckpointStore {
  public:
   /// `cycle` is the number of checkpoints to keep, at least 1. No folder is made before the first write().
   explicit CheckpointStore(const std::filesystem::path& archive, int cycle, const Writers& writers = {});
 
   /// Writes a checkpoint: `fill` writes its files to the given folder, and returns those parts of them that are checked
-  /// while they are read. All ranks of the writers call it. Throws FileError on a rank that cannot, FailedElsewhere on
-  /// the others, or what `fill` throws, which must throw on all ranks if on any; no trace of the checkpoint is left
-  /// then.
+  /// while they are read. All writing ranks call it. Throws FileError on a rank that fails, FailedElsewhere on the
+  /// others, or any exception of `fill`, which must then throw on all ranks. After an exception, no part of the
+  /// checkpoint remains.
   void write(int step, const std::function<std::vector<FilePart>(const std::filesystem::path& folder)>& fill) const;
   /// Makes the checkpoint of a step the latest one, and removes all later checkpoints.
   void goBackTo(int step) const;

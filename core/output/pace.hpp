@@ -5,8 +5,8 @@
 
 namespace tushar::output {
 
-/// Decides when to rewrite a list that can only be written as a whole. Writing takes longer the longer the list: so it
-/// waits for a second after the last time, and for 20 times as long as that has taken.
+/// Decides when to rewrite a list that can only be written as a whole, which takes longer the longer the list is. A
+/// rewrite therefore waits for one second after the last one, and for 20 times the duration of the last one.
 class Pace {
  public:
   /// Records that there is a new entry; `urgent` if readers need it at once.

@@ -19,8 +19,8 @@ struct RunRecord {
   int step = 0;  ///< step from which the run starts
 };
 
-/// `run.json` in the folder of an archive: a list of the runs that wrote there, each start and restart, with dates
-/// (UTC). They are here, not in outputs, so that equal results have equal bytes. A run without an end was killed.
+/// `run.json` in the folder of an archive: a list of the runs that wrote to it, each start and restart, with dates
+/// (UTC). Dates are not stored in outputs, so that equal results have equal bytes. A run without an end was killed.
 class RunLog {
  public:
   /// The format of the archive, raised when an older sus would mistake a newer archive for a damaged one. 2: the

@@ -8,8 +8,8 @@
 namespace tushar::output {
 
 /// An existing file of which this process writes parts; other processes may write other parts at the same time. The
-/// first failure is kept, and later writes are dropped: so a process that fails still takes part in what others wait
-/// for.
+/// first failure is kept, and later writes are dropped, so that a process that fails still takes part in collective
+/// operations.
 class SharedFile {
  public:
   explicit SharedFile(std::filesystem::path path);

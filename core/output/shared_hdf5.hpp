@@ -29,11 +29,12 @@ struct Storage {
   int compression = 0;         ///< gzip level, 0 (none) to 9
 };
 
-/// An HDF5 file that ranks write together: rank 0 creates it, calls `header` for contents that only it has, and writes
-/// the datasets whose values are in memory; all ranks contribute the values of datasets that have a source. No byte
-/// depends on the number of ranks and writers, or on steps taken meanwhile: the constructor takes the values over, and
-/// `behind` brings them to the file. Collective: all have the same datasets. Both functions throw FileError on a rank
-/// that cannot write, and FailedElsewhere on the others; the caller then removes the incomplete file.
+/// An HDF5 file that ranks write together: rank 0 creates it, calls `header` for contents that only rank 0 has, and
+/// writes the datasets whose values are in memory; all ranks contribute the values of datasets that have a source. The
+/// bytes do not depend on the number of ranks and writers, or on time steps made meanwhile: the constructor copies the
+/// values, and `behind` writes them to the file. Collective: all ranks must pass the same datasets. Both functions
+/// throw FileError on a rank that cannot write, and FailedElsewhere on the others; the caller then removes the
+/// incomplete file.
 class FileInFlight {
  public:
   /// `writers` and `behind` must outlive this object.

@@ -33,8 +33,8 @@ struct Array {
 /// Loads the values of an array; all its entries must be on this rank.
 void load(Array& array);
 
-/// The particles of a material. The first array is p.x [m], with 3 components always; the others have as many entries
-/// as it has, or none if a variable is not held at this time: such an array is left out of the archive.
+/// The particles of a material. The first array is always p.x [m], with 3 components; the other arrays have as many
+/// entries as p.x, or none if a variable does not exist at this time: such an array is omitted from the archive.
 struct ParticleBlock {
   std::string material;
   int materialIndex = 0;

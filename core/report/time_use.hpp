@@ -14,8 +14,8 @@ struct TimeUse {
   double imbalance = 1;  ///< ratio of the time of all loops to the time that perfectly balanced threads would need
 
   TimeUse() = default;
-  /// The time used since `before`, in `wall` seconds, of which `outputSeconds` were spent on output. Every rank makes
-  /// it.
+  /// The time used since `before`, in `wall` seconds, of which `outputSeconds` were spent on output. All ranks must
+  /// construct it.
   TimeUse(const Threads::Use& before, const Threads& threads, double wall, double outputSeconds,
           const mpi::Communicator& ranks);
 };

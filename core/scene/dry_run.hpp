@@ -27,8 +27,8 @@ struct DryRun {
   double megabytes = 0;  ///< memory used for this estimate [MB]
 };
 
-/// Reads a scene as if this rank were the one of `workers.ranks` that owns the centre of the grid. Throws what
-/// readScene throws.
+/// Reads a scene as if this rank were the one of `workers.ranks` that owns the centre of the grid. Throws the
+/// exceptions of readScene.
 DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides,
               const simulation::Catalogue& catalogue, const grid::Workers& workers);
 

@@ -124,8 +124,8 @@ struct ReadModule {
   MakeAnalysis make;
 };
 
-/// The modules of a scene. If its component is not known, `loads` is false: then only their names are checked, as a
-/// library that is missing may take minutes to build.
+/// The modules of a scene. If its component is not known, `loads` is false: then only their names are checked, because
+/// building a missing library may take minutes.
 std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalogue, bool loads,
                                     Diagnostics& diagnostics) {
   std::vector<ReadModule> modules;

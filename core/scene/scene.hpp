@@ -12,8 +12,8 @@
 namespace tushar::scene {
 
 /// Reads a scene, applies the overrides of the command line (`PATH=VALUE`), checks everything, and builds the grid, the
-/// component and the analysis modules. Where the scene gives no patches, the grid gets as many as `workers` need.
-/// Throws InputError with all problems of the scene at once. Writes nothing.
+/// component and the analysis modules. If the scene does not specify patches, the grid gets as many as `workers` need.
+/// Throws InputError with all problems of the scene at once. Writes no files.
 simulation::Problem readScene(const std::string& path, const std::vector<std::string>& overrides,
                               const simulation::Catalogue& catalogue, const grid::Workers& workers = {},
                               grid::Share share = {});

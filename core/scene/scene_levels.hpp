@@ -35,8 +35,8 @@ const input::Schema<LevelSection>& levelSchema();
 Index3 resolutionOf(const GridBox& box, const LevelSection& level, const input::Element& element,
                     input::Diagnostics& diagnostics);
 
-/// Reads the refinement of a grid into `domain`, which already contains the first Level except its patches: `levels`
-/// are those of the section `grid`, the first among them.
+/// Reads the refinement of a grid into `domain`, which already contains the first Level except its patches. `levels`
+/// are all Levels of the section `grid`, including the first.
 void readRefinement(const input::Element& grid, const std::vector<LevelSection>& levels, const AmrSettings& amr,
                     grid::Domain& domain, input::Diagnostics& diagnostics);
 

@@ -42,7 +42,7 @@ Schema<ConditionSection> conditionTag() {
       .attributeValue("id", &ConditionSection::id, "all", "1", "index of the material to which it applies, or all");
 }
 
-/// The words that `var` may have: those of all components, and those given.
+/// The values allowed for `var`: those of all components, and those given.
 std::vector<std::string> varsWith(const std::vector<std::string>& further) {
   std::vector<std::string> vars = conditionKinds;
   vars.insert(vars.end(), further.begin(), further.end());

@@ -10,11 +10,11 @@ namespace tushar::simulation {
 
 using report::Rebalancing;
 
-/// Decides when patches change ranks.
+/// Decides when patches move between ranks.
 ///
-/// At the start by cells and particles. Later by what tasks have taken on each patch, compared after 8, 16, 32 and
-/// then every 64 steps: where over the steps that have been measured other shares would have saved more time than the
-/// last change took.
+/// At the start the decision is based on cells and particles; later, on the measured time of tasks on each patch,
+/// evaluated after 8, 16, 32 and then every 64 steps: patches move if, over the measured steps, other shares would have
+/// saved more time than the last move took.
 class Balance {
  public:
   explicit Balance(int ranks) : ranks_(ranks) {}

@@ -31,8 +31,8 @@ struct CheckpointTarget {
 std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTarget& target);
 
 /// Restores a run from the checkpoint named in its problem: the variables, step and time, dropped particles, and totals
-/// at the start. Throws InputError for a checkpoint of another format, step, component or grid, and DamageError for one
-/// whose values have changed since it was written. All ranks call it.
+/// at the start. Throws InputError for a checkpoint of another format, step, component or grid, and DamageError if
+/// values have changed since it was written. All ranks call it.
 void readCheckpoint(RunState& run);
 
 /// The extent of the archive when the checkpoint of a restarted run was written; call it after the checkpoint was read.

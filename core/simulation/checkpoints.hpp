@@ -18,8 +18,8 @@ class Checkpoints {
 
   /// Sets a function that is called on rank 0 with messages about damaged checkpoints.
   void setWarning(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
-  /// Reads the checkpoint from which the run continues or, if it is damaged, the previous one. Throws InputError where
-  /// there is none, or for one that does not fit the scene.
+  /// Reads the checkpoint from which the run continues or, if it is damaged, the previous one. Throws InputError if
+  /// there is no checkpoint, or if it does not match the scene.
   void resume();
   /// Writes a checkpoint at the start, if the scene has checkpoints.
   void writeFirst();

@@ -9,12 +9,12 @@ namespace tushar::simulation {
 
 /// Performs the steps of a run in which finer levels take smaller steps.
 ///
-/// A level makes its step from the old state, then the next finer level makes steps up to the end of it: two in
-/// general, one if that is stable there, three or more where signals have become faster meanwhile. Its ghosts in
-/// coarser cells are between the old and the new values of these. Then the flux out of coarse cells becomes what the
-/// finer steps have taken, and the new state of the coarser level becomes its old one. Between such steps of the
-/// coarsest level all levels are at the same time.
-/// Source: M. J. Berger and P. Colella, J. Comput. Phys. 82 (1989) 64; the number of finer steps is ours.
+/// A level makes its step from the old state. Then the next finer level makes steps up to the same time: two in
+/// general, one if that is stable, three or more if signals have become faster meanwhile. Its ghosts in coarser cells
+/// are interpolated between the old and the new values of these cells. Then the flux out of coarse cells is replaced by
+/// the sum of the finer steps' fluxes, and the new state of the coarser level becomes its old one. After each step of
+/// the coarsest level, all levels are at the same time. Source: M. J. Berger and P. Colella, J. Comput. Phys. 82 (1989)
+/// 64; the number of finer steps is our own choice.
 ///
 /// All ranks make the same calls.
 class LevelSteps {
@@ -24,9 +24,9 @@ class LevelSteps {
   /// The longest step of the coarsest level [s] for which two steps of each level per step of the next coarser one are
   /// stable, and the limit that determines it.
   data::Minimum stable();
-  /// Advances the old state of all levels by the step of the coarsest level, `whole.delT`; the new state has stable
-  /// steps. If a task requests a smaller one, returns its factor and reason; then, and if a NumericalError comes out,
-  /// the old state is as it was.
+  /// Advances the old state of all levels by the step of the coarsest level, `whole.delT`; the new state then has
+  /// stable time steps. If a task requests a smaller step, returns its factor and reason; in this case, and if a
+  /// NumericalError is thrown, the old state is restored.
   std::optional<data::Minimum> advance(const tasks::StepInfo& whole);
 
   /// Number of steps of each level in the last step of the coarsest; 0 for levels without cells.

@@ -13,8 +13,8 @@ std::string misfitOf(const ModuleAbi& module);
 /// std::runtime_error with a sentence for each that cannot be loaded.
 Catalogue openModules(const std::vector<std::string>& files);
 
-/// Loads a module of this program, which then registers itself. Does nothing in a program without openModules(), which
-/// has all linked in. Throws std::runtime_error if the module is not there.
+/// Loads a module of this program, which then registers itself. Does nothing in a program without openModules(),
+/// because such a program is linked with all modules. Throws std::runtime_error if the module does not exist.
 void loadModule(const std::string& name);
 
 }  // namespace tushar::simulation

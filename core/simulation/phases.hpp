@@ -32,9 +32,9 @@ class Phases {
   bool isOfMaterials(const std::string& label) const;
   /// Notes on indices of materials in `save` that do not exist.
   std::vector<std::string> remarksOn(const SaveRequest& save) const;
-  /// Compiles the lists. Throws InputError if a saved or sampled label is computed by no task, and for a task that
-  /// cannot run on the levels of the grid; TaskError for lists that do not fit together. `smallerSteps`: the tag that
-  /// has finer levels take smaller steps, if they do.
+  /// Compiles the lists. Throws InputError if no task computes a saved or sampled label, or if a task cannot run on the
+  /// levels of the grid; throws TaskError for lists that do not fit together. `smallerSteps` is the tag that requests
+  /// smaller steps on finer levels, if any.
   void compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid = {},
                const std::optional<Location>& smallerSteps = {});
@@ -78,7 +78,7 @@ class Phases {
   /// materials, and higher ones mean none.
   std::vector<SaveRequest> named(const std::vector<SaveRequest>& saves) const;
   /// The diagnostics, followed by the task that marks cells to refine; empty if the grid does not change. Throws
-  /// InputError for a criterion whose variable is not one of cells.
+  /// InputError for a criterion whose variable is not a cell variable.
   tasks::TaskList refinementTasks(const RegridSettings& regrid) const;
   /// Throws InputError for node variables that are saved, or sampled in parts of the grid.
   void refuseSavedNodes(const std::vector<std::unique_ptr<Analysis>>& analyses) const;

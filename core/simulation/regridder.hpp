@@ -29,8 +29,7 @@ class MarkedBlocks {
   void addParticles(const grid::Level& level, const Index3& cell, int margin);
   /// Merges the marks of all ranks. Collective.
   void unite(const mpi::Communicator& ranks);
-  /// The tree that the marks require. Of blocks that are refined, only those may be coarsened that have no refined
-  /// child.
+  /// The tree that the marks require. Only refined blocks without refined children may be coarsened.
   grid::BlockTree tree() const;
 
  private:

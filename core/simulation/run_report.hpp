@@ -8,7 +8,7 @@
 namespace tushar::simulation {
 
 /// Measures a run in progress, and its state at the end. All ranks make the same calls. `outputSeconds` is the wall
-/// time spent on outputs since the process started, s.
+/// time spent on outputs since the process started [s].
 class RunReport {
  public:
   explicit RunReport(RunState& run) : run_(run) {}

@@ -32,7 +32,7 @@ class Simulation {
   const Phases& phases() const { return run_.phases; }
   data::Warehouse& warehouse() { return run_.warehouse; }
   /// Creates the initial state, or reads the checkpoint, without a time step; returns the number of particles. Throws
-  /// what a run would throw there.
+  /// the exceptions that the start of a run would throw.
   long tryStart();
   /// Sets the entry of run.json for the program and its command line.
   void setRecord(output::RunRecord record) { record_ = std::move(record); }

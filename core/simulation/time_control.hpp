@@ -82,7 +82,7 @@ inline constexpr double timeResolution = 1e-12;
 /// The times start + k interval, k = 1, 2, …, which a run passes in turn.
 class Milestones {
  public:
-  /// An interval of 0 [s] means that there are no such times.
+  /// An interval of 0 s means that there are no such times.
   Milestones(double start, double interval) : start_(start), interval_(interval) {}
 
   /// The next of these times [s]; infinity if there are none.

@@ -9,9 +9,9 @@
 
 namespace tushar::solvers {
 
-/// Indices of the cells that a rank uses in a global system, as required by Unknowns: its own cells come first, then
-/// those of other ranks. On one rank the order is lexicographic, and on several levels that of blocks along the curve,
-/// so that the patches do not matter.
+/// Indices of the cells that a rank uses in a global system, as required by Unknowns: its own cells come first,
+/// followed by those of other ranks. The order is lexicographic on one rank, and follows the blocks along the curve on
+/// several levels, so that it does not depend on the patches.
 class CellNumbering {
  public:
   /// On one level, cells of other ranks that share a face with the rank's own cells are included from the start.

@@ -64,8 +64,9 @@ bool isNegligible(Newton& newton, Vec u, Vec r) {
   return negligible;
 }
 
-/// |du|² <= displacement max |du|² and |du . r| <= energy |du . r| of the first iteration; or nothing but rounding is
-/// left of r after an iteration: before, a small load may be no more than rounding of a great stiffness, and is to act.
+/// Converged if |du|² <= displacement max |du|² and |du . r| <= energy |du . r| of the first iteration, or if only
+/// round-off is left of r after an iteration. The latter is not tested before the first iteration, because a small load
+/// may be as small as the round-off of a large stiffness, but must still act.
 PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
                             SNESConvergedReason* reason, void* context) {
   Newton& newton = *static_cast<Newton*>(context);

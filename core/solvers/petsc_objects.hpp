@@ -89,9 +89,9 @@ class PetscMatrix : public Matrix {
   OwnedNullSpace rigid_;  ///< the rigid-body modes, for the matrix before scaling
 };
 
-/// Solves A x = b as (S A S) y = S b, x = S y. S makes all diagonal entries equal to the largest: unscaled, the
-/// residuals of weakly held unknowns would not show in the norm of all, and multigrid would move them so far under a
-/// force that its rounding would stall a Krylov method.
+/// Solves A x = b as (S A S) y = S b, x = S y, where S makes all diagonal entries equal to the largest. Without this
+/// scaling, the residuals of weakly held unknowns would not affect the norm, and multigrid would move these unknowns so
+/// far that its round-off would stall a Krylov method.
 class Balance {
  public:
   /// Constructs the scaling for right-hand sides with the layout of `b`.

@@ -9,8 +9,8 @@
 
 namespace tushar::solvers {
 
-/// The unknowns of a system that a rank uses: one block per cell or node. A rank numbers the blocks that it owns from 0
-/// on, and goes on with those of other ranks that it needs.
+/// The unknowns of a system that a rank uses: one block per cell or node. A rank first numbers the blocks that it owns,
+/// from 0, then those of other ranks that it needs.
 struct Unknowns {
   const mpi::Communicator* ranks = &mpi::Communicator::alone();  ///< the ranks that solve together
   int block = 1;                                                 ///< number of unknowns in a block
@@ -70,8 +70,8 @@ struct LinearProblem {
 class NonlinearProblem {
  public:
   virtual ~NonlinearProblem() = default;
-  /// Computes r(u); the ghosts of r are added to the rows of other ranks. False if there is no residual at such a u, so
-  /// that a smaller step must be tried.
+  /// Computes r(u); the ghosts of r are added to the rows of other ranks. Returns false if the residual is undefined
+  /// for this u, so that a smaller step must be tried.
   virtual bool residual(std::span<const double> u, std::span<double> r) = 0;
   /// Computes dr/du at the u of the last call of residual().
   virtual void tangent(Matrix& matrix) = 0;
@@ -97,9 +97,8 @@ class Solver {
   /// std::runtime_error for options that PETSc refuses.
   virtual Outcome solve(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
                         std::span<double> x) const = 0;
-  /// Solves a nonlinear system from the initial guess in `u`, owned unknowns and ghosts, by Newton's method with line
-  /// search.
-  /// Throws what the problem throws.
+  /// Solves a nonlinear system from the initial guess in `u` (owned unknowns and ghosts) by Newton's method with line
+  /// search. Throws the exceptions of the problem.
   virtual Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
                         std::span<double> u) const = 0;
   /// See the free function of the same name.

@@ -172,9 +172,9 @@ struct FluxAccess {
 };
 /// Stores the fluxes of a variable at faces where the level of the patch ends, so that the framework can make the
 /// fluxes of both levels equal. The body receives a RimFlux<T> and adds to it the amount of the variable that passes
-/// through each face, along the axis, per unit area and time. With a single level it is empty. It is meant for
-/// `computes` or `modifies` tasks of scheduleTimeAdvance whose change of a cell is dt times the difference of such
-/// fluxes over h.
+/// through each face, along the axis, per unit area and time. With a single level it is empty. It is for `computes` or
+/// `modifies` tasks of scheduleTimeAdvance in which the change of a cell is dt times the difference of such fluxes over
+/// h.
 template <class T>
 FluxAccess<T> keepsFlux(const data::CellLabel<T>& label) {
   static_assert(data::Stored<T>::number == data::Number::real, "keepsFlux(...) accepts only labels of real numbers");

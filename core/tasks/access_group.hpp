@@ -113,9 +113,10 @@ struct TotalsArgument : GroupArgument<Group, Settings...> {};
 
 /// Accesses that the body receives as one `Group`: an aggregate of views whose `static Group from(auto& take, const
 /// Settings&... settings)` gives each member its access by designated initialisers, `.mass =
-/// take(requiresOld(p::mass))`. For bodies that touch more than about eight variables. Groups nest: `.particles =
-/// Placed<Shape>::from(take, settings)`. A task that sees several materials or patches gets a std::vector<Group>. An
-/// access keeps the address of its label, so a label among the settings is passed by pointer.
+/// take(requiresOld(p::mass))`. Recommended for bodies that use more than about eight variables. Groups can be nested:
+/// `.particles = Placed<Shape>::from(take, settings)`. A task for several materials or patches receives a
+/// std::vector<Group>. An access stores the address of its label, so a label among the settings must be passed by
+/// pointer.
 template <class Group, class... Settings>
 GroupArgument<Group, Settings...> all(Settings... settings) {
   static_assert(!(std::is_base_of_v<data::Label, Settings> || ...), "pass a label to all<Group>(...) by pointer");

@@ -109,8 +109,8 @@ class Search {
   std::size_t gridPlace(int patch, const Index3& at) const {
     return warehouse_.variable(Generation::fresh, written_.variable, patch).stored.offset(at);
   }
-  /// The patch to which a cell, or the node at its lower corner, belongs. Where other levels are behind a node, it is
-  /// that of one of the cells before it; its number is -1 if there is none.
+  /// The patch to which a cell, or the node at its lower corner, belongs. If the cell behind a node is on another
+  /// level, returns the patch of one of the cells before the node, or a patch with index -1 if there is none.
   Patch ownerOf(Index3 at, const Level& level) const {
     for (int d = 0; d < 3; ++d) at[d] = std::min(at[d], level.cells().upper[d] - 1);
     for (int corner = 0; isNode() && corner < 1 << level.dimension(); ++corner) {

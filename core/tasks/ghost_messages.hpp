@@ -33,9 +33,9 @@ std::byte* valueAt(const Values& values, const Index3& place, std::size_t bytes)
   return values.values + values.stored.offset(place) * bytes;
 }
 
-/// Computes the values of a copy, one after the other, if they are not simply those of `copy.from`: means of finer
-/// cells, or values of coarser cells within their step, old + part (new - old), which lie between old and new for real
-/// numbers. Returns whether it has computed them.
+/// Computes the values of a copy, one after the other, unless they are simply those of `copy.from`: means of finer
+/// cells, or values of coarser cells within their step, old + part (new - old), which lie between old and new. Returns
+/// whether it has computed them.
 bool computeValues(data::Warehouse& warehouse, const BoundGhostFill& fill, const GhostCopy& copy, double part,
                    mpi::Bytes& values);
 

@@ -23,8 +23,8 @@ void forEachPartOutside(Box box, const Box& hole, Visit&& visit) {
   }
 }
 
-/// The nodes that other patches copy from a patch: a node between patches is copied from the upper one. On an image the
-/// last node of a periodic axis is left to the next image.
+/// The nodes that other patches copy from a patch: a node between patches is copied from the upper patch. On a periodic
+/// image, the last node along the axis is left to the next image.
 Box nodesGiven(const Patch& patch, const Index3& shift) {
   const Level& level = patch.level();
   Box nodes = patch.nodes();

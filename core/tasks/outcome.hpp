@@ -10,13 +10,13 @@
 
 namespace tushar::tasks {
 
-/// How and where the run of a graph stopped early: the first failing task in the order of the graph, over all ranks. It
-/// is sent in messages byte by byte.
+/// Describes how and where the run of a graph stopped early: the first failing task in the order of the graph, over all
+/// ranks. It is sent in messages byte by byte.
 ///
-/// A task that shortens the time step comes before one that breaks a bound, since what it computed is not used.
+/// A task that shortens the time step takes precedence over one that violates a bound, since its results are not used.
 struct Outcome {
-  /// If a task fails in several ways, the first in this order is reported, which does not depend on patches and ranks:
-  /// first exceptions of bodies, by cell, then violated bounds, by the position of the variable among those of the
+  /// If a task fails in several ways, the first in this order is reported, so that the report does not depend on
+  /// patches and ranks: exceptions of bodies, by cell, then violated bounds, by the position of the variable in the
   /// task.
   enum class Kind { shortensStep, throws, breaks };
   static constexpr int none = std::numeric_limits<int>::max();

@@ -27,9 +27,9 @@ struct Pruned {
 /// Step 2 of compiling: omits each task whose results do not contribute to a requested variable, and each offered
 /// output of kept tasks that nothing reads (AccessKind::leftOut).
 ///
-/// `wanted` names what others read at the end of the list: saved variables, the state that other lists require,
-/// reductions. `repeated` lists are run step after step, so what their own tasks require of the old state is wanted
-/// as well.
+/// `wanted` lists what is read after the end of the list: saved variables, the state that other lists require,
+/// reductions. `repeated` lists are run step after step, so the old state that their own tasks require is wanted as
+/// well.
 Pruned prune(const std::vector<Task>& tasks, const Names& wanted, bool repeated);
 
 /// Names of the variables of the old state that the tasks read.

@@ -56,8 +56,8 @@ const data::Label& registerOf(const data::Label& label) { return data::rimLabelO
 /// Accesses of the task that adds to a register.
 enum { rim, sums, step, part };
 
-/// Adds to the register. At coarser cells, sums start anew with each of their steps; at finer cells, there is one step
-/// at a time.
+/// Adds to the register. In coarser cells, the sums are reset at each of their steps; finer cells make one step at a
+/// time.
 void addToRegister(const TaskContext& context, int components) {
   const double dt = context.reduction<data::Minimum>(step).value;
   const bool isFirst = context.reduction<data::Minimum>(part).value == 0;

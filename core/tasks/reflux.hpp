@@ -11,8 +11,8 @@ namespace tushar::tasks {
 ///
 ///     U += ± dt / h (F - mean of the finer F),  + at upper faces,
 ///
-/// axis by axis, the lower face first. So what leaves one level arrives in the other, and totals are kept to round-off.
-/// Source: M. J. Berger and P. Colella, J. Comput. Phys. 82 (1989) 64.
+/// axis by axis, the lower face first. So the amount that leaves one level enters the other, and totals are conserved
+/// to round-off. Source: M. J. Berger and P. Colella, J. Comput. Phys. 82 (1989) 64.
 TaskList withRefluxing(const TaskList& list);
 
 /// The fraction of the next coarser level's step that has elapsed when a level's step begins.

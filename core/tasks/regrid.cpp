@@ -90,7 +90,7 @@ Bytes meansOf(const data::Label& label, int dimension, const Piece& piece, const
   return means;
 }
 
-/// Appends the values of the cells of a piece, x fastest. In a message they may start at any byte: numbers are made
+/// Appends the values of the cells of a piece, x fastest. Values in a message need not be aligned, so they are computed
 /// elsewhere.
 void pack(const data::Label& label, int dimension, const Piece& piece, const Variable& old, Bytes& to) {
   if (piece.coarser == 0)

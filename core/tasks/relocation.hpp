@@ -29,19 +29,19 @@ struct LostParticles {
 
 /// Assigns particles and their variables to the cells and patches of their new positions, in the order (cell, id).
 ///
-/// Keeps its working memory from step to step. Finding the moves, which may fail, is separate from making them: if
-/// nothing reads particles in between, they are made when the step is accepted, in the existing memory.
+/// Reuses its working memory in each step. Finding the moves, which may fail, is separate from making them: if no task
+/// reads particles in between, the moves are made when the step is accepted, in the existing memory.
 class Relocation {
  public:
   Relocation(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}
 
   /// Finds the new cells of a material's particles from the new values of `position`. Particles that left through a
-  /// periodic face come in at the opposite one; those that left through a free face are to be dropped.
+  /// periodic face enter at the opposite one; those that left through an open face will be dropped.
   ///
-  /// All ranks run it together. False if one of them has stopped before: then nothing is done on any.
-  /// Those at `data::vanished` are dropped, too, without being counted; those at `data::removed` are counted.
-  /// Throws NumericalError, on all ranks, for a position that is not finite, lies behind a symmetry plane, or in
-  /// coarser cells than the finest or too near to them.
+  /// All ranks call it together. Returns false if a rank has stopped before; then nothing is done on any rank.
+  /// Particles at `data::vanished` are dropped, too, without being counted; those at `data::removed` are counted.
+  /// Throws NumericalError, on all ranks, for a position that is not finite, or lies behind a symmetry plane, or is in
+  /// or too near to coarser cells.
   bool find(int material, int position, bool hasStopped);
   /// Builds the new particle set of a material from the old one and the moves found, and moves every carried variable
   /// to it, in generation `to`. Values that are already in that generation move within their memory. Collective.

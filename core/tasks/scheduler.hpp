@@ -26,15 +26,15 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 
 /// Runs compiled task graphs with the warehouse of this rank.
 ///
-/// The patches of a task are worked through by all threads at once. No result depends on how many there are.
+/// All threads work on the patches of a task at once; no result depends on their number.
 ///
-/// Ranks go through the same graph, each on its patches, and wait for one another only where one needs values of
-/// another: for ghosts, in a relocation, and once at the end of the graph, where reductions are merged and all agree on
-/// the outcome. A rank on which a task fails runs no other, and neither does one that would read its values. A task
-/// for all patches at once is run by all ranks that have patches, or by none.
+/// All ranks run the same graph, each on its own patches. They wait for one another only if one needs values of
+/// another: for ghosts, in a relocation, and at the end of the graph, where reductions are merged and all ranks agree
+/// on the outcome. A rank on which a task fails runs no further task, and neither does a rank that would read its
+/// values. A task for all patches at once is run by all ranks that have patches, or by none.
 ///
-/// A graph whose tasks know only cells of their own level may be run on one level after the other, each with its own
-/// step: what it computes stays on all levels until forgetNew(), and commitLevel() makes it the old state of one.
+/// A graph whose tasks use only cells of their own level may be run on one level after the other, each with its own
+/// step: the results remain on all levels until forgetNew(), and commitLevel() makes them the old state of one level.
 class Scheduler {
  public:
   /// Uses up to `threads` threads, but at most one per patch of this rank and one per `cellsPerThread` cells of a rank
@@ -47,14 +47,14 @@ class Scheduler {
         exchange_(warehouse, threads_),
         relocation_(warehouse, threads_) {}
 
-  /// Runs every task on every patch, and checks the bounds of the values that it has written. The old generation is
-  /// never touched. A body that throws and a broken bound end the run of the graph: a NumericalError comes out with
-  /// task, patch, material, step and time added, the same on all ranks; anything else as TaskError on the rank where it
-  /// happened. A failing task still runs on all patches; of several errors, that of the first cell, or patch, is
+  /// Runs every task on every patch, and checks the bounds of the values written. The old generation is never changed.
+  /// A body that throws, or a violated bound, ends the run of the graph: a NumericalError is rethrown with task, patch,
+  /// material, step and time added, the same on all ranks; any other exception becomes a TaskError on the rank where it
+  /// occurred. A failing task still runs on all patches; of several errors, that of the first cell, or patch, is
   /// thrown.
   ///
-  /// If a task requests a smaller time step by recomputeTimeStep, the graph ends with that task and the factor and
-  /// reason come back; running the graph once more repeats the step. Otherwise returns nothing.
+  /// If a task requests a smaller time step by recomputeTimeStep, the graph ends after this task, and its factor and
+  /// reason are returned; running the graph again repeats the step. Otherwise returns nothing.
   std::optional<data::Minimum> run(TaskGraph& graph, const StepInfo& at);
   /// Fills the ghosts of old values of cell variables. Collective.
   void fillGhosts(const std::vector<int>& variables);

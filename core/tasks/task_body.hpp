@@ -8,9 +8,9 @@ namespace tushar::tasks {
 
 class TaskContext;
 
-/// The body of a task: any function object that accepts a TaskContext, stored on the heap; copies share it. Does what
-/// std::function does, except for each kind of object the compiler makes one function in place of five: a scene's
-/// components have thousands.
+/// The body of a task: any function object that accepts a TaskContext, stored on the heap; copies share it. It works
+/// like std::function, but the compiler generates one function per kind of object instead of five, which matters
+/// because the components have thousands.
 class TaskBody {
  public:
   TaskBody() = default;

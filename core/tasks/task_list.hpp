@@ -11,8 +11,8 @@ namespace tushar::tasks {
 
 /// The tasks of one phase of a run, in the order in which a component declares them.
 ///
-/// A task is added as one starts a std::thread: a function and its arguments. Each access becomes one parameter of
-/// the body, so a body can neither read what it did not declare nor forget what it did.
+/// A task is added in the same way as a std::thread is started: a function and its arguments. Each access becomes one
+/// parameter of the body, so a body can neither read an undeclared variable nor forget a declared one.
 class TaskList {
  public:
   /// Adds a task that runs `body(patch, arguments...)` on each patch.

@@ -16,9 +16,9 @@ struct CellValues {
 void restrictTo(const data::Label& label, int dimension, const grid::Box& box, const CellValues& fine,
                 const CellValues& coarse);
 
-/// Computes the fine cells in `box` from coarser cells: U + sum_d ± s_d / 4 with monotonised central slopes s of each
-/// number separately; 0 along an axis along which `coarse` has no cell on one side. So the mean of the children is the
-/// parent. Whole numbers are copied. Source: B. van Leer, J. Comput. Phys. 23 (1977) 276.
+/// Computes the fine cells in `box` from coarser cells: U + sum_d ± s_d / 4 with monotonised central slopes s, for each
+/// component separately; the slope is 0 along an axis on which `coarse` lacks a neighbour. So the mean of the children
+/// equals the parent. Integers are copied. Source: B. van Leer, J. Comput. Phys. 23 (1977) 276.
 void prolong(const data::Label& label, int dimension, const CellValues& coarse, const grid::Box& box,
              const CellValues& fine);
 

@@ -28,8 +28,8 @@ Polygon::Polygon(std::vector<Vec3> corners) : corners_(std::move(corners)) {
   bounds_.max.array() += polygonHalf;
 }
 
-/// For the point + s d, where it meets the side from a to b: s = (b - a) x (point - a) / ((b - a).n), and (point - a).n
-/// / ((b - a).n) of the side, where n is perpendicular to the ray d.
+/// For the intersection of the line point + s d with the side from a to b: s = (b - a) x (point - a) / ((b - a).n), and
+/// its position on the side is (point - a).n / ((b - a).n), where n is perpendicular to the ray d.
 bool Polygon::contains(const Vec3& point) const {
   if ((point.array() < bounds_.min.array()).any() || (point.array() > bounds_.max.array()).any()) return false;
   const Vec3 ray = Vec3(1 / std::numbers::pi, std::numbers::pi, 0).normalized(), across(-ray[1], ray[0], 0);

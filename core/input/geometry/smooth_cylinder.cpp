@@ -12,8 +12,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// The rotation by the smallest angle that turns the z axis into `direction`. Uses Eigen's, with one of the axes in
-/// place of a singular value decomposition, which takes the compiler seconds, where the two are opposite.
+/// The rotation by the smallest angle that turns the z axis into `direction`. Uses Eigen's function except for opposite
+/// directions, for which Eigen's singular value decomposition takes the compiler seconds.
 Eigen::Matrix3d turnOfZ(const Eigen::Vector3d& direction) {
   const Eigen::Vector3d z(0, 0, 1), end = direction.normalized(), normal = z.cross(end);
   const double cosine = end.dot(z);

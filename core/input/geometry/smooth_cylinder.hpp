@@ -30,8 +30,8 @@ struct SmoothCylinder : GeometryPiece {
 
   bool contains(const Vec3& point) const override;
   Box3 bounds() const override;
-  /// The particles of the cylinder. Rings have fewer pie slices than the scene gives where a slice would have less than
-  /// a twentieth of `cellVolume` [m^3].
+  /// The particles of the cylinder. A ring has fewer pie slices than the scene specifies if a slice would otherwise
+  /// have less than a twentieth of `cellVolume` [m^3].
   std::vector<Particle> particles(double cellVolume) const;
   static const Schema<SmoothCylinder>& schema();
 

@@ -17,10 +17,10 @@ using Triangles = std::vector<std::array<Vec3, 3>>;
 
 /// The points inside a surface of triangles.
 ///
-/// A line along x through the point crosses a closed surface an odd number of times on one side. Edges that triangles
-/// share are cut in the same way for both, so that no line slips through between them. Where triangles meet in corners
-/// that differ, as in meshes whose caps and walls were made apart, lines may slip through: there two of three lines,
-/// along x, y and z, decide.
+/// A line along x through an inside point crosses a closed surface an odd number of times on each side. An edge shared
+/// by two triangles is cut in the same way for both, so that no line slips through between them. Where corners of
+/// adjacent triangles differ, as in meshes whose caps and walls were made separately, lines may slip through; then a
+/// majority of the three lines along x, y and z decides.
 class Surface : public GeometryPiece {
  public:
   /// Constructs a surface from at least one triangle. `isClosed`: whether each edge belongs to an even number of
@@ -62,8 +62,8 @@ std::string whyOpen(const Triangles& triangles);
 /// malformed, or a file is missing or ends early, reports an error with its name at `tag` and returns no triangles.
 Triangles readTriangles(const std::string& path, const Element& tag, Diagnostics& diagnostics);
 
-/// The inside of the triangles of a file. Reports an error where they are so open that lines along x, y and z disagree
-/// about what is inside, and returns none; notes smaller seams.
+/// The inside of the triangles of a file. If they are so open that lines along x, y and z disagree about the inside,
+/// reports an error and returns null; smaller gaps give a note.
 std::shared_ptr<const Surface> readSurface(const std::string& path, const Element& tag, Diagnostics& diagnostics);
 
 }  // namespace tushar::input
