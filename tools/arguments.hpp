@@ -34,8 +34,8 @@ struct Arguments {
   bool showsJson() const { return check && asksForJson && (run.jsonPath.empty() || run.jsonPath == "-"); }
 };
 
-/// Parses the words of the command line into `arguments`. Returns the exit code if the program ends here, because they
-/// asked for help, or mean nothing; then the first rank has said so.
+/// Parses the words of the command line into `arguments`. Returns the exit code if the program ends here, because the
+/// words request help or are invalid; then the first rank has printed the message.
 std::optional<ExitCode> parse(const std::vector<std::string>& words, Arguments& arguments);
 
 /// Parses a duration such as `30s`, `10min` or `2h` and returns it in seconds; none for any other text.

@@ -9,9 +9,8 @@
 namespace tushar::analysis {
 
 /// `controlVolFluxes`: writes the mass of a gas in boxes of cells over time, and the mass flow through their sides, one
-/// file per box: `<label>.dat` in the archive, where Uintah writes them. A line has the time [s], the mass [kg], what
-/// flows in along x, y and z less what flows out, and the flux through each side, x- x+ y- y+ z- z+, along the axis
-/// [kg/s].
+/// file per box: `<label>.dat` in the archive, where Uintah writes them. A line has the time [s], the mass [kg], the
+/// inflow minus the outflow along x, y and z, and the flux through each side, x- x+ y- y+ z- z+, along the axis [kg/s].
 simulation::AnalysisKind controlVolFluxesKind();
 
 /// The mass in a box, and the flux through each side: 2 * axis + side, along x, y and z.
@@ -23,9 +22,9 @@ struct BoxFlow {
   std::vector<double> values() const;
 };
 
-/// Adds a patch's share of a box of cells. The density of the upwind cell flows through a side with the mean velocity
-/// of the two cells; where the grid ends, that of the gas inside, nothing through planes of symmetry, and with a given
-/// velocity where the side has one. Density and velocity have a layer of ghosts.
+/// Adds a patch's share of a box of cells. The flux through a side is the density of the upwind cell times the mean
+/// velocity of the two cells. At the end of the grid, the density is that of the gas inside; the flux is 0 at symmetry
+/// planes, and uses the prescribed velocity if the side has one. Density and velocity need one layer of ghosts.
 template <int D>
 void addBoxFlow(const Patch& patch, const Box& box, int material, CellView<const double> density,
                 CellView<const Vec<D>> velocity, BoxFlow& flow);

@@ -26,8 +26,8 @@ struct ExtentList {
   std::vector<Extent> list;
 };
 
-/// The schema of `<lines>` with tags `line`, and likewise that of planes. `fewest` is the number of axes along which
-/// one goes.
+/// The schema of `<lines>` with tags `line`, or of `<planes>` likewise. `fewest` is the number of axes along which an
+/// extent must have a length.
 const input::Schema<ExtentList>& linesSchema();
 const input::Schema<ExtentList>& planesSchema();
 
@@ -35,8 +35,8 @@ const input::Schema<ExtentList>& planesSchema();
 /// axes, and for names that cannot be folders of the archive.
 void checkExtents(const std::vector<Extent>& extents, int axes, const grid::Level& level);
 
-/// The cells that an extent crosses, as a box; the upper cells if it lies between cells. Nodes are those at the lower
-/// corners of these cells. `level`: the finest; the cells are of one `coarser` by so many.
+/// The cells that an extent crosses, as a box; the upper cells if it lies between cells. Its nodes are those at the
+/// lower corners of these cells. `level` is the finest level; the cells are those of a level `coarser` levels above it.
 grid::Box cellsOf(const Extent& extent, const grid::Level& level, int coarser = 0);
 
 /// A box of cells on a level; level 0 is the coarsest.

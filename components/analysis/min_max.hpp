@@ -5,8 +5,8 @@
 namespace tushar::analysis {
 
 /// `minMax`: writes the minimum and maximum of variables over time, one file per variable: `MinMax/L-0/press_CC_0` in
-/// the archive, where Uintah writes them. A line has the time [s], the least and the greatest value; those of vectors
-/// and tensors are in brackets, number by number.
+/// the archive, where Uintah writes them. A line has the time [s], the minimum and the maximum; for vectors and tensors
+/// these are lists of components in brackets.
 simulation::AnalysisKind minMaxKind();
 
 }  // namespace tushar::analysis

@@ -8,8 +8,8 @@ namespace tushar::analysis {
 
 /// `particleExtract`: writes variables of selected particles over time, one file per particle: those of one material
 /// whose p.color is above a threshold. The files are `particleExtract/L-0/<p.particleID>` in the archive, as Uintah
-/// writes them: a line of names, then for every sample time, place, and the variables: numbers first, vectors, tensors
-/// by rows.
+/// writes them: a line of names, then for every sample the time, the position and the variables: scalars first, then
+/// vectors, then tensors by rows.
 simulation::AnalysisKind particleExtractKind();
 
 /// The first line of a file: the names of the columns of particle variables.

@@ -7,9 +7,10 @@
 
 namespace tushar::analysis {
 
-/// `slice`: saves cell and node variables on planes, more often than the rest. Each plane has a separate archive in
-/// that of the run, `sod.uda/slice/z=0`, with a grid that is one cell thick. It shows the cells that the plane cuts,
-/// and the nodes nearest to it, as they are; of two at the same distance those with the smaller coordinate.
+/// `slice`: saves cell and node variables on planes, more often than the other outputs. Each plane has a separate
+/// archive inside that of the run, `sod.uda/slice/z=0`, with a grid that is one cell thick. It contains the unchanged
+/// values of the cells that the plane cuts, and of the nodes nearest to it; of two nodes at the same distance, the one
+/// with the smaller coordinate.
 simulation::AnalysisKind sliceKind();
 
 /// A plane perpendicular to an axis of the scene (0: x, 1: y, 2: z), at the coordinate `at` [m].

@@ -12,8 +12,8 @@ simulation::AnalysisKind vorticityKind();
 /// The curl of the gas velocity. It always has three components; some are 0 if the grid does not use all axes.
 inline constexpr CellLabel<Vec3> vorticityLabel{"c.vorticity", "1/s", "vorticity, the curl of the velocity"};
 
-/// Computes curl v by central differences, or by one-sided differences at a side of the grid. The velocity has a layer
-/// of ghosts; along the axes that the grid leaves out nothing varies, and it has no component.
+/// Computes curl v by central differences, or by one-sided differences at a side of the grid. The velocity needs one
+/// layer of ghosts. Derivatives and components along axes that the grid does not use are 0.
 template <int D>
 void computeVorticity(const Patch& patch, CellView<const Vec<D>> velocity, CellView<Vec3> vorticity);
 

@@ -12,7 +12,7 @@ constexpr int kReach = 2;  ///< number of cells on each side that affect the flu
 
 double noSlope(double, double) { return 0; }
 
-/// u in a cell that may be outside the grid along axis `d`; there, u is the value that flows in or out.
+/// u in a cell that may be outside the grid along axis `d`; outside, u is the inflow or outflow value.
 template <int D>
 double valueAt(const Patch& patch, const BoundarySides<double>& sides, CellView<const double> u, Index<D> cell, int d) {
   if (patch.cellsWithin(kReach).contains(cell)) return u[cell];

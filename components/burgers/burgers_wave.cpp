@@ -100,8 +100,8 @@ BurgersWave::Least BurgersWave::least(double x, double t) const {
   return {lower, integral(lower) + away * away / (2 * t)};
 }
 
-/// Computes the sum over the nodes of f(y) exp(-(U(y) + (x-y)²/2t - least) / 2 nu) times the step. Beyond the places
-/// that the profile can have come from by w the exponent is at least w² / (4 nu t).
+/// Computes the sum over the nodes of f(y) exp(-(U(y) + (x-y)²/2t - least) / 2 nu) times the step. At a distance w
+/// beyond the possible origins of the profile, the exponent is at least w² / (4 nu t).
 template <class F>
 double BurgersWave::sum(double x, double t, double least, const F& f) const {
   const double width = std::sqrt(4 * kFar * problem_.viscosity * t);

@@ -21,11 +21,11 @@ struct BurgersProblem {
 /// With U the integral of the profile, u = dPhi/dx of
 ///   Phi = min over y of U(y) + (x-y)²/2t                                                       nu = 0
 ///   Phi = -2 nu ln of (4 pi nu t)^(-1/2) integral exp(-(U(y) + (x-y)²/2t) / 2 nu) dy           nu > 0
-/// so that a mean of u is a difference of Phi. U is tabulated at 8193 places, between them it is integrated by
-/// Gauss-Legendre; the integral is a sum over these places. Exact to about 1e-12 where the profile is smooth; a jump
-/// of the profile is placed to within 1/8192 of its extent, and where it stands at one of these places u is good to
-/// 1e-6. Sources: E. Hopf, Comm. Pure Appl. Math. 3 (1950) 201; J. D. Cole, Quart. Appl. Math. 9 (1951) 225; P. D. Lax,
-/// Comm. Pure Appl. Math. 10 (1957) 537.
+/// so that a mean of u is a difference of Phi. U is tabulated at 8193 points and integrated by Gauss-Legendre between
+/// them; the integral is a sum over these points. Exact to about 1e-12 where the profile is smooth; a jump of the
+/// profile is located to within 1/8192 of its extent, and if it lies at one of these points, u is accurate to 1e-6.
+/// Sources: E. Hopf, Comm. Pure Appl. Math. 3 (1950) 201; J. D. Cole, Quart. Appl. Math. 9 (1951) 225; P. D. Lax, Comm.
+/// Pure Appl. Math. 10 (1957) 537.
 class BurgersWave {
  public:
   /// Throws std::invalid_argument if nu < 0, if upper <= lower, or if the profile is not finite.

@@ -6,7 +6,7 @@ namespace tushar::euler {
 
 namespace {
 
-/// Adds to a rule what density, pressure and temperature prescribe for a gas with its own law.
+/// Adds to a rule the prescribed density, pressure and temperature for a gas with its own law.
 template <int D>
 void prescribeByLaw(const Place& place, const Gas& gas, std::optional<double> density,
                     const std::optional<double>& pressure, GhostRule<D>& rule) {

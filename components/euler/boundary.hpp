@@ -11,9 +11,9 @@
 
 namespace tushar::euler {
 
-/// A side that lets waves out, and slowly relaxes the pressure to a far-field value: the incoming characteristic, p -
-/// rho c u_n with n outwards, changes at the rate -K (p - p_far), K = sigma (1 - M²) c / L, where L is the length of
-/// the grid across the side. So beyond the side the characteristic is less by (p - p_far) sigma (1 + M) h / L. Source:
+/// A non-reflecting side, which slowly relaxes the pressure to a far-field value: the incoming characteristic, p - rho
+/// c u_n with n outwards, changes at the rate -K (p - p_far), K = sigma (1 - M²) c / L, where L is the length of the
+/// grid across the side. So the characteristic beyond the side is smaller by (p - p_far) sigma (1 + M) h / L. Sources:
 /// T. Poinsot & S. K. Lele, J. Comput. Phys. 101 (1992) 104; D. H. Rudy & J. C. Strikwerda, J. Comput. Phys. 36 (1980)
 /// 55, for K.
 struct Relaxation {
@@ -59,8 +59,8 @@ struct SideRules : GhostRule<D> {
 template <int D>
 using GhostRules = std::array<std::array<SideRules<D>, 2>, D>;
 
-/// A place at a side of the grid that has conditions: a part of the side, or the rest of it. Where formulas stand for
-/// values they count at a point [m] and a time [s].
+/// A place at a side of the grid that has conditions: a part of the side, or the rest of it. Formulas in place of
+/// values are evaluated at a point [m] and a time [s].
 struct Place {
   const Level& level;
   int axis = 0, side = 0, part = grid::restOfSide;
@@ -81,12 +81,12 @@ std::optional<double> pressureAt(const Place& place, const Gas& gas);
 template <int D>
 bool isWall(const Place& place, const Gas& gas);
 
-/// The rules that follow from the scene's conditions: a wall mirrors the gas. Where Density, Velocity or Pressure is
-/// given, gas of these values flows in; a Temperature and one of density and pressure determine the other. Whatever is
-/// not given continues with no gradient, so that a side without conditions is an outflow.
+/// The rules that follow from the scene's conditions: a wall mirrors the gas. If Density, Velocity or Pressure is
+/// given, gas with these values flows in; a Temperature together with a density or a pressure determines the other.
+/// Quantities that are not given continue without gradient, so a side without conditions is an outflow.
 ///
-/// Formulas count at `time` [s], in the middle of each cell beyond the side, and mean there what their values would.
-/// Throws NumericalError where one gives a density, or a p + p_inf, that cannot be.
+/// Formulas are evaluated at `time` [s] in the centre of each cell beyond the side, and act there like values. Throws
+/// NumericalError if a formula gives an impossible density or p + p_inf.
 template <int D>
 GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time = 0);
 

@@ -75,11 +75,12 @@ struct ColdCurve {
 // gives pressure and energy: the pressure itself [Pa] or, of a substance whose pressure does not depend on its heat,
 // the heat rho c_v T [J/m³].
 
-/// p = p_cold + Gamma rho c_v T, E = E_cold + rho c_v T: after Mie & Grueneisen. Gamma is constant or, with a linear
-/// cold curve, Gamma rho is. With Gamma = 0 the pressure is that of the density alone.
+/// The equation of state p = p_cold + Gamma rho c_v T, E = E_cold + rho c_v T, after Mie & Grueneisen. Gamma is
+/// constant or, with a linear cold curve, Gamma rho is constant. With Gamma = 0 the pressure depends on the density
+/// alone.
 ///
-/// rho E and so the energy of mixed states are convex where p_cold rises with the density, so that the heat of a mean
-/// of possible states is positive.
+/// Where p_cold increases with the density, rho E_cold is convex; hence a mean of admissible states has a positive
+/// heat.
 class CurvedGas {
  public:
   /// `gamma` is the Grüneisen parameter, at least 0; with a linear cold curve it is the value at rho_0. The specific
@@ -152,10 +153,10 @@ class CurvedGas {
   double gamma_, specificHeat_;
 };
 
-/// Water: v = v_0 (1 - k_0 p + L x²), x = a p + T - T_0. Its heat at p = 0 is c_p = c_0 + b (T_0 - T), that at other
-/// pressures follows from v. It holds above the greatest density (x > 0), and up to the x at which c_v has fallen to
-/// half of c_p at p = 0: not far above, water would become denser without any pressure.
-/// Source: J. S. Thomsen & T. J. Hartka, Am. J. Phys. 30 (1962) 26.
+/// Water: v = v_0 (1 - k_0 p + L x²), x = a p + T - T_0. Its heat at p = 0 is c_p = c_0 + b (T_0 - T); at other
+/// pressures it follows from v. Valid above the temperature of greatest density (x > 0), up to the x at which c_v has
+/// fallen to half of c_p at p = 0: slightly above, water would become denser without any pressure. Source: J. S.
+/// Thomsen & T. J. Hartka, Am. J. Phys. 30 (1962) 26.
 class Water {
  public:
   struct Numbers {

@@ -10,12 +10,12 @@ namespace tushar::euler {
 template <int D>
 std::vector<simulation::Criterion> criteria();
 
-/// Godunov's method for the Euler equations of gas dynamics in D dimensions: dU/dt + sum_d dF_d(U)/dx_d = 0,
-/// U = (rho, rho v, E).
+/// Godunov's method for the Euler equations of gas dynamics in D dimensions: dU/dt + sum_d dF_d(U)/dx_d = 0, U = (rho,
+/// rho v, E).
 ///
-/// A face with `Symmetric`, or with a Dirichlet `Velocity` alone that lies in it, is a wall; one with Dirichlet values
-/// of `Density`, `Velocity` or `Pressure` lets gas in; any other one lets it out. Mass, momentum and energy change by
-/// what flows through the sides of the grid alone.
+/// A face with `Symmetric`, or whose only condition is a tangential Dirichlet `Velocity`, is a wall; a face with
+/// Dirichlet values of `Density`, `Velocity` or `Pressure` is an inflow; any other face is an outflow. Mass, momentum
+/// and energy change only by fluxes through the sides of the grid.
 template <int D>
 class Euler : public Component, public reference::GasSolution {
  public:

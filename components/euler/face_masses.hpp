@@ -13,7 +13,7 @@ inline constexpr std::array<CellLabel<Vec<D>>, 2> massFlux{
      {"c.massFluxAbove", "kg/(m^2 s)", "mass through the upper faces"}}};
 }  // namespace c
 
-/// The mass flux through the faces of cells in a step, per area and time; empty if nothing needs it.
+/// The mass flux through the faces of cells in a step, per unit area and time; empty if no task needs it.
 template <int D>
 struct FaceMasses {
   std::optional<CellView<Vec<D>>> below = {}, above = {};

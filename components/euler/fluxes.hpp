@@ -29,10 +29,10 @@ State<D, K> fluxOf(const FaceState<D, K>& face) {
 
 /// The approximate Riemann solver with three waves (HLLC).
 ///
-/// Wave speeds: the outer ones of both states and of Einfeldt's mean (section 10.5), of the contact (10.37). Between
-/// the waves the states (10.39) and the mean of the two pressures (10.36), which are equal except for round-off: so the
-/// mirrored problem gives the mirrored flux to the last bit.
-/// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 10.
+/// Wave speeds: for the outer waves, those of both states and of Einfeldt's mean (section 10.5); for the contact,
+/// (10.37). Between the waves: the states (10.39), with the mean of the two pressures (10.36). These are equal except
+/// for round-off; the mean makes the flux of the mirrored problem bitwise mirrored. Source: E. F. Toro, Riemann Solvers
+/// and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 10.
 struct Hllc {
   template <int D, int Axis, class G>
   static FaceState<D, kGases<G>> solve(const G& gas, const State<D, kGases<G>>& left,

@@ -13,9 +13,9 @@
 namespace tushar::euler {
 
 /// The state of a cell in D dimensions, as numbers that loops over rows keep in registers. Primitive: density [kg/m³],
-/// velocity along each axis [m/s], pressure [Pa]. Conserved, and fluxes: density, momentum, total energy per volume. Of
-/// K > 1 gases (mixture.hpp) the mass of each per volume of the cell [kg/m³] follows, and its share of the volume; the
-/// density is the sum of the masses.
+/// velocity along each axis [m/s], pressure [Pa]. Conserved, and fluxes: density, momentum, total energy per volume.
+/// For K > 1 gases (mixture.hpp), followed by the mass of each gas per volume of the cell [kg/m³] and its volume
+/// fraction; the density is then the sum of the masses.
 template <int D, int K = 1>
 using State = std::array<double, D + 2 + (K > 1 ? 2 * K : 0)>;
 
@@ -36,8 +36,8 @@ constexpr std::size_t kShare(int k) {
 
 /// A stiffened gas: p = (gamma - 1) rho e - gamma p_inf; with p_inf = 0 an ideal gas.
 ///
-/// With P = p + p_inf all waves are those of an ideal gas of pressure P.
-/// Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report LA-4700 (1971).
+/// With P = p + p_inf, all waves are those of an ideal gas with pressure P. Source: F. H. Harlow & A. A. Amsden, Fluid
+/// Dynamics, LANL report LA-4700 (1971).
 struct StiffenedGas {
   double gamma = 1.4;    ///< ratio of specific heats, greater than 1
   double pInfinity = 0;  ///< p_inf [Pa]

@@ -79,10 +79,10 @@ struct Unfilled : std::allocator<T> {
   }
 };
 
-/// One State of K gases per cell of a box; each component is in an array of its own, the first axis fastest.
+/// One State of K gases per cell of a box; each component is in a separate array, with the first axis fastest.
 ///
-/// Of a box of three dimensions it may hold some planes of z alone: as many consecutive ones as it has room for. A
-/// plane takes the place of the one that is as many before it or behind.
+/// For a three-dimensional box, it may store only as many consecutive planes of z as it has space for. A new plane then
+/// replaces the plane that lies this number of planes before or behind it.
 template <int D, int K = 1>
 class Rows {
  public:

@@ -82,8 +82,9 @@ void conduct(const Patch& patch, const Settings& settings, CellView<const double
 }
 
 /// Marks cells in which the error of linear interpolation between cells exceeds `tolerance` [K]: |T_{i-1} - 2 T_i +
-/// T_{i+1}| / 8 along the worst axis, which is h² |T''| / 8. It is four times as much on cells twice as wide, so that
-/// those with more than a quarter stay. At a side of the grid the inner neighbour decides.
+/// T_{i+1}| / 8 along the worst axis, which is h² |T''| / 8. On cells twice as wide the error is four times as large;
+/// therefore cells with more than a quarter of the tolerance are kept. At a side of the grid, the inner neighbour is
+/// used.
 template <int D>
 void estimateError(const Patch& patch, double tolerance, CellView<const double> temperature, Marks marks) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {

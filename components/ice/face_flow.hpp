@@ -175,16 +175,16 @@ class GasBefore {
 ///
 ///   u_f = u*_f - dt / (rho_f h) (p'_R - p'_L),   u*_f = the mean of v - dt (v . grad) v of both cells + dt g,
 ///
-/// rho_f the mean density. Walls, and sides with a Velocity, have that velocity whatever the pressure. Other sides
-/// without a Pressure are open: no wave comes in through them. With n outwards, p_o = p + rho g_n h / 2 in the middle
-/// of the side, and the cell c beside it,
+/// where rho_f is the mean density. At walls, and at sides with a Velocity, u_f is that velocity, whatever the
+/// pressure. Other sides without a Pressure are open: no wave enters through them. With n outwards, p_o = p + rho g_n h
+/// / 2 in the centre of the side, and the cell c next to it,
 ///
 ///   u_n = v_n,c + (p'_f - p_o + r) / (rho_f c) = u*_n,c - dt / (rho_f h / 2) (p'_f - p'_c),
 ///
-/// r what the incoming wave loses where the side relaxes to a pressure far away; else 0.
+/// where r is the loss of the incoming wave if the side relaxes to a far-field pressure, and 0 otherwise.
 ///
-/// All that p' counts by is its change from p, so that where the gas is at rest no rounding of p pushes it.
-/// Source: F. H. Harlow & A. A. Amsden, J. Comput. Phys. 8 (1971) 197; N. Kwatra, J. Su, J. T. Gretarsson & R. Fedkiw,
+/// Only the change p' - p is used, so that gas at rest is not moved by round-off of p.
+/// Sources: F. H. Harlow & A. A. Amsden, J. Comput. Phys. 8 (1971) 197; N. Kwatra, J. Su, J. T. Gretarsson & R. Fedkiw,
 /// J. Comput. Phys. 228 (2009) 4146; K. W. Thompson, J. Comput. Phys. 68 (1987) 1, for open sides.
 template <int D, int K = 1>
 class FaceFlow : public GasBefore<D, K> {

@@ -79,7 +79,8 @@ bool isShareOf(const GasBody& body, double share) {
 }
 
 /// Reads a gas and its initial state into the settings that it shares with other gases. `besideBodies`: a region with
-/// none of a single gas is a body's, and what space it leaves has the gas around it.
+/// the volume fraction 0 of the only gas belongs to a body; any space that the body leaves contains the surrounding
+/// gas.
 void readMaterial(const GasMaterial& material, const Element& element, bool besideBodies, euler::Settings& settings,
                   Diagnostics& diagnostics) {
   settings.name = material.name;

@@ -10,7 +10,7 @@ namespace tushar::ice {
 /// the grid is read.
 int materialOf(const input::Element& condition);
 
-/// Reads the materials into a scene whose other settings are known: one gas, one that is a mixture of two, or several.
+/// Reads the materials into a scene whose other settings are known: one gas, a mixture of two gases, or several gases.
 /// They are numbered after `solids` bodies.
 void readMaterials(const std::vector<GasMaterial>& materials, const input::Element& root, int solids, GasScene& scene,
                    input::Diagnostics& diagnostics);

@@ -14,8 +14,9 @@ struct HeatCoefficients {
   bool act() const {
     return byMasses || std::any_of(pairs.begin(), pairs.end(), [](double h) { return h > 0; });
   }
-  /// The coefficient of a pair of materials with these masses per volume of the cell [kg/m³]. By masses it is r² or
-  /// 1/r², r their ratio, from 1e5 to 1e12: Uintah's `linearVariation`.
+  /// The coefficient of a pair of materials with these masses per volume of the cell [kg/m³]. If coefficients depend on
+  /// masses (Uintah's `linearVariation`), it is r², limited to the range from 1e5 to 1e12, where r is the larger mass
+  /// divided by the smaller one.
   double of(std::size_t pair, double massA, double massB) const {
     if (!byMasses) return pairs.empty() ? 0 : pairs[pair];
     const double ratio = massA > massB ? massA / massB : massB / massA;

@@ -11,8 +11,8 @@
 namespace tushar::ice {
 
 /// The tag `<vortex>`: a rotation of the gas around an axis through its origin, within the radius R. With the distances
-/// y and z from there along the other two axes, v_y falls by C z / (rho R^2) exp(-(y^2 + z^2) / (2 R^2)), and v_z rises
-/// by the same of y. (T. Poinsot, S. K. Lele, J. Comput. Phys. 101, 1992)
+/// y and z from the origin along the other two axes, v_y decreases by C z / (rho R^2) exp(-(y^2 + z^2) / (2 R^2)), and
+/// v_z increases by the same expression with y in place of z. (T. Poinsot, S. K. Lele, J. Comput. Phys. 101, 1992)
 struct Vortex {
   int axis = 0;
   Vec3 origin = Vec3::Zero();       ///< origin [m]
@@ -37,8 +37,8 @@ struct Counterflow {
 };
 
 /// The tag `<manufacturedSolution>`: mms_1 is a row of vortices of amplitude A in a wind of 1 m/s along x and y, with
-/// the pressure p_0 - A²/4 (cos 2x + cos 2y), p_0 = 101325 Pa; mms_3 the start of Taylor's and Green's vortex, of an
-/// angle (M. E. Brachet & al., J. Fluid Mech. 130 (1983) 411).
+/// the pressure p_0 - A²/4 (cos 2x + cos 2y), p_0 = 101325 Pa; mms_3 is the initial state of the Taylor-Green vortex
+/// with an angle (M. E. Brachet & al., J. Fluid Mech. 130 (1983) 411).
 struct Manufactured {
   std::string type;
   double amplitude = 1;  ///< amplitude A [m/s]

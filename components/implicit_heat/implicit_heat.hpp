@@ -38,9 +38,9 @@ class ImplicitHeat : public Component {
 };
 
 /// Solves rho c (T' - T) / dt = div(k grad T*) with T* = theta T' + (1 - theta) T: a linear system for T* in all cells,
-/// from which T' = T + (T* - T) / theta. theta = 1: backward Euler, of first order in time, and on one level no T' is
-/// outside the range of T and the faces; theta = 1/2: Crank & Nicolson, Proc. Camb. Phil. Soc. 43 (1947) 50, of second
-/// order. Both are stable for any dt. Throws NumericalError if the solver gives up.
+/// from which T' = T + (T* - T) / theta. theta = 1 is backward Euler, of first order in time; on a single level, T'
+/// then stays within the range of T and the boundary values. theta = 1/2 is the method of Crank & Nicolson, Proc. Camb.
+/// Phil. Soc. 43 (1947) 50, of second order. Both are stable for any dt. Throws NumericalError if the solver fails.
 template <int D>
 void conduct(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double dt,
              const std::vector<CellView<const double>>& temperature,

@@ -6,8 +6,8 @@
 namespace tushar::mpmice {
 
 /// Velocities and masses of all solids at nodes, for use at faces: a face distributes forces over the nodes of the
-/// cells on both sides, in proportion to their masses. One set of shares serves velocity, force and work, so that what
-/// the gas loses is what the nodes get.
+/// cells on both sides, in proportion to their masses. The same weights are used for velocity, force and work, so that
+/// the losses of the gas equal the gains of the nodes.
 template <int D>
 class BodiesAtNodes {
  public:

@@ -79,8 +79,8 @@ class FreeSpace {
     return both;
   }
 
-  /// Unit vector into the body: the gradient of 1 - free volume over the surrounding cells, weighted 1 2 1 across; 0
-  /// where it has none. Source: D. L. Youngs, AWRE report 44/92/35 (1984).
+  /// Unit vector into the body: the gradient of 1 - free volume over the surrounding cells, weighted 1 2 1 across; 0 if
+  /// the gradient vanishes. Source: D. L. Youngs, AWRE report 44/92/35 (1984).
   Vec<D> normal(const Index<D>& cell) const {
     Vec<D> gradient = Vec<D>::Zero();
     Box around{{}, Index3::filled(1)};

@@ -44,8 +44,8 @@ auto viewsOfGases(Take& take, std::size_t gases, Access&& access) {
   return views;
 }
 
-/// The gas in the free part of cells: its content, per volume of the cell, and the free volume. For several gases the
-/// masses are per volume of the cell, too; shares are those of the gas's volume.
+/// The gas in the free part of cells: its content, per volume of the cell, and the free volume. For several gases, the
+/// masses are also per volume of the cell, but volume fractions are relative to the gas's volume.
 template <int D>
 struct GasInCells {
   euler::MixtureViews<D, const double> held;

@@ -8,8 +8,8 @@
 
 namespace tushar::mpmice {
 
-/// Cell variables. Of the gas, c.density, c.momentum and c.totalEnergy of `euler` are per volume of the cell, not of
-/// the gas in it. What belongs to faces belongs to the lower faces of a cell, one number for each axis.
+/// Cell variables. The gas variables of `euler`, c.density, c.momentum and c.totalEnergy, are per volume of the cell,
+/// not of the gas in it. Quantities at faces belong to the lower faces of a cell, one number for each axis.
 namespace c {
 using namespace euler::c;
 using namespace ice::c;

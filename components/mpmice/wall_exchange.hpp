@@ -171,9 +171,9 @@ class WallExchange {
     double share = 1;
   };
 
-  /// What a donor can give. If it has too little gas, the rest comes from the neighbour with which it will be merged,
-  /// if this is mostly free. Otherwise a donor gives of what it has, as dense as the gas asked for, and at most all of
-  /// it.
+  /// The amount that a donor can give. If it has too little gas, and the neighbour with which it will be merged is
+  /// mostly free, this neighbour gives the rest. Otherwise the donor gives gas of the requested density, at most all
+  /// that it has.
   std::optional<Gift> givenBy(const Index<D>& donor, const Index<D>& receiver) const {
     const std::optional<Parcel<D>> wanted = stateOf(donor, receiver);
     if (!wanted) return std::nullopt;
@@ -182,7 +182,7 @@ class WallExchange {
     if (!(mass > 0)) return std::nullopt;
     return Gift{cells_.contentOf(donor, wanted->u[euler::kDensity] / mass), mass / std::max(mass, massAskedOf(donor))};
   }
-  /// The mass that a donor would give through all its faces, kg/m³, and a little more: closed pores are included,
+  /// The mass that a donor would give through all its faces [kg/m³], and slightly more: closed pores are included,
   /// although they receive none.
   double massAskedOf(const Index<D>& donor) const {
     double mass = 0;
@@ -209,8 +209,8 @@ class WallExchange {
     return any;
   }
 
-  /// The state of the donor's gas; if it has none, that of the receiver; if that has none either, the mean around the
-  /// donor. Where the donor has hardly room, some of both.
+  /// The state of the donor's gas; if the donor has none, that of the receiver; if the receiver has none either, the
+  /// mean around the donor. If the donor has almost no free volume, the result is a blend of both.
   std::optional<Parcel<D>> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
     const double room = space_.isEmpty(donor) ? 0 : roomOf(cells_.free[donor]) / cells_.free[donor];
     if (room == 1) return cells_.parcel(donor);

@@ -26,9 +26,9 @@ struct Settings {
 
 /// div(k grad phi) = f in D dimensions, by finite volumes, solved in every step with f at its end.
 ///
-/// At a face with `Phi` Dirichlet the value is kept, with Neumann the outward derivative; any other face lets no flux
-/// through. Where no face keeps a value, phi has mean 0, and a source that the faces do not balance is refused. The
-/// component to copy where a step needs a global solve.
+/// A face with a Dirichlet condition for `Phi` has the given value, one with a Neumann condition the given outward
+/// derivative; any other face has no flux. Without any Dirichlet condition, phi has mean 0, and a source that is not
+/// balanced by the faces is refused. This component is the template for methods whose steps need a global solve.
 template <int D>
 class Poisson : public Component {
  public:

@@ -23,9 +23,9 @@ struct RiemannProblem {
 
 /// The exact solution of a Riemann problem in space and time: shock tubes, Noh's plane wall, gas into vacuum.
 ///
-/// In vacuum density, pressure and energy are 0 and the velocity is that of the nearer front.
-/// The internal energy is (p + gamma p_inf) / ((gamma - 1) rho).
-/// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 4.
+/// In vacuum, density, pressure and energy are 0, and the velocity is that of the nearer front. The internal energy is
+/// (p + gamma p_inf) / ((gamma - 1) rho). Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics,
+/// 3rd ed., chapter 4.
 class ExactRiemann : public GasReference {
  public:
   /// Throws the same std::invalid_argument as solveRiemann, and one for an impossible axis or diaphragm.

@@ -44,7 +44,7 @@ class BoxMean {
   }
 
   /// Mean over [a, b]; `whole` is its value by Gauss's rule. Halves the interval as long as this changes the mean over
-  /// the undivided piece, of which [a, b] is the part 2^-depth. Values too large for a number have no better mean.
+  /// the undivided interval, of which [a, b] is the fraction 2^-depth. Values that overflow are not refined further.
   Fields adaptive(int axis, const Vec3& x, double a, double b, const Fields& whole, int depth) const {
     const double middle = 0.5 * (a + b);
     const Fields left = gauss(axis, x, a, middle);

@@ -16,10 +16,10 @@ struct NohProblem {
 
 /// The exact solution of Noh's problem in d = 1, 2 or 3 dimensions: a shock of speed s = (gamma-1)/2 u0 runs outwards.
 ///
-/// Behind it the gas is at rest with rho0 ((gamma+1)/(gamma-1))^d and p = (gamma-1)/2 rho u0²; ahead of it, at a
-/// distance r, it still falls with u0 and has rho0 (1 + u0 t / r)^(d-1). A pressure at the start is carried along with
-/// p / rho^gamma and otherwise without effect: the solution is that of cold gas. Source: W. F. Noh, J. Comput. Phys. 72
-/// (1987) 78.
+/// Behind it, the gas is at rest with density rho0 ((gamma+1)/(gamma-1))^d and p = (gamma-1)/2 rho u0²; ahead of it, at
+/// a distance r, the gas still moves inwards with u0 and has the density rho0 (1 + u0 t / r)^(d-1). An initial pressure
+/// is transported with constant p / rho^gamma and has no other effect: the solution is that of cold gas. Source: W. F.
+/// Noh, J. Comput. Phys. 72 (1987) 78.
 class Noh : public RadialReference {
  public:
   /// Throws std::invalid_argument if a setting is out of range.

@@ -94,9 +94,9 @@ class PiecewiseMean {
 };
 
 /// Mean of each field over the box [lower, upper] [m] at time `t` [s] for a gas that is smooth except at `surfaces`; an
-/// axis with no extent is a point. Gauss-Legendre with 5 points per axis, in a box that a surface cuts 8 in each piece:
-/// exact for polynomials cut by planes up to degree 13 over all axes, to about 1e-8 of what jumps where spheres cut.
-/// Throws std::invalid_argument where upper < lower.
+/// axis with no extent is a point. Gauss-Legendre with 5 points per axis; in a box that a surface cuts, 8 in each
+/// piece. Exact for polynomials up to degree 13 over all axes if the surfaces are planes; for spheres, the error is
+/// about 1e-8 of the jump. Throws std::invalid_argument if upper < lower.
 template <class Surface>
 GasState piecewiseMean(const GasReference& gas, const std::vector<Surface>& surfaces, const Vec3& lower,
                        const Vec3& upper, double t) {

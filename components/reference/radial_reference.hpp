@@ -27,7 +27,7 @@ class RadialReference : public GasReference {
 
  protected:
   /// `round` is 1 along the axes in which the distance is measured, 0 along the others. Throws std::invalid_argument
-  /// for others than these, or if all are 0.
+  /// for other values, or if all are 0.
   RadialReference(const Vec3& centre, const Vec3& round);
 
   /// The number of these axes: 1, 2 or 3.

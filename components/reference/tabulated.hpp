@@ -21,8 +21,8 @@ struct GasTable {
 /// file cannot be read or does not hold these.
 GasTable readGasTable(const std::filesystem::path& file, double gamma);
 
-/// The cell means of another run, of higher resolution, as the reference of a scene that has no exact solution. It
-/// holds at the time of the table and within its box.
+/// The cell means of another run, of higher resolution, as the reference of a scene that has no exact solution. Valid
+/// at the time of the table and within its box.
 class Tabulated : public GasReference {
  public:
   /// Throws std::invalid_argument if the table has no cells, no extent, or a number of means that differs from the

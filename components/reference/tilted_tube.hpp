@@ -14,16 +14,16 @@ struct TubePlacement {
   double period = 0;             ///< length along the tube after which it and its image repeat [m]; 0: never
 };
 
-/// The exact solution of a Riemann problem in a tube that lies in any direction.
+/// The exact solution of a Riemann problem in a tube with an arbitrary direction.
 ///
-/// With s = normal . x the fields are those of ExactRiemann at s along x. Where there is a mirror, the tube is the side
-/// of it that the diaphragm is on; beyond lies its image. With a period, a second mirror is half a period away.
-/// It holds until a wave reaches a mirror.
+/// With s = normal . x, the fields are those of ExactRiemann at s along x. If there is a mirror, the tube is on the
+/// same side of it as the diaphragm; its image is beyond. With a period, there is a second mirror half a period away.
+/// Valid until a wave reaches a mirror.
 class TiltedTube : public GasReference {
  public:
   /// `problem` is along x; its diaphragm is a distance from the origin along the tube. Throws std::invalid_argument as
-  /// ExactRiemann does, where the normal is no unit vector or the diaphragm does not lie between the mirrors, and where
-  /// a period has no mirror or gas moves at a mirror.
+  /// ExactRiemann does, and if the normal is not a unit vector, the diaphragm is not between the mirrors, a period has
+  /// no mirror, or gas moves at a mirror.
   TiltedTube(const RiemannProblem& problem, const TubePlacement& placement);
 
   /// Throws std::domain_error from the time on at which a wave reaches a mirror.

@@ -36,11 +36,11 @@ void addDiffused(double ratio, const Box& block, int axis, Rows<D>& flux, CellVi
 /// Adds the changes due to viscosity and heat conduction in a step, given the state [kg/m³, kg/(m² s), J/m³] and the
 /// time at the start of the step.
 ///
-/// Through a face across d flow -tau_d of momentum and -(tau_d . v + k dT/dx_d) of energy, tau = mu (grad v +
-/// (grad v)^T - 2/3 div v I): Newton's and Fourier's laws, by centred differences. What leaves a cell enters its
-/// neighbour, so mass, momentum and energy are kept. One step of Euler's method: of first order in time.
-/// Sides: no stress along a plane of symmetry, and no heat through it. The gas sticks to a wall with a `Velocity`; a
-/// `Temperature` is that of the wall, without one it is adiabatic. Nothing diffuses through an open side.
+/// The fluxes through a face across d are -tau_d for momentum and -(tau_d . v + k dT/dx_d) for energy, tau = mu (grad v
+/// + (grad v)^T - 2/3 div v I): Newton's and Fourier's laws, by centred differences. They conserve mass, momentum and
+/// energy. One step of Euler's method: of first order in time. Sides: no stress along a symmetry plane, and no heat
+/// through it. The gas sticks to a wall with a `Velocity`; a `Temperature` is that of the wall, and a wall without it
+/// is adiabatic. There is no diffusion through an open side.
 template <int D>
 void addDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion, const OldState<D>& old, double time,
                   double dt, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy,

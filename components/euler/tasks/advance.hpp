@@ -6,8 +6,8 @@
 
 namespace tushar::euler {
 
-/// The fluxes of one of several gases through the rim of the level: of its mass [kg/(m² s)] and its volume fraction,
-/// m/s.
+/// The fluxes of one of several gases through the rim of the level: of its mass [kg/(m² s)] and of its volume fraction
+/// [m/s].
 struct GasRims {
   RimFlux<double> mass, share;
 
@@ -36,11 +36,11 @@ struct RimFluxes {
 /// One step on a patch, as the body of the task: the gas, the old state [kg/m³, kg/(m² s), J/m³], its time, the time
 /// step [s], the new state, and its fluxes through the rim of the level.
 ///
-/// U' = U - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, all axes at once (unsplit). First order: F of the cells on
-/// both sides of a face. MUSCL-Hancock: limited slopes of rho, v, p along each axis; what the fluxes of a cell's own
-/// face values change in half a step is added to each of them; F of what then stands on both sides of a face. A cell
-/// whose values at a face would lose their positive density or p + p_inf is taken as constant for this step.
-/// Source: B. van Leer, SIAM J. Sci. Stat. Comput. 5 (1984) 1; Toro, sections 6.3, 14.4 and 16.5.
+/// U' = U - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, all axes at once (unsplit). First order: F of the cells on both
+/// sides of a face. MUSCL-Hancock: limited slopes of rho, v, p along each axis give face values; these are advanced by
+/// half a step with the fluxes of the cell's own face values; F is then computed from the values on both sides of a
+/// face. A cell with a face value whose density or p + p_inf would not be positive is treated as constant in this step.
+/// Sources: B. van Leer, SIAM J. Sci. Stat. Comput. 5 (1984) 1; Toro, sections 6.3, 14.4 and 16.5.
 template <int D>
 using Advance = void (*)(const Patch& patch, const Gas& gas, const OldState<D>& old, double time, double dt,
                          const NewState<D>& fresh, const RimFluxes<D>& rims);

@@ -58,11 +58,12 @@ MixtureViews<D, T> viewsOf(const StateViews<D, T>& all, const std::vector<Held>&
   return views;
 }
 
-/// One step of several gases: that of Advance, of all together, with limited slopes of the mass and the share of each
-/// in place of the density's. Shares go with the velocity of the contact at faces, so that where velocity and pressure
-/// are uniform they stay so. Slopes of three gases need not add up; they are scaled until the shares at a face add up
-/// to 1, and the densities of the gases stay as they are. Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181
-/// (2002) 577; E. Johnsen & T. Colonius, J. Comput. Phys. 219 (2006) 715, of shares with HLLC.
+/// One step of several gases: as Advance for their mixture, but with limited slopes of the mass and the volume fraction
+/// of each gas instead of the density. Volume fractions are advected with the velocity of the contact at faces, so that
+/// uniform velocity and pressure remain uniform. Slopes of three gases need not add up; they are scaled until the
+/// fractions at a face add up to 1, without changing the densities of the gases. Sources: G. Allaire, S. Clerc & S.
+/// Kokh, J. Comput. Phys. 181 (2002) 577; E. Johnsen & T. Colonius, J. Comput. Phys. 219 (2006) 715, for volume
+/// fractions with HLLC.
 template <int D>
 using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>& gases, const OldState<D>& old,
                                 const std::vector<OldGas>& oldGases, double time, double dt, const NewState<D>& fresh,
@@ -90,8 +91,8 @@ struct ChangedGas {
   }
 };
 /// Like mendNewCells, for several gases. Since the values of new cells are interpolated separately, the density is set
-/// to the sum of the masses, and the volume fractions are rescaled to add up to 1. Where that makes no gas, all
-/// children of a cell get their means.
+/// to the sum of the masses, and the volume fractions are rescaled to add up to 1. If the result is not a valid gas,
+/// all children of the parent cell get their mean.
 template <int D>
 void mendNewMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& newCells,
                     const ChangedState<D>& state, const std::vector<ChangedGas>& held);

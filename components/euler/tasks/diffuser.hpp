@@ -38,10 +38,10 @@ struct DiffusingCell {
   double soundSpeed = 0;    ///< speed of sound [m/s]
 };
 
-/// Computes the diffusive fluxes of blocks of cells whose viscosity and conduction differ: the coefficients at a face
-/// are the means of those of both cells. Eddies smaller than cells add rho (C Delta)² sqrt(2 S : S) to the viscosity, S
-/// the symmetric part of grad v at the face and Delta the cubic root of a cell's volume. Source: J. Smagorinsky, Mon.
-/// Weather Rev. 91 (1963) 99.
+/// Computes the diffusive fluxes of blocks of cells with variable viscosity and conductivity: the coefficients at a
+/// face are the means of those of both cells. The subgrid model adds rho (C Delta)² sqrt(2 S : S) to the viscosity,
+/// where S is the symmetric part of grad v at the face and Delta the cubic root of a cell's volume. Source: J.
+/// Smagorinsky, Mon. Weather Rev. 91 (1963) 99.
 template <int D>
 class Diffuser {
  public:

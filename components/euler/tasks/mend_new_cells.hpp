@@ -43,8 +43,8 @@ class Children {
 };
 
 /// Replaces invalid new cells by the mean over their parent. Since density, momentum and energy are interpolated
-/// separately, the pressure next to a jump could be below -p_inf. There all children of the parent get their mean,
-/// which is its state: nothing is lost. `newCells`: boxes of whole parents.
+/// separately, the pressure next to a jump could be below -p_inf. In that case all children of the parent get their
+/// mean, which is the state of the parent, so conservation holds. `newCells`: boxes of whole parents.
 template <int D>
 void mendNewCells(const Patch&, const Gas& gas, const std::vector<Box>& newCells, const ChangedState<D>& state) {
   const auto isFine = [&](const Index<D>& cell) {

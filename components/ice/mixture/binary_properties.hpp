@@ -30,7 +30,7 @@ struct BinaryGas {
 };
 
 /// `<Model type="BinaryProperties">`: two ideal gases A and B at one temperature. With the mass fraction f of B, c_v
-/// and R are 1 - f times those of A plus f times those of B, and the density at the start is 1 / ((1 - f) / rho_A + f /
+/// and R are 1 - f times those of A plus f times those of B, and the initial density is 1 / ((1 - f) / rho_A + f /
 /// rho_B).
 struct BinaryProperties {
   Location where;        ///< in the scene

@@ -14,8 +14,7 @@ namespace tushar::ice {
 inline constexpr double leastPartOfMass = 1e-30;
 
 /// The participants in the heat exchange of a cell, at most `Most` or any number: first the bodies in their order, then
-/// the gases.
-/// All is per volume of the cell; what is absent has the capacity 0.
+/// the gases. All quantities are per volume of the cell; absent participants have the capacity 0.
 template <int Most = Eigen::Dynamic>
 struct WarmThings {
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Most, 1>;
@@ -90,13 +89,12 @@ struct HeatChanges {
   typename WarmThings<Most>::Vector temperature, volume;  ///< changes of temperature [K] and of volume fraction
 };
 
-/// Computes the changes in a time dt from C_a dT_a/dt = sum_b H_ab theta_a theta_b (T_b - T_a), implicitly: however
-/// stiff the exchange is,
-/// all end at one temperature.
+/// Computes the changes in a time dt from C_a dT_a/dt = sum_b H_ab theta_a theta_b (T_b - T_a), implicitly: the stiffer
+/// the exchange, the closer all participants are to one temperature at the end.
 ///
-/// Gases that share a volume expand at their common pressure p', that at the end: m c_v dT + (p' + p_inf) dV is the
-/// heat that one gets, V = m R T / (p' + p_inf). So the energy of all gases changes by what bodies get, and the
-/// volumes fill what they filled.
+/// Gases that share a volume expand at their common pressure p' at the end of the step: the heat that a gas receives is
+/// m c_v dT + (p' + p_inf) dV, with V = m R T / (p' + p_inf). So the energy of all gases changes by the heat from the
+/// bodies, and the total volume is constant.
 template <int Most>
 HeatChanges<Most> changesByHeat(const WarmThings<Most>& things, const HeatCoefficients& coefficients, double dt) {
   using Vector = typename WarmThings<Most>::Vector;
@@ -171,8 +169,8 @@ struct WarmGas {
 };
 
 /// Exchanges heat between several gases in the cells that they share, with Uintah's coefficients, and adds heat from
-/// outside.
-/// Masses and momentum stay, energy changes by what comes from outside; shares and the pressure change.
+/// outside. Masses and momentum stay constant, the energy changes by the heat from outside, and volume fractions and
+/// the pressure change.
 template <int D>
 void exchangeHeat(const Patch& patch, const Gases& gases, const HeatCoefficients& coefficients, const Heating& heating,
                   double time, double dt, CellView<const double> density, CellView<const Vec<D>> momentum,

@@ -55,7 +55,7 @@ struct LawfulState : euler::OldState<D> {
   static LawfulState from(auto& take) {
     return {{euler::OldState<D>::from(take, 2)}, take(requiresNew(c::softness, 2)), take(requiresNew(c::stiffness, 2))};
   }
-  /// Views as of two gases whose shares are G and S themselves, as lawsOfShares expects.
+  /// Views of an apparent mixture of two gases whose volume fractions are G and S themselves, as lawsOfShares expects.
   euler::MixtureViews<D, const double> views() const {
     return {*this, {this->density, this->density}, {softness, stiffness}};
   }

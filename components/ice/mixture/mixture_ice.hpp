@@ -36,8 +36,7 @@ class MixtureIce : public Component, public reference::GasSolution {
  protected:
   double cfl() const { return cfl_; }
   const Gases& held() const { return gases_; }
-  /// Adds what changes gases besides their flow, after it: conversion into another gas, viscosity, conduction, forces,
-  /// heat.
+  /// Adds the changes of gases after their flow: conversion into another gas, viscosity, conduction, forces, heat.
   void scheduleSources(TaskList& tasks) const;
   /// Adds the limit of diffusion on the time step, together with the given fraction of the speed of sound.
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;

@@ -35,9 +35,9 @@ class ImplicitStep {
   }
 
   /// Computes the fluxes through the lower faces of `faces` across an axis: u_f transports the values of the upwind
-  /// cell, half a step later; the pressure is the mean of p' and, where the gas is compressed, von Neumann's and
-  /// Richtmyer's viscosity of a strong shock, (gamma + 1) / 2 rho (dv)². Returns the greatest part of a cell that flows
-  /// through a face.
+  /// cell, half a step later; the pressure is the mean of p' plus, in compression, the viscosity of von Neumann and
+  /// Richtmyer for a strong shock, (gamma + 1) / 2 rho (dv)². Returns the largest fraction of a cell that flows through
+  /// a face.
   double computeFluxes(const Box& faces, int axis) {
     return computeFluxes(faces, axis, [](const Index<D>&) { return 1.0; });
   }
@@ -117,7 +117,7 @@ class ImplicitStep {
     const double weight = flow_.isFree(face, axis) ? 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis] : 0;
     return 0.5 * (after_.number(below, p) + after_.number(face, p)) + viscous + (face[axis] == 0 ? -weight : weight);
   }
-  /// p' beyond a face of a cell [Pa]; beyond an open side, the value whose mean with that of the cell is p' in the
+  /// p' beyond a face of a cell [Pa]; beyond an open side, the value whose mean with the cell's value is p' at the
   /// side.
   double pressureBeyond(const Index<D>& cell, int axis, int side) const {
     const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(axis);
@@ -126,7 +126,7 @@ class ImplicitStep {
     return after_.number(side == 0 ? cell - Index<D>::unit(axis) : face, p);
   }
   /// The state of a cell at the face above (1) or below it (-1), half a step later. For several gases, its density is
-  /// always the sum of the masses: where gas flows in with the state of the adjacent cell, a difference would grow.
+  /// always the sum of the masses: a difference would grow where gas flows in with the state of the adjacent cell.
   euler::State<D, K> atFace(const Index<D>& cell, int axis, int side) const {
     euler::State<D, K> w = middle_.state(cell);
     const bool isSloped = flow_.hasSlopes() && flow_.isOnGrid(cell);
@@ -187,10 +187,10 @@ inline void refuseCrossing(double most, double dt) {
 }
 
 /// Performs one step on a patch in which pressures change by `change`, p' - p [Pa]: U' = U - dt sum_d (F_{d,i+1/2} -
-/// F_{d,i-1/2}) / h_d with F = u_f (rho, rho v, E + p_f) + (0, p_f n, 0). Mass, momentum and total energy are kept
-/// whatever p' is; a contact stays at one pressure and velocity. Of second order in space, of first in time. Throws
-/// NumericalError where a density or p + p_inf would not be positive, or gas would cross more than a cell. Source: as
-/// FaceFlow; J. von Neumann & R. D. Richtmyer, J. Appl. Phys. 21 (1950) 232, for the shocks.
+/// F_{d,i-1/2}) / h_d with F = u_f (rho, rho v, E + p_f) + (0, p_f n, 0). Mass, momentum and total energy are conserved
+/// for any p'; a contact keeps a uniform pressure and velocity. Second order in space, first order in time. Throws
+/// NumericalError if a density or p + p_inf would not be positive, or if gas would cross more than a cell. Sources: as
+/// for FaceFlow; J. von Neumann & R. D. Richtmyer, J. Appl. Phys. 21 (1950) 232, for the shocks.
 template <int D>
 void advanceImplicitly(const Patch& patch, const euler::Settings& method, const IceSettings& settings,
                        const euler::OldState<D>& before, double time, double dt, CellView<const double> change,

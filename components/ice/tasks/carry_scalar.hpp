@@ -43,10 +43,10 @@ struct ScalarBefore {
 
 /// A scalar at the faces of cells.
 ///
-/// f of a cell falls or rises by van Leer's slopes, and is taken half a step ahead, as what leaves through its faces
-/// takes it along. Then its differences from the mean are shrunk until all that leaves, and what then stays, lies
-/// between the values of the cell and its neighbours: so no step makes a value that was not there before.
-/// Source: X. Zhang & C.-W. Shu, J. Comput. Phys. 229 (2010) 3091, of this way to keep a maximum principle.
+/// In a cell, f varies with van Leer's slopes, evaluated half a step later for the outflow through its faces. Then its
+/// differences from the mean are reduced until all outgoing values, and the remaining mean, lie between the values of
+/// the cell and its neighbours: so a step creates no new extrema. Source: X. Zhang & C.-W. Shu, J. Comput. Phys. 229
+/// (2010) 3091, for this limiter.
 template <int D>
 class ScalarAtFaces {
  public:
@@ -169,9 +169,9 @@ class ScalarFlux {
   double time_;
 };
 
-/// Advects a scalar f with the mass of the gas: (rho f)' = rho f - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, with the
-/// mass fluxes of the step times f at the faces. So what cells hold of it changes by what flows through sides of the
-/// grid alone, a uniform f stays as it is, and no value leaves the range of those before, except for round-off.
+/// Advects a scalar f with the mass of the gas: (rho f)' = rho f - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, with F
+/// the mass fluxes of the step times f at the faces. So the total changes only by fluxes through sides of the grid, a
+/// uniform f stays uniform, and no value leaves the range of the previous values, except for round-off.
 template <int D>
 void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::Gas& gas, bool hasSlopes,
                  const ScalarBefore<D>& before, double time, double dt, CellView<double> held,

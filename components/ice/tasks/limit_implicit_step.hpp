@@ -14,11 +14,12 @@ void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<cons
 }
 
 /// Computes s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2, r = sum_d (|v_d| + k c) / h_d + 2 nu / h_d²: the rate at which
-/// gas crosses a cell, with its acceleration a_d = |g_d - (dp/dx_d) / rho|, so that gas at rest does not cross cells
-/// within the step. |v_d| is the greatest of the cell and of what sides give at its faces. `pushing` has the pressure
-/// that the last step ended with: the pressure of the gas also has what conduction brought in, which sound evens out
-/// before it moves anything. k is Uintah's `knob_for_speedSound`, `diffusivity(rho)` nu [m²/s]. Returns the greatest s
-/// of the patch, 1/s. Source: N. Kwatra & al., J. Comput. Phys. 228 (2009) 4146, section 3.3.
+/// gas crosses a cell, including its acceleration a_d = |g_d - (dp/dx_d) / rho|, so that gas initially at rest does not
+/// cross a cell within the step. |v_d| is the maximum of the cell's velocity and of prescribed velocities at its faces.
+/// `pushing` is the pressure at the end of the last step; the pressure of the gas itself also contains the effect of
+/// conduction, which sound equalises before it moves the gas. k is Uintah's `knob_for_speedSound`, `diffusivity(rho)`
+/// is nu [m²/s]. Returns the largest s of the patch [1/s]. Source: N. Kwatra & al., J. Comput. Phys. 228 (2009) 4146,
+/// section 3.3.
 template <int D, int K, class Diffusivity>
 double greatestImplicitRate(const Patch& patch, const GasBefore<D, K>& gas, const euler::Rows<D, K>& pushing,
                             double soundSpeedKnob, Diffusivity&& diffusivity) {

@@ -130,10 +130,10 @@ double stiffPressureIn(const FaceFlow<D, K>& flow, const Index<D>& cell) {
 }
 
 /// Solves for the change of pressure in the step [Pa] in all cells where isEmpty(p, cell) is false, from the state that
-/// the flow of each patch contains, and computes the pressure at the end. The last step's pressure is the first guess.
-/// The residual is how far the gas would miss that pressure, in the unit of the equation, so the tolerance is relative
-/// to the greatest pressure in that unit, `scaleOf(p, cell)`, where that is more than the right-hand side. Throws
-/// NumericalError if the solver gives up.
+/// the flow of each patch contains, and computes the pressure at the end. The initial guess is the pressure of the last
+/// step. The residual measures by how much the gas would miss the computed pressure, in the unit of the equation;
+/// therefore the tolerance is relative to the largest pressure in that unit, `scaleOf(p, cell)`, or to the right-hand
+/// side if that is larger. Throws NumericalError if the solver fails.
 template <int D, int K, class IsEmpty, class EquationOf, class ScaleOf>
 void solveForChange(const RankPatches& patches, const mpi::Communicator& ranks, const IceSettings& settings,
                     const std::vector<FaceFlow<D, K>>& flows, const std::vector<CellView<const double>>& guess,

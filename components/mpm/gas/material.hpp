@@ -39,11 +39,10 @@ struct Relaxation {
 
 /// A stiffened gas: p = (gamma - 1) rho epsilon - p_inf; with p_inf = 0 an ideal gas, (3) of Tran, Kim & Berzins.
 ///
-/// epsilon is e - p_inf / rho: the part of the internal energy e that waves exchange. In terms of epsilon and P = p +
-/// p_inf all laws are those of an ideal gas. Particles of a single gas carry epsilon as p.internalEnergy: totals of
+/// epsilon is e - p_inf / rho, the part of the internal energy e that waves exchange. In terms of epsilon and P = p +
+/// p_inf, all laws are those of an ideal gas. Particles of a single gas store epsilon as p.internalEnergy; totals of
 /// energy then lack p_inf times the volume of the grid, which a stiffened gas fills. In a mixture, where gases exchange
-/// volume, particles carry all of e. Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report
-/// LA-4700 (1971).
+/// volume, particles store e itself. Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report LA-4700 (1971).
 struct Gas {
   std::string name;
   double gamma = 1.4;    ///< ratio of specific heats

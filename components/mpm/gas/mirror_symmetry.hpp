@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::gas {
 
-/// The centre of the grid along a kernel axis, m.
+/// The centre of the grid along a kernel axis [m].
 inline double middleOf(const Level& level, int kernelAxis) {
   const auto& domain = level.domain();
   const int axis = level.axis(kernelAxis);
@@ -24,7 +24,7 @@ Number fromMiddle(const Level& level, int kernelAxis, const Number& cell) {
   return cell - 0.5 * (level.cells().upper[kernelAxis] - 1);
 }
 
-/// The position `offset` cells from the centre of a cell along a kernel axis, m, computed from the middle of the grid.
+/// The position `offset` cells from the centre of a cell along a kernel axis [m], computed from the middle of the grid.
 inline double positionInCell(const Level& level, int kernelAxis, int cell, double offset) {
   const double cells = fromMiddle<double>(level, kernelAxis, cell) + offset;
   return middleOf(level, kernelAxis) + cells * level.spacing(kernelAxis);

@@ -13,12 +13,12 @@ struct VectorOf {
   using type [[gnu::vector_size(count * sizeof(Number))]] = Number;
 };
 
-/// Convected particle domains: a particle is a parallelepiped deformed by F, and S_i is the mean over it of what lies
-/// linearly between the values of the tent function at its corners,
+/// Convected particle domains: a particle is a parallelepiped deformed by F, and S_i is the mean over it of the linear
+/// interpolation between the values of the tent function at its corners,
 ///   S_i = 1/2^D sum_c N_i(x_c),   grad S_i = 1/2^D sum_c R^(-T) sigma_c N_i(x_c),   x_c = x_p + R sigma_c,
 /// with sigma_c = (+-1, …) and the half edges R = F diag(size h) / 2; Sadeghirad, Brannon & Burghardt, Int. J. Numer.
-/// Meth. Engng 86 (2011) 1435. A domain that reaches farther than a cell from its middle is shrunk to that, as Homel,
-/// Brannon & Guilkey, Int. J. Numer. Meth. Engng 107 (2016) 31, do.
+/// Meth. Engng 86 (2011) 1435. A domain that extends farther than a cell from its centre is shrunk to that size, as in
+/// Homel, Brannon & Guilkey, Int. J. Numer. Meth. Engng 107 (2016) 31.
 ///
 /// Where `Axisymmetric`, the first axis is the radius; the means are those of the plane and S_i / r is taken at the
 /// particle, as in Uintah.

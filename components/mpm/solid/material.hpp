@@ -39,7 +39,7 @@ Vec3 placeOf(const Level& level, const Body& body, const Index<D>& cell, const I
 }
 
 /// Calls `visit(k, point)` for each particle of a body that starts in a cell: `k` is its index in the cell, `point` its
-/// position, m, rounded by placeOf.
+/// position [m], rounded by placeOf.
 template <int D, class Visit>
 void forEachParticleIn(const Level& level, const Body& body, const Index<D>& cell, Visit&& visit) {
   Box places{{}, Index3::filled(1)};

@@ -33,8 +33,8 @@ Seed partOfCell(const Level& level, const Index3& particlesPerCell) {
   return seed;
 }
 
-/// The extent of a particle along the axes of the kernel, in cells; if its edges have other directions, that of a cube
-/// with its volume.
+/// The extent of a particle along the axes of the kernel, in cells; if its edges are not parallel to these, the extent
+/// of a cube with its volume.
 template <int D>
 Vec<D> extentOf(const Level& level, const Seed& seed) {
   Vec<D> extent;
@@ -49,7 +49,7 @@ Vec<D> extentOf(const Level& level, const Seed& seed) {
 }
 
 /// Finds the seeds of each body whose particles do not start in equal parts of cells: bodies that are filled in levels,
-/// transformed, or smooth cylinders. Throws InputError where one would start outside of the grid.
+/// transformed, or smooth cylinders. Throws InputError if a particle would start outside the grid.
 void placeParticles(const Level& level, std::vector<Body>& bodies);
 
 }  // namespace tushar::mpm::solid

@@ -77,8 +77,8 @@ struct NewBurnModes {
 };
 
 /// Determines in which mode each cell of an explosive burns, given the state at the start of the step, as Uintah's DDT1
-/// does. Pressures of a cell are those of gas and explosive together, by volume; that of the product is the gas's in
-/// the cell around with most room.
+/// does. The pressure of a cell is the volume-weighted mean of gas and explosive; that of the product gas is taken from
+/// the surrounding cell with the largest free volume.
 template <int D>
 class BurnModes {
  public:

@@ -23,8 +23,8 @@ class SurfaceAtFaces {
   double step(const Index<D>& above, int axis) const {
     return space_.faces(above - Index<D>::unit(axis), axis).area - space_.faces(above, axis).area;
   }
-  /// The component along the axis, without its sign, of the surface's unit normal at the lower face of a cell: that of
-  /// the gradient of the free volume, weighted 1 2 1 across the axis.
+  /// The magnitude of the axis component of the surface's unit normal at the lower face of a cell; the normal is that
+  /// of the gradient of the free volume, weighted 1 2 1 across the axis.
   double normalAlong(const Index<D>& above, int axis) const {
     Vec<D> gradient = Vec<D>::Zero();
     for (int side = 0; side < 2; ++side) {
@@ -136,8 +136,8 @@ class BurningSurface {
     fresh.recoil[above][axis] = part * rate * speed;
   }
 
-  /// Adds the mass that burns in a cell that contains a remnant of a body, or a part of a plate thinner than a cell: if
-  /// no neighbouring cell is a wall, areas have no step. Its surface is that of one face.
+  /// Adds the mass that burns in a cell that contains a remnant of a body, or a part of a plate thinner than a cell:
+  /// there, areas have no step unless a neighbouring cell is a wall. The burning surface is that of one face.
   void burnWithin(const Index<D>& cell, const NewBurning<D>& fresh) const {
     if (!(reactant_.mass[cell] > 0) || cells_.isEmpty(cell) || isBesideWall(cell)) return;
     if (!modes_.allowSurface(cell)) return;

@@ -130,8 +130,8 @@ struct RimsOfDiffusion : euler::DiffusionRims<D> {
 };
 
 /// Adds the changes due to viscosity and conduction within the gas in a step, given the state at its start, to the
-/// state before small cells are merged: through the open fractions of faces. Friction at walls is with their pressure.
-/// Where no body is near, it is that of `euler`, to the last bit.
+/// state before small cells are merged: through the open fractions of faces. Friction at walls is computed together
+/// with their pressure. Away from bodies, the result is bitwise that of `euler`.
 template <int D>
 void addDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
                   CellView<Vec<D>> momentum, CellView<double> totalEnergy, const RimsOfDiffusion<D>& rims) {

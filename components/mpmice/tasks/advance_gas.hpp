@@ -27,8 +27,8 @@ struct UnsharedGas {
   }
 };
 
-/// Computes rho, v, p of the gas in the cells of the box; cells without gas get those of some gas at rest, whose fluxes
-/// vanish because faces are closed.
+/// Computes rho, v, p of the gas in the cells of the box; cells without gas get an arbitrary gas at rest, whose fluxes
+/// vanish because their faces are closed.
 template <int D, class G>
 void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
                 euler::Rows<D, euler::kGases<G>>& w) {

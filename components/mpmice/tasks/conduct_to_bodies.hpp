@@ -63,8 +63,7 @@ void measureBodyHeat(const Patch& patch, const std::vector<mpm::solid::Material>
 }
 
 /// Computes the heat that the gas conducts to bodies through walls, k A dT / d, given the state at the start of the
-/// step.
-/// Bodies at a face are those of the cells on both sides.
+/// step. The bodies at a face are those in the cells on both sides.
 template <int D>
 class WallHeat {
  public:

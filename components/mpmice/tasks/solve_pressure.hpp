@@ -138,8 +138,8 @@ ice::IsFlat<D> flatAtBodies(const Level& level, const GasInCells<D>& cells) {
 ///   (phi + dt² sum w gamma P y / h) d - dt sum g gamma P_f loss_f (d_n - d) / h
 ///       = -dt sum +- (g gamma P_f u_f + w gamma P v_w) / h + (gamma - 1) dt / 2 sum +- g v (p_n - p) / h.
 ///
-/// y is by how much a wall yields to the pressure of this cell alone, so that light bodies do not swing against a stiff
-/// gas. Symmetric; positive where there is gas. A cell without any keeps its number.
+/// y is the displacement of a wall per pressure of this cell alone, so that light bodies do not oscillate against a
+/// stiff gas. The matrix is symmetric, and positive in cells with gas. In a cell without gas, the equation is d = 0.
 template <int D>
 numerics::CellEquation<D> pressureEquationBeside(const ice::FaceFlow<D>& flow, const FreeSpace<D>& space,
                                                  const WallSpeeds<D>& walls, double free, const Index<D>& cell,

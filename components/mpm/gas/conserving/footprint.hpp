@@ -11,12 +11,12 @@ namespace tushar::mpm::gas::conserving {
 
 /// The cells and nodes of a line that intervals overlap, one interval per lane.
 ///
-/// Weights are means of the linear shape functions over the interval, w_i = 1/L integral S_i dx; parts are the shares
-/// of the interval that lie in each cell. An end nearer to a node than 1e-12 h is moved onto it. Nodes and cells that
-/// an interval does not reach have weight and part 0; what lies beyond `Overhang` cells counts to the outermost cell.
+/// Weights are means of the linear shape functions over the interval, w_i = 1/L integral S_i dx; parts are the
+/// fractions of the interval in each cell. An end nearer to a node than 1e-12 h is moved onto it. Nodes and cells
+/// outside an interval have weight and part 0; anything beyond `Overhang` cells is assigned to the outermost cell.
 ///
-/// All distances are measured from the centre of the cell that holds the centre, so that the mirror image of an
-/// interval has the mirrored numbers, to the bit.
+/// All distances are measured from the centre of the cell that contains the interval's centre, so that the mirror image
+/// of an interval has bitwise mirrored values.
 template <int Overhang>
 struct Span {
   static constexpr int most = 2 * Overhang + 1;  ///< largest number of cells overlapped in one batch

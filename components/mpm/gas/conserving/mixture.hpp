@@ -12,11 +12,11 @@ using CellViews = std::vector<CellView<T>>;
 template <class T>
 using NodeViews = std::vector<NodeView<T>>;
 
-/// Several gases in a cell, each with its volume fraction alpha, at one pressure and velocity, with the same
-/// compression. With G = sum of alpha / (gamma - 1) and S = sum of alpha gamma p_inf / (gamma - 1), their energy per
-/// volume is p G + S. So a contact at rest or in motion keeps its pressure, and rho c² = (p (1 + G) + S) / G. Source:
-/// G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; for G and S alone: R. Abgrall, J. Comput. Phys. 125
-/// (1996) 150.
+/// Several gases in a cell, each with its volume fraction alpha, with common pressure, velocity and compression. With G
+/// = sum of alpha / (gamma - 1) and S = sum of alpha gamma p_inf / (gamma - 1), their energy per volume is p G + S. So
+/// a contact, at rest or in motion, keeps its pressure, and rho c² = (p (1 + G) + S) / G. Sources: G. Allaire, S. Clerc
+/// & S. Kokh, J. Comput. Phys. 181 (2002) 577; for the use of G and S alone: R. Abgrall, J. Comput. Phys. 125 (1996)
+/// 150.
 struct Mixture {
   double density = 0;    ///< density [kg/m³]
   double energy = 0;     ///< internal energy per volume [J/m³]

@@ -4,9 +4,9 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// The velocity within a box, u(x) = sum over a of u_a phi_a(x), phi_a the product of (x_d - centre_d) over the axes of
-/// a: bit d of a says whether axis d is among them. Column a - 1 holds u_a; u_0, the mean, is p.velocity.
-/// Columns 0, 1, 3 are the velocity gradient [1/s]; those of several axes are the mixed modes [1/(m s), 1/(m² s)].
+/// The velocity within a box, u(x) = sum over a of u_a phi_a(x), where phi_a is the product of (x_d - centre_d) over
+/// the axes of a: axis d is among them if bit d of a is set. Column a - 1 contains u_a; u_0, the mean, is p.velocity.
+/// Columns 0, 1, 3 are the velocity gradient [1/s]; the others are the mixed modes [1/(m s), 1/(m² s)].
 template <int D>
 using Modes = Eigen::Matrix<double, D, (1 << D) - 1, Eigen::DontAlign>;
 

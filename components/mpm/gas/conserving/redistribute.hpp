@@ -33,10 +33,10 @@ void splitLong(const Patch& patch, double longestInCells, const OldBoxes<D>& old
                const NewBoxes<D>& fresh);
 
 /// Replaces the particles by one per cell that fills the cell or, next to an empty cell, only the part that the gas
-/// fills. Mass, momentum and energy are those of the parts of particles that lie in the cell. The share of a part in
-/// the particle's mass and energy follows van Leer's limited slopes of the cells' (`mass`, `energy`); it has the
-/// particle's velocity there. The velocity gradient of a new particle is the regression over its parts, its mixed modes
-/// their mean, and the kinetic energy it cannot hold becomes heat.
+/// fills. Its mass, momentum and energy are the sums over the parts of old particles in the cell. The mass and energy
+/// of a part follow van Leer's limited slopes of the cell values (`mass`, `energy`); its velocity is the particle's
+/// velocity at that point. The velocity gradient of a new particle is the regression over its parts, its mixed modes
+/// are the mean over its parts, and kinetic energy that these cannot represent becomes heat.
 template <int D>
 void remap(const Patch& patch, const OldBoxes<D>& old, CellView<const double> mass, CellView<const double> energy,
            ParticleMaker& maker, const NewBoxes<D>& fresh);

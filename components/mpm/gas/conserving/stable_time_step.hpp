@@ -42,9 +42,9 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, const ConservingG
 }
 
 /// The largest speed of signals in cells relative to the gas [m/s], 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|,
-/// where Delta is the velocity difference across the cell, since shocks are faster than sound. The form is that of D.
-/// J. Benson, Comput. Methods Appl. Mech. Eng. 99 (1992) 235; with these factors a moving gas has hardly a greater
-/// error than one at rest, and one at rest has that of |v| + c alone.
+/// where Delta is the velocity difference across the cell: shocks are faster than sound. The form is that of D. J.
+/// Benson, Comput. Methods Appl. Mech. Eng. 99 (1992) 235. With these factors, the error for a moving gas is hardly
+/// larger than for a gas at rest, which in turn has the same error as with |v| + c.
 inline Lanes signalInCells(const Level& level, Lanes divergence, Lanes soundSpeedSquared) {
   const Lanes q = 1.4 * level.minSpacing() * abs(divergence);
   return 1.25 * (q + sqrt(q * q + soundSpeedSquared));

@@ -30,9 +30,9 @@ void GasMpm<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
                     requiresOld(p::velocity<D>), requiresOld(p::internalEnergy), computes(delT));
 }
 
-/// One step from t_n to t_n+1, with the equations of the paper. `requiresOld` reads the state at t_n, `requiresNew`
-/// what the step has computed. The paper assigns particle masses at the start of a step, this list at its end, to the
-/// same effect.
+/// One step from t_n to t_n+1, with the equations of the paper. `requiresOld` reads the state at t_n, `requiresNew` the
+/// results of the step. The paper assigns particle masses at the start of a step; this list does so at its end, with
+/// the same effect.
 template <int D>
 void GasMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
   scheduleInterpolateParticlesToGrid(tasks);                // (6)-(8)    m_i, v_i of t_n
@@ -55,8 +55,8 @@ void GasMpm<D>::scheduleInterpolateParticlesToGrid(TaskList& tasks) const {
                     computes(g::mass), computes(g::velocity<D>));
 }
 
-/// Equation (9). The pressure p_p is that of the state at t_n, computed with (16) at the end of the previous step: the
-/// paper's (11) calls the acceleration that follows from it a_i^n.
+/// Equation (9). The pressure p_p is that of the state at t_n, computed with (16) at the end of the previous step: in
+/// (11) of the paper, the acceleration from this pressure is called a_i^n.
 template <int D>
 void GasMpm<D>::scheduleComputeInternalForce(TaskList& tasks) const {
   if (conserves())

@@ -11,10 +11,10 @@
 namespace tushar::mpm::solid {
 
 /// Rubber with chains of limited stretch: the eight-chain network model of Arruda & Boyce, J. Mech. Phys. Solids 41
-/// (1993)
-/// 389, eq. 33, whose inverse of Langevin's function is a series of five terms, here of the isochoric part of the
-/// deformation, with the pressure of comp_neo_hook. With I the trace of J^(-2/3) F Fᵀ and l the stretch at which chains
-/// lock, W = G sum_k c_k (I^k - 3^k) / l^(2k-2) + K/2 ((J² - 1)/2 - ln J), c = 1/2, 1/20, 11/1050, 19/7000, 519/673750.
+/// (1993) 389, eq. 33. The inverse of Langevin's function is a series of five terms; it is applied to the isochoric
+/// part of the deformation, and the pressure is that of comp_neo_hook. With I the trace of J^(-2/3) F Fᵀ and l the
+/// locking stretch of the chains, W = G sum_k c_k (I^k - 3^k) / l^(2k-2) + K/2 ((J² - 1)/2 - ln J), c = 1/2, 1/20,
+/// 11/1050, 19/7000, 519/673750.
 struct ArrudaBoyce8 {
   struct State {};
   using Capabilities = CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature,

@@ -9,8 +9,8 @@
 #include "core/base/lanes.hpp"
 
 /// Optional capabilities of constitutive models, beyond the members of every model. A model that names a capability
-/// must have its member, with that signature; a model that has the member must name the capability. Anything else does
-/// not compile.
+/// must have its member, with that signature; a model that has the member must name the capability. Otherwise
+/// compilation fails.
 namespace tushar::mpm::solid::capability {
 
 template <class Variables>
@@ -88,8 +88,8 @@ struct Vectorized {
 };
 
 /// Computes dP/dF [Pa] of P = J sigma F^-T at the end of a step in which L dt = F F_old^-1 - I; row 3 i + J, column 3 k
-/// + L. It must be the derivative of what updateStress makes of the state at the start of the step. Implicit steps need
-/// it.
+/// + L. It must be the derivative of the stress that updateStress computes from the state at the start of the step.
+/// Implicit steps need it.
 struct NominalTangent {
   struct Name {
     int nominalTangent;
@@ -113,8 +113,8 @@ struct NominalTangent {
 
 // Wave speeds.
 
-/// The bulk wave speed c_b = sqrt(K / rho) [m/s] for the artificial viscosity; without it, waveSpeed is used. Offer it
-/// for solids, whose shear stiffness makes the fastest wave faster than the bulk wave.
+/// The bulk wave speed c_b = sqrt(K / rho) [m/s] for the artificial viscosity; without it, waveSpeed is used. Intended
+/// for solids, in which the fastest wave is faster than the bulk wave because of the shear stiffness.
 struct BulkSpeed {
   struct Name {
     int bulkSpeed;
@@ -178,8 +178,8 @@ struct OwnViscosity {
 
 // Heat.
 
-/// Constants of the material in addition to those of the model, set after the model has been read. Offer it where the
-/// model needs the density, the specific heat or the melting temperature.
+/// Constants of the material in addition to those of the model, set after the model has been read. Intended for models
+/// that need the density, the specific heat or the melting temperature.
 struct ConstantsOfMaterial {
   struct Name {
     int material;
@@ -241,7 +241,7 @@ struct HeatCapacity {
   }
 };
 
-/// Adds the heat of the artificial viscosity [J/kg] to the State. Without it, the viscosity heats nothing, as in
+/// Adds the heat of the artificial viscosity [J/kg] to the State. Without it, the viscosity produces no heat, as in
 /// Uintah.
 struct ViscousHeat {
   struct Name {

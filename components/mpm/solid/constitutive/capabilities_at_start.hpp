@@ -51,7 +51,7 @@ struct InitialStress {
   }
 };
 
-/// The initial State depends on the particle. Offer it for materials whose constants vary within a body.
+/// The initial State depends on the particle. Intended for materials whose constants vary within a body.
 struct StateByParticle {
   template <class M>
   static consteval bool check() {

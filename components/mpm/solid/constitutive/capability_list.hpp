@@ -6,14 +6,15 @@ namespace tushar::mpm::solid {
 
 /// The optional capabilities of a type, as types of namespace capability. A type lists its own as `T::Capabilities`.
 ///
-/// A capability has a member template `check<T>()`, whose assertions compare what T names with what T has.
+/// A capability has a member template `check<T>()`, whose assertions compare the capabilities that T lists with the
+/// members that it has.
 template <class... Names>
 struct CapabilityList {
   template <class Capability>
   static constexpr bool contains = (std::same_as<Capability, Names> || ...);
 
-  /// Is true; otherwise compilation stops with a message about a member of T that contradicts its capabilities. The
-  /// list itself holds all capabilities that a type of this kind may name.
+  /// Always true; otherwise compilation stops with a message about a member of T that contradicts its capabilities. The
+  /// list itself contains all capabilities that a type of this kind may name.
   template <class T>
   static consteval bool check() {
     static_assert(T::Capabilities::areAmong(CapabilityList()),

@@ -84,7 +84,7 @@ consteval bool checkFunctions() {
   return true;
 }
 
-/// Is true; otherwise compilation stops with a message that says what is missing in M.
+/// Always true; otherwise compilation stops with a message that names the missing members of M.
 template <class M>
 consteval bool isConstitutiveModel() {
   constexpr bool hasState = requires { typename M::State; };

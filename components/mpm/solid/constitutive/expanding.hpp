@@ -17,8 +17,8 @@ struct ThermalExpansion {
 };
 
 /// A neo-Hookean model whose mean stress, K/2 (J - 1/J), is reduced by that of free thermal expansion, K/2 (J_T -
-/// 1/J_T), so that a free body is at rest at J = J_T; Uintah's `linear_thermal_expansion_coef`. The temperature is that
-/// of the start of the step. Explicit steps only: there is no tangent.
+/// 1/J_T), so that a free body is at rest at J = J_T; Uintah's `linear_thermal_expansion_coef`. The temperature is
+/// taken at the start of the step. For explicit steps only: there is no tangent.
 template <ConstitutiveModel M>
 class Expanding : public ModelOf<M> {
  public:

@@ -7,9 +7,9 @@
 
 namespace tushar::mpm::solid {
 
-/// `elastic_plastic` with the yield condition `gurson`, for porous metals. Pores grow with the plastic dilatation, df =
-/// (1 - f) dt + A de_p in tension, A = f_N exp(-((e_p - e_N)/s_N)²/2) / (s_N (2 pi)^(1/2)); Chu & Needleman, J. Eng.
-/// Mater. Technol. 102 (1980) 249. The equation of state is that of the volume without plastic dilatation.
+/// `elastic_plastic` with the yield condition `gurson`, for porous metals. The porosity grows with the plastic
+/// dilatation, df = (1 - f) dt + A de_p in tension, A = f_N exp(-((e_p - e_N)/s_N)²/2) / (s_N (2 pi)^(1/2)); Chu &
+/// Needleman, J. Eng. Mater. Technol. 102 (1980) 249. The equation of state uses the volume without plastic dilatation.
 struct GursonPlastic {
   using Base = ElasticPlasticHp;
   struct State {

@@ -17,12 +17,12 @@ namespace tushar::mpm::solid {
 /// Linear elasticity with the yield surface of Mohr and Coulomb, (s1 - s3) + (s1 + s3) sin phi = 2 c cos phi with the
 /// principal stresses s1 >= s2 >= s3, tension positive; flow by the same function with the dilation angle psi. The
 /// stress returns to a face, an edge or the apex: de Souza Neto, Perić & Owen, Computational Methods for Plasticity
-/// (2008), section 8.2. The stress rotates with the material; Uintah's does not.
+/// (2008), section 8.2. The stress rotates with the material, unlike in Uintah.
 ///
-/// With <Usetransition> c = St A1 W^-B1 max(1, g/g_ref)^beta_rate for a water content W and a rate of shear g:
-/// Boukpeti, White, Randolph & Low, Géotechnique 62 (2012) 483. With <UseWaterRetention> a suction s adds s tan PhiB to
-/// it, Fredlund, Morgenstern & Widger, Can. Geotech. J. 15 (1978) 313; the saturation is S = (1 + (alpha s)^n)^-m, van
-/// Genuchten, Soil Sci. Soc. Am. J. 44 (1980) 892, and as much water stays in the pores.
+/// With <Usetransition>, c = St A1 W^-B1 max(1, g/g_ref)^beta_rate for a water content W and a shear rate g: Boukpeti,
+/// White, Randolph & Low, Géotechnique 62 (2012) 483. With <UseWaterRetention>, a suction s adds s tan PhiB to c,
+/// Fredlund, Morgenstern & Widger, Can. Geotech. J. 15 (1978) 313; the saturation is S = (1 + (alpha s)^n)^-m, van
+/// Genuchten, Soil Sci. Soc. Am. J. 44 (1980) 892, and the water content of the pores is constant.
 struct MohrCoulomb : IsotropicModuli {
   struct State {
     double suction;         ///< suction s [Pa]

@@ -17,7 +17,7 @@ namespace tushar::mpm::solid {
 /// flow by the same function with alpha_p, and a strength k that changes with the plastic strain at the point and
 /// around it; Burghardt et al., Comput. Methods Appl. Mech. Engrg. 225 (2012) 55. For a plastic strain rate l' M, |M| =
 /// 1, k = k_o + eta + eta_n, d eta/dt = h_local l', d eta_n/dt = h_nonlocal times the mean of l' within l_nonlocal. The
-/// mean is that of the step before, so that a step is explicit in it.
+/// mean is taken from the previous step, so that a step is explicit in it.
 struct NonlocalDruckerPrager {
   struct State {
     double plasticStrain;      ///< plastic strain: integral of l' [1]

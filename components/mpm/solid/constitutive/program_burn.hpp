@@ -10,9 +10,10 @@
 namespace tushar::mpm::solid {
 
 /// An explosive with programmed burn: a detonation starts at a point, or from a plane to both sides, and moves at a
-/// given velocity, which does not depend on the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From
-/// t_b = T0 + |x - x_0| / D on, it burns a particle of mass m in the time in which it runs 1.5 (m / rho_0)^(1/3). sigma
-/// = -p I, with the pressures of Murnaghan and of Jones, Wilkins and Lee in proportion.
+/// given velocity, independent of the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From t_b = T0 +
+/// |x - x_0| / D on, a particle of mass m burns during the time in which the detonation advances by 1.5 (m /
+/// rho_0)^(1/3). sigma = -p I, where p is the average of the pressures of Murnaghan and of Jones, Wilkins and Lee,
+/// weighted with the burnt fraction.
 struct ProgramBurn {
   struct State {
     double burned;  ///< F, burned fraction [1]
@@ -48,8 +49,8 @@ struct ProgramBurn {
   }
   /// Wave speed of the unburned explosive [m/s].
   double initialWaveSpeed(double initialDensity) const { return speed(explosive(), density / initialDensity); }
-  /// The wave speed, c² = -J² dp/dJ / rho_0, for the products as soon as it burns, and for the explosive as long as
-  /// some is left; the explosive is the stiffer one at high compression.
+  /// The wave speed, c² = -J² dp/dJ / rho_0: that of the products once burning has started, and that of the explosive
+  /// as long as some is left, whichever is larger; at high compression the explosive is the stiffer one.
   double waveSpeed(double, const Deformation& d, const Matrix3&, const State& state) const {
     const double j = volumeOf(d);
     if (state.burned <= 0) return speed(explosive(), j);

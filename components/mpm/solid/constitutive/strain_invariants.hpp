@@ -9,9 +9,9 @@
 
 namespace tushar::mpm::solid {
 
-/// Invariants of b = F Fᵀ minus those of I. An energy W of small strains e, written with them, has a relative error of
-/// 1e-16/e only, whatever the rotation: the terms linear in e, which cancel, are eliminated analytically. With G = b -
-/// I, g = (tr²G - tr G²)/2, r = J^(2/3) and d = r - 1: J² - 1 = tr G + g + det G = 3 d + 3 d² + d³.
+/// Invariants of b = F Fᵀ minus those of I. With these, the relative error of an energy W of small strains e is only
+/// 1e-16/e, whatever the rotation: the terms linear in e, which cancel, are eliminated analytically. With G = b - I, g
+/// = (tr²G - tr G²)/2, r = J^(2/3) and d = r - 1: J² - 1 = tr G + g + det G = 3 d + 3 d² + d³.
 struct StrainInvariants {
   double second;  ///< g
   double third;   ///< det G

@@ -89,8 +89,8 @@ struct ThWater {
     return std::max(at.heat - difference, least / (1 - least) * difference);
   }
   /// The smaller root p of the quadratic equation v(p, T) = v, at which the volume of the liquid decreases with
-  /// pressure. The curve ends at the pressure where `least` of its compressibility is left, and goes on along its
-  /// tangent there.
+  /// pressure. The curve ends at the pressure at which the fraction `least` of the compressibility is left, and
+  /// continues along its tangent there.
   Point pointAt(const Deformation& d) const {
     const double volume = d.deformationGradient.determinant() / material.density, t = d.temperature;
     const double warm = t - densestTemperature, bent = 2 * curvature * pressureShift;

@@ -17,8 +17,8 @@ namespace tushar::mpm::solid {
 using ViscoplasticFlow = std::variant<SuvicI>;
 
 /// Hypoelasticity with creep and an equation of state; stress rates are those of Green & Naghdi. Nine tenths of the
-/// inelastic work heat. With check_failure a particle fails for good where the largest principal stress, that of the
-/// strain (I - b⁻¹)/2, or the mean stress exceeds failure_variable_mean.
+/// inelastic work become heat. With check_failure, a particle fails permanently if the largest principal stress, the
+/// largest principal value of the strain (I - b⁻¹)/2, or the mean stress exceeds failure_variable_mean.
 struct ViscoPlastic {
   struct State {
     double plasticStrain;      ///< plastic strain [1]

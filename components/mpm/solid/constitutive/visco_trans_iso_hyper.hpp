@@ -14,9 +14,9 @@ namespace tushar::mpm::solid {
 
 /// Ligament with relaxation: the stress s_e of FibreElasticity, and six Maxwell elements driven by it, sigma = s_e +
 /// sum_k y_k h_k, dh_k/dt = ds_e/dt - h_k/t_k: the quasi-linear viscoelasticity of Fung, with the recursion of Puso &
-/// Weiss, J. Biomech. Eng. 120 (1998) 62, eqs. 10-14. They write it for the second Piola-Kirchhoff stress, Uintah for
-/// the Cauchy stress in fixed axes; here it is the Cauchy stress in axes that rotate with the material, so that
-/// rotation changes nothing and stretching without rotation gives Uintah's stresses.
+/// Weiss, J. Biomech. Eng. 120 (1998) 62, eqs. 10-14. They use the second Piola-Kirchhoff stress, and Uintah the Cauchy
+/// stress in fixed axes; here the Cauchy stress in axes that rotate with the material is used, so that rotation has no
+/// effect, and stretching without rotation gives Uintah's stresses.
 struct ViscoTransIsoHyper : FibreElasticity {
   struct State {
     double stretch;                   ///< stretch of the fibres [1]

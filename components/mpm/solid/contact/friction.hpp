@@ -50,10 +50,11 @@ using FrictionHeats = std::vector<std::optional<NodeView<double>>>;
 /// conditions of the contact. A change that would strain a cell by more than 1/2 is reduced to that limit. Adds the
 /// heat to `heat`.
 ///
-/// As in Uintah the normal of a body is half the difference of its mass gradient and of the mean, by mass, of those of
-/// all others, in axisymmetric scenes per cell, and its own stress says whether it is pressed, so that of three bodies,
-/// or where one of two is pressed alone, the sum of momenta changes. Of contacts that keep momentum all have the normal
-/// of the one whose mass changes most, or its opposite, and are pressed where the stresses of all press.
+/// As in Uintah, the normal of a body is half the difference between its mass gradient and the mass-weighted mean of
+/// the gradients of all others (in axisymmetric scenes, of the gradients per cell), and its own stress determines
+/// whether it is under pressure. So the sum of momenta changes with three bodies, or with two of which only one is
+/// under pressure. In contacts that conserve momentum, all bodies have the normal of the body with the largest mass
+/// gradient, or its opposite, and are under pressure if the stresses of all are.
 template <int D>
 void applyFriction(const Patch& patch, const Contact& contact, double dt, const Records& records,
                    const Surfaces<D>& surfaces, const FrictionHeats& heat);

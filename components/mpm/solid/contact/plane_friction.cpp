@@ -44,8 +44,8 @@ void eliminate(Square<N>& a, Column<N>& b, int k) {
   }
 }
 
-/// The solution x of a x = b by Gaussian elimination with partial pivoting. (Eigen's takes the compiler ten times as
-/// long.)
+/// The solution x of a x = b by Gaussian elimination with partial pivoting. (Eigen's solver takes ten times as long to
+/// compile.)
 template <int N>
 Column<N> solved(Square<N> a, Column<N> b) {
   for (int k = 0; k < N; ++k) eliminate<N>(a, b, k);

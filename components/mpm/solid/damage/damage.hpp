@@ -58,8 +58,7 @@ struct JohnsonCookDamage {
 };
 
 /// The damage D = sum de_p / e_f, e_f = 1.65 exp(-3/2 mean stress / equivalent stress): Hancock & Mackenzie, J. Mech.
-/// Phys. Solids
-/// 24 (1976) 147. As in Uintah it grows in tension only, and no particle fails by it.
+/// Phys. Solids 24 (1976) 147. As in Uintah, it grows in tension only, and does not make particles fail.
 struct HancockMackenzieDamage {
   static constexpr std::string_view name = "hancock_mackenzie";
   double initialDamage = 0, initialDeviation = 0;
@@ -73,11 +72,11 @@ struct HancockMackenzieDamage {
             DamageState& state) const;
 };
 
-/// Damage of brittle materials by the root of the energy of the greatest principal strain, r = E^(1/2) e_max, once it
-/// is above a threshold r_0: d = 0.999/D ((1 + D) / (1 + D exp(-C (r - r_0))) - 1) with C = r_0 h (1 + D) ln(1 + D) /
-/// (G_f D) for a particle of size h; the stress of the model is multiplied by 1 - d. A model that increments the
-/// stress of the previous step, such as hypo_elastic, is weakened again in every step, as in Uintah. Leavy, Brannon &
-/// Strack, Int. J. Appl. Ceram. Technol. 7 (2010) 606; Uintah's `Brittle`.
+/// Damage of brittle materials as a function of the square root of the energy of the largest principal strain, r =
+/// E^(1/2) e_max, above a threshold r_0: d = 0.999/D ((1 + D) / (1 + D exp(-C (r - r_0))) - 1) with C = r_0 h (1 + D)
+/// ln(1 + D) / (G_f D) for a particle of size h; the stress of the model is multiplied by 1 - d. A model that
+/// increments the stress of the previous step, such as hypo_elastic, is weakened again in every step, as in Uintah.
+/// Leavy, Brannon & Strack, Int. J. Appl. Ceram. Technol. 7 (2010) 606; Uintah's `Brittle`.
 struct BrittleDamage {
   static constexpr std::string_view name = "Brittle";
   double threshold = 57;         ///< threshold r_0 [Pa^(1/2)]

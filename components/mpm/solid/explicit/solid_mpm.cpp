@@ -157,8 +157,8 @@ void SolidMpm<D>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const {
                       record, particles, computes(p::affineMoment));
 }
 
-/// Adds the velocity from which stresses follow, if it differs from that of the motion; `moving` reads that of the
-/// particles.
+/// Adds the tasks that transfer to the nodes the velocity from which stresses are computed, if it differs from that of
+/// the motion; `moving` reads the particles' velocity.
 template <int D>
 void SolidMpm<D>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) const {
   const int reach = shapes_.reach;

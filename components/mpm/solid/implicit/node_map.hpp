@@ -87,7 +87,7 @@ class NodeMap {
     }
     return counts;
   }
-  /// Position of a node, m.
+  /// Position of a node [m].
   Vec<D> position(int number) const {
     Vec<D> x;
     for (int d = 0; d < D; ++d) x[d] = level_->nodePosition(d, node(number)[d]);

@@ -26,11 +26,10 @@ enum class LoadKind { pressure, torque, heatFlux };
 
 /// Area of a surface [m^2]; per radian for the side or end of an axisymmetric cylinder.
 double areaOf(const Surface& surface);
-/// Whether a particle at `point`, whose neighbours are `spacing` away, lies along a surface, with the distances that
-/// Uintah uses:
-/// from a box, one spacing along its thin axis or, for heat, along all axes; from a cylinder, 1.2 of the least spacing,
-/// for a torque 0.9 of it, or for heat from its side half the length of the spacing vector; from a sphere, the whole
-/// length of that vector.
+/// Whether a particle at `point`, whose neighbours are `spacing` away, lies along a surface, with Uintah's distances.
+/// From a box: one spacing along its thin axis or, for heat, along all axes. From a cylinder: 1.2 times the smallest
+/// spacing, for a torque 0.9 times, and for heat from its side half the length of the spacing vector. From a sphere:
+/// the length of that vector.
 bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, LoadKind kind);
 /// The direction in which a positive load pushes: the thin axis of a box, outwards, or along a cylinder to its top.
 Vec3 normalAt(const Surface& surface, const Vec3& point);
@@ -97,7 +96,7 @@ void forEachLoad(const Loads& loads, int packed, OnSurface&& onSurface, OnBody&&
 /// The distance between the particles of a body along x, y, z [m].
 Vec3 particleSpacing(const grid::Level& level, const Body& body);
 /// Whether a particle that starts at `point` is at the surface of its body: at least one neighbouring particle would be
-/// outside. On a grid of one cell along z neighbours along z do not count.
+/// outside. On a grid of one cell along z, neighbours along z are ignored.
 bool isAtSurface(const grid::Level& level, const Body& body, const Vec3& point);
 
 /// Computes SurfaceLoad::particles: sums the weights of the particles at the surface of each load.

@@ -151,8 +151,9 @@ std::optional<std::pair<Vec<D>, Seed>> particleIn(const Level& finest, const Bod
   return found;
 }
 
-/// Puts one particle of each body into each cell of a coarser level whose finest descendants would contain any, so that
-/// such cells are refined, or the scene is refused. Points of the coarser cell itself would miss a thin body.
+/// Puts one particle of each body into each cell of a coarser level whose finest descendants would contain any. As a
+/// result, such cells are refined, or the scene is refused. Sample points of the coarser cell itself would miss a thin
+/// body.
 template <int D>
 void standIn(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
              const NewParticles<D>& particles) {
@@ -174,12 +175,12 @@ void standIn(const Patch& patch, const Material& material, ParticleMaker& maker,
   });
 }
 
-/// Fills each body with its particles, `particlesPerCell` along each axis in the middle of equal parts of a cell, if
-/// the shape contains that point. As in Uintah, bodies may overlap, and two bodies that share a face with such points
-/// both have particles there.
+/// Fills each body with its particles: `particlesPerCell` along each axis, each in the centre of an equal part of a
+/// cell, if the shape contains that point. As in Uintah, bodies may overlap, and two bodies that share a face with such
+/// points both have particles there.
 ///
-/// The id of a particle is made of the number of its cell and its place in the cell: it does not depend on the patches.
-/// Particles are on the finest level; see standIn for cells of coarser ones.
+/// The id of a particle is composed of the index of its cell and its position in the cell, so it does not depend on the
+/// patches. Particles are on the finest level; see standIn for cells of coarser levels.
 template <int D>
 void actuallyInitialize(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
                         const NewParticles<D>& particles) {

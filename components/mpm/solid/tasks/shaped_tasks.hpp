@@ -7,8 +7,8 @@
 namespace tushar::mpm::solid {
 
 /// The bodies of tasks that use shape functions, in explicit and implicit steps, for one kind of shape functions in D
-/// dimensions. Their parameters depend on D alone, so that one schedule fits all kinds: it takes the bodies from here,
-/// and is compiled once for each D.
+/// dimensions. Their parameters depend on D alone, so that the same schedule, compiled once for each D, works with all
+/// kinds.
 template <int D>
 struct ShapedTasks {
   ShapeTraits shape;

@@ -68,9 +68,9 @@ void split(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, int minParti
 template <int D>
 void merge(std::vector<Piece<D>>& pieces, int maxParticles);
 
-/// Puts n^D pieces of equal volume at the midpoints of equal parts of the cell. Density, velocity and pressure have the
-/// slopes of the cell; those of the velocity are about the centre of mass, and scaled so that the kinetic energy does
-/// not grow. Lost kinetic energy becomes heat. Mass, momentum and total energy are conserved.
+/// Places n^D pieces of equal volume at the midpoints of equal parts of the cell. Density, velocity and pressure have
+/// the slopes of the cell; velocity slopes are taken about the centre of mass, and scaled so that the kinetic energy
+/// does not increase. Lost kinetic energy becomes heat. Mass, momentum and total energy are conserved.
 template <int D>
 void reseed(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& gas, int alongAxis);
 
@@ -102,8 +102,8 @@ struct OldParticles {
             .divergence = take(requiresNew(p::velocityDivergence, ghost))};
   }
 
-  /// The particles of a cell of volume `cellVolume`; empty for a cell outside the grid. A particle has the volume m_p /
-  /// rho_p where it keeps its mass, else an equal share of the cell's, (5) of Tran, Kim & Berzins.
+  /// The particles of a cell of volume `cellVolume`; empty for a cell outside the grid. If particles keep their mass, a
+  /// particle has the volume m_p / rho_p, otherwise an equal share of the cell's volume, (5) of Tran, Kim & Berzins.
   std::vector<Piece<D>> in(const Index<D>& cell, double cellVolume) const {
     std::vector<Piece<D>> pieces;
     if (!x.cells().contains(cell)) return pieces;

@@ -17,9 +17,9 @@ struct Point {
 };
 
 /// One substep, with the moduli at its start: elastic, or with a return to a yield surface that moves with the
-/// volumetric plastic strain. How far it moves is found by bisection on the share of the plastic strain of the return
-/// to the surface at rest, until the strain that moved the surface is that of the return. Homel, Guilkey & Brannon,
-/// Comput. Mech. 56 (2015) 565.
+/// volumetric plastic strain. The amount of the motion is found by bisection on a fraction of the plastic strain for
+/// the fixed surface, until the strain that moves the surface equals the strain of the return to it. Homel, Guilkey &
+/// Brannon, Comput. Mech. 56 (2015) 565.
 class Substep {
  public:
   Substep(const Constants& c, const Point& start, const Matrix3& strain)
@@ -135,8 +135,7 @@ class Substep {
 };
 
 /// Number of substeps for a step that leaves the yield surface with a tangent cap: `mostSubsteps` per 0.1 % of strain,
-/// or per stress increment of the length of the surface, whichever gives more. A step that stays within is not
-/// divided.
+/// or per stress increment as long as the surface, whichever is larger. A step that stays inside is not divided.
 inline int substepsOfTangentCap(const Constants& c, const Point& start, const Matrix3& strain) {
   const Matrix3 change = Moduli{c.b0, c.g0}.stress(strain);
   const Invariants trial(start.stress + change);

@@ -10,9 +10,9 @@ namespace tushar::mpm::solid::arenisca {
 /// A Lode angle [rad]: pi/6 in triaxial compression, -pi/6 in extension; sin 3 theta = -J3/2 (3/J2)^(3/2).
 using LodeAngle = double;
 
-/// The yield surface sqrt J2 <= Gamma(theta) F_f(I) f_c(I) with I = I1 - zeta between `end` and the vertex: a limit of
-/// strength F_f = a1 - a3 exp(a2 I) - a4 I, closed by an elliptic cap f_c; Gamma is that of Gudehus, of Mohr and
-/// Coulomb, or 1. Or sqrt J2 <= F_f(I) closed by an ellipse that touches it.
+/// The yield surface sqrt J2 <= Gamma(theta) F_f(I) f_c(I) with I = I1 - zeta between `end` and the vertex: a strength
+/// limit F_f = a1 - a3 exp(a2 I) - a4 I, closed by an elliptic cap f_c; Gamma is that of Gudehus, that of Mohr and
+/// Coulomb, or 1. Alternatively, sqrt J2 <= F_f(I) closed by a tangent ellipse.
 class YieldSurface {
  public:
   YieldSurface(const Constants& c, double end, double zeta)

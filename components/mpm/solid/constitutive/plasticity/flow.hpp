@@ -37,9 +37,8 @@ struct IsotropicHardening {
 static_assert(FlowRule<IsotropicHardening>);
 
 /// The flow stress sigma_y = (A + B e_p^n) (1 + C ln e*) (1 - T*^m), e* = rate / epdot_0, T* = (T - T_r) / (T_m - T_r):
-/// Johnson & Cook,
-/// Proc. 7th Int. Symp. on Ballistics (1983) 541. Below epdot_0 the factor of the rate is (1 + e*)^C, below T_r that of
-/// the temperature 1 - T*, above T_m nothing, as in Uintah.
+/// Johnson & Cook, Proc. 7th Int. Symp. on Ballistics (1983) 541. As in Uintah, the rate factor is (1 + e*)^C below
+/// epdot_0, the temperature factor is 1 - T* below T_r, and 0 above T_m.
 struct JohnsonCook {
   using Capabilities = CapabilityList<capability::Hardening>;
   static constexpr std::string_view name = "johnson_cook";
@@ -88,9 +87,9 @@ struct JohnsonCook {
 };
 static_assert(FlowRule<JohnsonCook>);
 
-/// sigma_y = c_0 + B exp(-beta T) + B_0 e_p^(1/2) exp(-alpha T) + K e_p^n, alpha = alpha_0 - alpha_1 ln rate, beta
-/// likewise: Zerilli & Armstrong, J. Appl. Phys. 61 (1987) 1816. As in Uintah the rate is that of the plastic strain,
-/// and at least 1e-8/s.
+/// The flow stress sigma_y = c_0 + B exp(-beta T) + B_0 e_p^(1/2) exp(-alpha T) + K e_p^n, alpha = alpha_0 - alpha_1 ln
+/// rate, beta likewise: Zerilli & Armstrong, J. Appl. Phys. 61 (1987) 1816. As in Uintah, the rate is that of the
+/// plastic strain, and at least 1e-8/s.
 struct ZerilliArmstrong {
   using Capabilities = CapabilityList<>;
   static constexpr std::string_view name = "zerilli_armstrong";
@@ -175,9 +174,9 @@ class RadialReturn {
   RadialReturn(const Flow& flow, const FlowState& start, double timeStep)
       : flow_(flow), start_(start), time_step_(timeStep) {}
 
-  /// Amount q by which the return shortens the trial stress s: the root of |s| - q = (2/3)^(1/2) sigma_y, e_p =
-  /// (2/3)^(1/2) q/(2 G) more than at the start, Pa, by Newton's iteration between bounds; Simo & Hughes, Computational
-  /// Inelasticity (1998), box 3.1.
+  /// Amount q by which the return reduces the trial stress s [Pa]: the root of |s| - q = (2/3)^(1/2) sigma_y, where e_p
+  /// exceeds its initial value by (2/3)^(1/2) q/(2 G); by Newton's iteration between bounds. Simo & Hughes,
+  /// Computational Inelasticity (1998), box 3.1.
   double excess(double trialSize) const {
     double low = 0, high = trialSize - root_ * flow_.flowStress(start_), q = high;
     if (high <= 0) return 0;

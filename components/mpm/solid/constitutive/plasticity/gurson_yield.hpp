@@ -69,7 +69,8 @@ struct GursonYield {
 inline constexpr double greatestPorosity = 0.999;
 
 /// Return to Gurson's surface with associated flow: Aravas, Int. J. Numer. Meth. Engng 24 (1987) 1395. `yieldStress(x)`
-/// is sigma_y after a plastic strain x of the metal [Pa]; `meanStress(t)` after a plastic dilatation t, Pa.
+/// is sigma_y after a plastic strain x of the metal [Pa]; `meanStress(t)` is the mean stress after a plastic dilatation
+/// t [Pa].
 template <class YieldStress, class MeanStress>
 class GursonReturn {
  public:

@@ -10,10 +10,11 @@
 
 namespace tushar::mpm::solid {
 
-/// sigma_y = 2 G t, t = t_s + A ln(1 - (1 - exp(-B/A)) exp(-theta e_p / (A (exp(B/A) - 1)))), A = (s_0 - t_y)/p, B =
-/// t_s - t_y: Preston, Tonks & Wallace, J. Appl. Phys. 93 (2003) 211. With x = kappa T/T_m ln(gamma/r), r the rate of
-/// the plastic strain times the time in which a transverse wave crosses an atom, t_s = s_0 - (s_0 - s_inf) erf x and
-/// t_y likewise; above 1000/s at least t_s = s_0 (r/gamma)^beta and t_y = y_1 (r/gamma)^y_2, for strong shocks.
+/// The flow stress sigma_y = 2 G t, t = t_s + A ln(1 - (1 - exp(-B/A)) exp(-theta e_p / (A (exp(B/A) - 1)))), A = (s_0
+/// - t_y)/p, B = t_s - t_y: Preston, Tonks & Wallace, J. Appl. Phys. 93 (2003) 211. With x = kappa T/T_m ln(gamma/r),
+/// where r is the plastic strain rate times the time in which a transverse wave crosses an atom, t_s = s_0 - (s_0 -
+/// s_inf) erf x and t_y likewise; above 1000/s at least t_s = s_0 (r/gamma)^beta and t_y = y_1 (r/gamma)^y_2, for
+/// strong shocks.
 struct PrestonTonksWallace {
   using Capabilities = CapabilityList<>;
   static constexpr std::string_view name = "preston_tonks_wallace";

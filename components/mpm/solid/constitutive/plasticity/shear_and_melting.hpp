@@ -74,8 +74,8 @@ struct MtsShear {
   }
 };
 
-/// G = ((mu_0 + mu' p/eta^(1/3)) (1 - t) + rho k T / (C m)) / (1 + exp((t - 1) / (zeta (1 - t / (1 + zeta))))), t =
-/// T/T_m, eta = rho/rho_0, and 0 above t = 1 + zeta: Nadal & Le Poac, J. Appl. Phys. 93 (2003) 2472.
+/// The shear modulus G = ((mu_0 + mu' p/eta^(1/3)) (1 - t) + rho k T / (C m)) / (1 + exp((t - 1) / (zeta (1 - t / (1 +
+/// zeta))))), t = T/T_m, eta = rho/rho_0, and 0 above t = 1 + zeta: Nadal & Le Poac, J. Appl. Phys. 93 (2003) 2472.
 struct NpShear {
   static constexpr std::string_view name = "np_shear";
   double initial = 0;     ///< initial value mu_0 [Pa]

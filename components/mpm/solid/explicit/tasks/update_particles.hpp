@@ -320,8 +320,9 @@ void updateStresses(const Level& level, const Material& material, const Method& 
 }
 
 /// Updates F, the stress and related quantities of the patch's own particles to the end of the step, and computes the
-/// stable time step of each cell. Calls `move(p, count, sums)` for what particles from p on gather from the grid: one,
-/// or several in lanes. Throws NumericalError where a wave has no speed. The step starts at `time`, s.
+/// stable time step of each cell. Calls `move(p, count, sums)` for the sums that particles from p on gather from the
+/// grid: for one particle, or for several in lanes. Throws NumericalError if a wave speed is undefined. The step starts
+/// at `time` [s].
 template <class Shape, Volumes volumes, class Move, int D = Shape::dimension>
 void updateParticles(const Patch& patch, const Material& material, const Method& method, double time, double dt,
                      const StateUpdate<D>& u, Move&& move) {
