@@ -53,8 +53,7 @@ inline constexpr CellLabel<Vec<D>> unsharedMomentum{"c.unsharedMomentum", "kg/(m
 inline constexpr CellLabel<double> unsharedEnergy{"c.unsharedEnergy", "J/m^3",
                                                   "energy of the gas before small cells are merged with others"};
 /// Labels of each of several gases, indexed by the gas: its mass per volume of the cell, its volume fraction of the gas
-/// and,
-/// before small cells are merged, its mass and volume per volume of the cell.
+/// and, before small cells are merged, its mass and volume per volume of the cell.
 inline constexpr std::array<CellLabel<double>, 3> massOfGas{{{"c.massOfGas0", "kg/m^3", "mass of the first gas"},
                                                              {"c.massOfGas1", "kg/m^3", "mass of the second gas"},
                                                              {"c.massOfGas2", "kg/m^3", "mass of the third gas"}}};

@@ -13,8 +13,7 @@ namespace tushar::mpmice {
 inline double layerOf(double free) { return free < smallFreeVolume ? 1 + free : free; }
 
 /// The drag of the walls of a cell on the cell's gas, at each face: viscosity times the area of the wall along its
-/// surface,
-/// divided by the distance to the middle of the gas, per volume of the cell.
+/// surface, divided by the distance to the middle of the gas, per volume of the cell.
 template <int D>
 class CellFriction {
  public:

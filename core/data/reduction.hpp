@@ -65,8 +65,7 @@ struct Maximum {
 };
 
 /// Replaces `a` by the rounded sum of both, and `b` by the exact rounding error (D. E. Knuth, The Art of Computer
-/// Programming 2,
-/// 4.2.2, theorem B). For registers, lane by lane.
+/// Programming 2, 4.2.2, theorem B). For registers, lane by lane.
 template <class Number>
 void addExactly(Number& a, Number& b) {
   const Number sum = a + b;

@@ -16,8 +16,7 @@ namespace tushar::output {
 std::string hdf5Version();
 
 /// A dataset of another file that is shown as a box of a virtual dataset. `file` is relative to the folder of the
-/// latter,
-/// or `.` for the same file.
+/// latter, or `.` for the same file.
 struct VirtualPart {
   std::string file, dataset;
   std::vector<std::uint64_t> source;  ///< shape of the dataset; the part shown has the size of the box, or is the whole

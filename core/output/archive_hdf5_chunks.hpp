@@ -20,8 +20,7 @@ Extents fullShape(const std::vector<std::uint64_t>& shape, const Array& array);
 unsigned long long numbersOf(const Extents& shape);
 
 /// The shape of a chunk, the unit in which a dataset is written and compressed: about a megabyte, complete along the
-/// axes that vary fastest,
-/// so that its entries are contiguous.
+/// axes that vary fastest, so that its entries are contiguous.
 Extents chunkOf(const Extents& shape);
 
 /// The chunks of a dataset, in the order of their entries.

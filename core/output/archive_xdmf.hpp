@@ -24,8 +24,7 @@ class XdmfIndex {
   XdmfIndex(std::filesystem::path file, bool doubleAsFloat);
 
   /// Continues with those outputs of the existing file that are listed in an index. Outputs that the file lacks, as
-  /// after a power cut,
-  /// are taken from the heads of their own files, where they can be read.
+  /// after a power cut, are taken from the heads of their own files, where they can be read.
   void resume(const ArchiveIndex& index);
   /// Adds an output; replaces an earlier output of the same step.
   void add(const Snapshot& snapshot);

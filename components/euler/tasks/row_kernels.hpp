@@ -87,8 +87,7 @@ void changeRow(const G& gas, const Pointers<D, kGases<G>>& change, int count, co
 }
 
 /// For several gases, whose limited slopes need not be consistent: scales masses and volume fractions so that the
-/// fractions add up to 1,
-/// and the density is the sum of the masses.
+/// fractions add up to 1, and the density is the sum of the masses.
 template <int D, int K>
 void closeRow(int count, const Pointers<D, K>& values) {
 #pragma GCC ivdep

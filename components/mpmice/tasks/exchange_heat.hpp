@@ -21,8 +21,7 @@ struct WarmBodies {
 };
 
 /// Views of the variables of the gas that the heat exchange reads and changes after a step: its energy and, for several
-/// gases,
-/// the volume fractions.
+/// gases, the volume fractions.
 template <int D>
 struct HeatedGas {
   CellView<const double> free, density;

@@ -5,7 +5,8 @@
     python3 calibrate_yield_stress.py --length 23e-3        one that was measured longer
     python3 calibrate_yield_stress.py --cells 24,84         the scene's own resolution
 
-Coarse bars end longer, so the yield stress that fits depends on the resolution: calibrate with the one that you use.
+Bars are longer at the end on coarse grids, so the fitted yield stress depends on the resolution: calibrate with the
+resolution that you use.
 """
 import argparse
 

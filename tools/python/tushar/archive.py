@@ -283,7 +283,7 @@ class Archive(Sequence[Snapshot]):
         return frames.dataset(self, list(self), variables)
 
     def to_pandas(self) -> Any:
-        """The global quantities over time as a DataFrame; for those of one output use `archive[-1].to_pandas()`."""
+        """The global quantities over time as a DataFrame; for a single output use `archive[-1].to_pandas()`."""
         return self.globals.to_pandas()
 
 

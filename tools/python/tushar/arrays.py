@@ -12,8 +12,8 @@ class Array(NDArrayOperatorsMixin):
     """Values of a variable that remain on the disk until they are used: `array[::10]` reads every tenth row,
     `array.values` all.
 
-    It takes part in arithmetic and in numpy's functions, which return plain numpy arrays. Particles of several
-    materials follow one another, in the order of the scene. `unit` is that of the archive, `kg/m^3`; `1` for none.
+    It supports arithmetic and numpy's functions, which return plain numpy arrays. Particles of several materials are
+    concatenated in the order of the scene. `unit` is the unit in the archive, such as `kg/m^3`; `1` if dimensionless.
     """
 
     def __init__(self, parts: Sequence[h5py.Dataset], name: str = "", unit: str = "", description: str = "") -> None:

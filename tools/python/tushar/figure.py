@@ -67,8 +67,8 @@ def broken(title: str, letters: int) -> str:
 
 
 class Figure:
-    """One output of an archive as a figure. `notes` state what was chosen or could not be drawn. Raises ArchiveError if
-    nothing can."""
+    """One output of an archive as a figure. `notes` describe choices, and parts that could not be drawn. Raises
+    ArchiveError if nothing can be drawn."""
 
     def __init__(self, archive: Archive, index: int = -1, variables: Sequence[str] = (), title: Optional[str] = None,
                  view: Optional[View] = None) -> None:

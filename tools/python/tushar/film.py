@@ -49,8 +49,7 @@ def common_ranges(archive: Archive, variables: Sequence[str], view: View) -> Tup
 
 
 def _planes(archive: Archive, label: str, view: View) -> Optional[Tuple[float, float, float]]:
-    """The positions of three slices for all pictures: those of the middle output. None where there are fewer
-    dimensions."""
+    """The positions of three slices for all pictures, taken from the middle output; None in fewer dimensions."""
     with archive[len(archive) // 2] as snapshot:
         output = Output(snapshot, view)
         return output.planes(Quantity.of(archive, label)) if len(output.axes) == 3 else None

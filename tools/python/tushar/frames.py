@@ -197,7 +197,7 @@ def _places(grid: Grid, centring: str) -> Dict[str, Any]:
 
 
 def _lazy(snapshots: Sequence[Snapshot], variable: Variable, owner: Optional[str]) -> Any:
-    """An xarray array (time, z, y, x, …) that reads only what is selected."""
+    """An xarray array (time, z, y, x, …) that reads only the selected values."""
     from xarray.backends import BackendArray
     from xarray.core import indexing
 

@@ -15,9 +15,9 @@ Values = np.ndarray[Any, Any]
 class Grid:
     """The grid of an output; vectors have components x, y, z. An axis that is not in use has one cell and one node.
 
-    Of a refined grid, `spacing` and `cells` are those of the finest of its `levels`, as if all cells were such; `boxes`
-    has a row for each box of cells: level, 0 the coarsest, then lower x, y, z and upper x, y, z in cells of that level.
-    The boxes tile the domain. Where there is one level there are none."""
+    On a refined grid, `spacing` and `cells` are those of the finest of its `levels`, as if the whole grid were that
+    fine; `boxes` has a row for each box of cells: level, 0 the coarsest, then lower x, y, z and upper x, y, z in cells
+    of that level. The boxes tile the domain. On a single level there are no boxes."""
     lower: Values  # corner of the box [m]
     spacing: Values  # widths of a cell [m]
     cells: Values  # numbers of cells

@@ -65,8 +65,8 @@ def command_of(sus: Path, scene: Path, sets: Sequence[str], folder: Path, option
 
 
 def run_scene(sus: Path, scene: Path, sets: Sequence[str], folder: Path) -> Dict[str, Any]:
-    """Runs a scene with overrides, with its files in `folder`; returns the report. `failure` is a sentence for one that
-    died, else empty. SceneError for a scene that does not run."""
+    """Runs a scene with overrides, with its files in `folder`; returns the report. Its entry `failure` is the message
+    of a failed run, otherwise empty. Raises SceneError for a scene that does not run."""
     from tushar.runs import read_report
     done = subprocess.run(command_of(sus, scene, sets, folder), capture_output=True, text=True)
     if done.returncode not in (0, 4):

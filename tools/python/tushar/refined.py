@@ -41,8 +41,8 @@ class Box:
 
 
 class Refined(Array):
-    """A field on the cells of a refined grid. As an array it has a value for each cell of the finest level, a coarser
-    cell is repeated; slices read the boxes that they touch. `boxes` have the cells as they are."""
+    """A field on the cells of a refined grid. As an array, it has a value for each cell of the finest level, so values
+    of coarser cells are repeated; a slice reads only the boxes that it touches. `boxes` contain the actual cells."""
 
     def __init__(self, data: h5py.Dataset, grid: Grid, name: str = "", unit: str = "", description: str = "") -> None:
         super().__init__([data], name, unit, description)
@@ -101,7 +101,7 @@ class Refined(Array):
 def sampled(grid: Grid, key: Sequence[Any], read: Callable[[int], Values], kind: Any,
             tail: Tuple[int, ...] = ()) -> Values:
     """Values at the finest cells selected by a key (z, y, x) of numbers and slices; a number selects an axis of length
-    one. `read` gives those of the box of a row."""
+    one. `read(row)` returns the values of the box in that row."""
     rows = [_selected(item, int(count)) for item, count in zip(key, grid.cells[::-1])]
     found = np.empty((*map(len, rows), *tail), kind)
     for number, box in enumerate(grid.boxes):

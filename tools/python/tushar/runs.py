@@ -26,8 +26,8 @@ class Temporary:
 
 
 class Run:
-    """A finished run. `report` is what `sus --json` writes, {} if there is none; `folder` contains the archive and
-    report.json, for as long as the run or its archive is in use where no output folder was named."""
+    """A finished run. `report` is the output of `sus --json`, {} if there is none. `folder` contains the archive and
+    report.json; if no output folder was named, it is deleted when neither the run nor its archive is in use."""
 
     def __init__(self, scene: Path, sets: Mapping[str, Any], folder: pathlib.Path,
                  keeps: Optional[Temporary] = None) -> None:
@@ -59,12 +59,13 @@ def run(scene: Path, sets: Optional[Mapping[str, Any]] = None, *, ranks: int = 1
         timeout: Optional[float] = None) -> Run:
     """Runs a scene with overrides `sets`, path -> value: {"Grid/Level/Box/resolution": [200, 1, 1]}.
 
-    A scene is found from the folder worked in or from the root of the repository; the program in `sus`, $SUS, the
-    repository's build or the PATH. `threads` are for each rank, as many as pay if None. The archive goes to the folder
-    `output`, else to one that goes away with the run. `options` are further words for sus. `timeout` [s] ends the run.
+    The scene's path is relative to the current folder or to the root of the repository; the program is searched in
+    `sus`, $SUS, the repository's build and the PATH. `threads` are per rank; None chooses a suitable number. The
+    archive is written to the folder `output`, by default to a folder that is deleted with the run. `options` are
+    further arguments of sus. After `timeout` [s], the run is ended.
 
-    Raises InputError (exit code 3), NumericalError (4), CommandError (2), Interrupted (5), else SusError, with the
-    sentences of sus.
+    Raises InputError (exit code 3), NumericalError (4), CommandError (2), Interrupted (5), otherwise SusError, with the
+    messages of sus.
     """
     program, overrides = find_sus(sus), dict(sets or {})
     words = [*options, *(["--nthreads", str(threads)] if threads else [])]

@@ -22,9 +22,9 @@ NO_IDS = f'the scene does not save the ids of particles; add <save label="{ID}"/
 class Snapshot:
     """One output of an archive: `snapshot["p.density"]`, `snapshot["c.velocity"]`, `snapshot["g.mass", "gas"]`.
 
-    Arrays of particles have the shape (n,) or (n, components); those of cells and nodes (z, y, x) or (z, y, x,
-    components), of a refined grid those of its finest level (`Refined`). Nothing is read before values are asked for.
-    Wrong names raise ArchiveError.
+    Arrays of particles have the shape (n,) or (n, components), arrays of cells and nodes (z, y, x) or (z, y, x,
+    components); on a refined grid, the shape is that of the finest level (`Refined`). Values are read only when they
+    are used. Wrong names raise ArchiveError.
     """
 
     def __init__(self, archive: Archive, index: int, path: str, time: float, step: int) -> None:

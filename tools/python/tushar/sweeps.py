@@ -70,9 +70,10 @@ class Sweep(List[Point]):
 def sweep(scene: Path, values: Mapping[str, Sequence[Any]], *, jobs: Optional[int] = None, ranks: int = 1,
           threads: int = 1, output: Optional[Path] = None, sets: Optional[Mapping[str, Any]] = None,
           **options: Any) -> Sweep:
-    """Runs a scene with every combination of `values`, path -> values, `jobs` at a time (if None, as many as the cores
-    allow). `sets` are overrides for all. Archives go to `output`/000, 001, …, else to folders that go away with the
-    sweep. A run that fails is a point with an error; the others go on. `options` are those of `run`."""
+    """Runs a scene with every combination of `values`, path -> values, `jobs` at a time (by default as many as the
+    cores allow). `sets` are overrides for all runs. Archives are written to `output`/000, 001, …, by default to folders
+    that are deleted with the sweep. A failed run becomes a point with an error; the others continue. `options` are
+    those of `run`."""
     combinations = [dict(zip(values, chosen)) for chosen in itertools.product(*values.values())]
     common = dict(sets or {})
 

@@ -83,7 +83,7 @@ class Quantity:
 
 
 class Output:
-    """An output as a view shows it. `notes` state what was chosen or left out."""
+    """An output as shown by a view. `notes` describe choices and omissions."""
 
     def __init__(self, snapshot: Snapshot, view: View) -> None:
         self.snapshot, self.view, self.grid = snapshot, view, snapshot.grid

@@ -39,8 +39,7 @@ struct Jwl {
 };
 
 /// Pressure [Pa] of an explosive of which a fraction F has burned: Souers & al., Propellants, Explos., Pyrotech. 25
-/// (2000) 54,
-/// equation 5.
+/// (2000) 54, equation 5.
 inline double mixedPressure(const Murnaghan& unburned, const Jwl& burned, double fraction, double j) {
   return (1 - fraction) * unburned.pressure(j) + fraction * burned.pressure(j);
 }

@@ -73,8 +73,7 @@ struct FibreElasticity {
   }
 
   /// Computes tau = 2 dev((w1 + I1 w2) B' - w2 B'²) + g dev(a a) + K ln J I [Pa]; w1 and w2 are the derivatives of W_m
-  /// by I1 and I2,
-  /// g = l dW_f/dl, a along the deformed fibre
+  /// by I1 and I2, g = l dW_f/dl, a along the deformed fibre
   Matrix3 elasticStress(const Point& at) const {
     const RubberSlopes w = rubberSlopes(at.first);
     const Matrix3 matrix = (w.byFirst + at.first * w.bySecond) * at.b - w.bySecond * at.b * at.b;

@@ -7,8 +7,7 @@
 namespace tushar::mpm::solid {
 
 /// Coefficients of a pressure that opposes compression, q = rho (A1 c |D| h + A2 D^2 h^2) where D = tr L < 0; von
-/// Neumann & Richtmyer,
-/// with the linear term of Landshoff.
+/// Neumann & Richtmyer, with the linear term of Landshoff.
 struct ArtificialViscosity {
   double linear = 0.2;     ///< A1
   double quadratic = 2.0;  ///< A2

@@ -12,8 +12,7 @@ namespace tushar::mpm::solid {
 
 /// A spring in parallel with a Maxwell element, each with a deviator and a pressure; Simo & Hughes, Computational
 /// Inelasticity (1998), section 10.2. sigma = s_e + s_v - (p_e + p_v) I with ds_e/dt = 2 G_e dev D, dp_e/dt = -K_e tr
-/// D,
-/// ds_v/dt = 2 G_v (dev D - s_v/eta_d), dp_v/dt = -K_v (tr D + 3 p_v/eta_v), as in Uintah. The stresses rotate with
+/// D, ds_v/dt = 2 G_v (dev D - s_v/eta_d), dp_v/dt = -K_v (tr D + 3 p_v/eta_v), as in Uintah. The stresses rotate with
 /// the material; Uintah's do not.
 struct MwViscoElastic {
   struct State {

@@ -20,8 +20,7 @@ inline Matrix3 rotationOf(const Matrix3& f) {
 }
 
 /// The spin W = dR Rᵀ of F = V R when F changes by h F: h V = dV + V W, dV symmetric. With axial vectors, (tr V I - V)
-/// w = a,
-/// where A = h V - V hᵀ.
+/// w = a, where A = h V - V hᵀ.
 inline Matrix3 spinOf(const Matrix3& h, const Matrix3& stretch) {
   const Matrix3 a = h * stretch - stretch * h.transpose();
   const Matrix3 lever = stretch.trace() * Matrix3::Identity() - stretch;

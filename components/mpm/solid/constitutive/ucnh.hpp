@@ -15,8 +15,7 @@
 namespace tushar::mpm::solid {
 
 /// Neo-Hookean elasticity with J2 flow and linear isotropic hardening at finite strain: Simo & Hughes, Computational
-/// Inelasticity (1998), section 9.3, box 9.1. Uintah's `UCNH` and `comp_neo_hook_plastic`,
-/// which is plastic by default.
+/// Inelasticity (1998), section 9.3, box 9.1. Uintah's `UCNH` and `comp_neo_hook_plastic`, which is plastic by default.
 template <bool plasticByDefault>
 struct NeoHookPlastic {
   struct State {

@@ -1,7 +1,7 @@
 """All tags of a scene, as sus describes them.
 
-`tags_of` is the only place that knows where the description comes from: today the text of `sus --describe`, which
-core/input/schema_base.cpp writes from the schemas. A dump of the schemas for programs can take its place.
+`tags_of` is the only function that depends on the source of the description: currently the text of `sus --describe`,
+which core/input/schema_base.cpp writes from the schemas. A machine-readable dump of the schemas could replace it.
 """
 import dataclasses
 import re

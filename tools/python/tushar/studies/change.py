@@ -9,8 +9,7 @@ from tushar.dat import rows_of
 @dataclasses.dataclass(frozen=True)
 class Change:
     """`change.NAME[k]=VALUE`: the k-th component of a global quantity (by default the first), and the expected change;
-    without a
-    value, that of the first run of the study."""
+    by default, the change in the first run of the study."""
     name: str
     component: int = 0
     value: float = None

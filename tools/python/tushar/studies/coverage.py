@@ -125,9 +125,8 @@ class Runner:
         self.settings, self.jobs, self._stop = settings, jobs, threading.Event()
 
     def run(self, scenes, tell):
-        """Runs all scenes. Calls `tell` with each outcome as it arrives, their number, and all so far in the order of
-        the
-        scenes. An early end, such as by Ctrl-C, ends the runs, too."""
+        """Runs all scenes. Calls `tell` with each outcome as it arrives, the number of outcomes, and all outcomes so
+        far in the order of the scenes. An early end, for example by Ctrl-C, also ends the runs."""
         outcomes = {}
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
             waiting = {pool.submit(self.run_scene, scene): scene for scene in scenes}
@@ -160,8 +159,8 @@ class Runner:
         return [*words, "--check"] if self.settings.check else [*words, "--json", os.path.join(folder, "report.json")]
 
     def _wait(self, process, started):
-        """Waits until the run ends; past its limit, stops it, at last by force. Returns whether it was stopped, and
-        what the process has used."""
+        """Waits until the run ends; stops it when its time limit is exceeded, if necessary by force. Returns whether it
+        was stopped, and the resources that the process has used."""
         told = None
         while True:
             ended, status, usage = os.wait4(process.pid, os.WNOHANG)
@@ -228,7 +227,7 @@ def reason_of(outcome):
 
 def blockers(outcomes, result):
     """The reasons why scenes do not run, by message: (message, code, names of scenes, number of these without another
-    problem), the most frequent first. Sentences that block the same scenes stand together."""
+    problem), the most frequent first. Messages for the same scenes are grouped."""
     scenes, numbers = {}, {}
     for outcome in outcomes:
         for problem in outcome.problems if outcome.result == result else []:

@@ -26,9 +26,8 @@ def resolution(scene, value):
 
 
 def finest(scene, value):
-    """Sets the cells so that `N` of them would fill the grid along x: those of the finest level for a scene with <AMR>,
-    otherwise
-    all."""
+    """Sets the number of cells so that `N` of them would fill the grid along x: cells of the finest level for a scene
+    with <AMR>, otherwise all cells."""
     if root_of(scene).find("AMR/Regridder") is None:
         return resolution(scene, value)
     levels = math.log2(int(value) / cells_of(scene)[0])

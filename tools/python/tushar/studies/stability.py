@@ -94,8 +94,7 @@ class Gallery:
 
     def largest_factor(self, case, method, say):
         """The largest factor for the time step, at most 16 and accurate to 5 %, with which the run completes and its
-        error is less
-        than twice that with factor 1. None if there is none."""
+        error is less than twice the error with factor 1. None if there is no such factor."""
         first = self.run(case, method)
         if first.get("failure"):
             return None

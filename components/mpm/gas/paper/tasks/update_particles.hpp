@@ -94,8 +94,8 @@ void updateParticles(const Patch& patch, const Gas&, ParticleUpdate<D> u, double
 /// round-off.
 ///
 /// The work of the pressure of a cell, -P_c V_c div(v_half) dt with v_half = v* - a dt/2, goes to its particles in
-/// proportion to p_p times their volume m_p / rho_p; the kinetic energy that (12) loses,
-/// dt²/2 (sum_i S_ip a_i² - |sum_i S_ip a_i|²) per mass and never negative, becomes heat.
+/// proportion to p_p times their volume m_p / rho_p; the kinetic energy that (12) loses, dt²/2 (sum_i S_ip a_i² -
+/// |sum_i S_ip a_i|²) per mass and never negative, becomes heat.
 template <int D>
 void updateParticlesConserving(const Patch& patch, const Gas&, ParticleUpdate<D> u, double dt) {
   const Level& level = patch.level();

@@ -25,8 +25,7 @@ struct Moduli {
 };
 
 /// The reduction of the bulk modulus by plastic compaction [Pa]: b3 exp(b4 / e_p), for a volumetric plastic strain e_p
-/// <
-/// 0.
+/// < 0.
 inline double lossOfBulk(const Constants& c, double plasticStrain) {
   return plasticStrain < 0 ? c.b3 * std::exp(c.b4 / plasticStrain) : 0.0;
 }

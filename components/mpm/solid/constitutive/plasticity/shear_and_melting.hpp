@@ -29,8 +29,7 @@ struct ConstantShear {
 };
 
 /// The shear modulus G = mu_0 (1 + A p/eta^(1/3) - B (T - 300 K)), eta = rho/rho_0: Steinberg, Cochran & Guinan, J.
-/// Appl. Phys. 51 (1980)
-/// 1498, equation 1.
+/// Appl. Phys. 51 (1980) 1498, equation 1.
 struct ScgShear {
   static constexpr std::string_view name = "scg_shear";
   double initial = 0;        ///< initial value mu_0 [Pa]

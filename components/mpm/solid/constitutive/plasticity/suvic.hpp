@@ -91,8 +91,7 @@ struct SuvicI {
               grown(start.drag, drag, model.dragGrowth * strain)};
     }
     /// Solves for the strain, using the method of false position in the variable e^(1/N), in which slow creep is
-    /// linear; Dowell & Jarratt, BIT
-    /// 11 (1971) 168.
+    /// linear; Dowell & Jarratt, BIT 11 (1971) 168.
     double strain() const {
       const double greatest = std::sqrt(1.5) * (trial.norm() + start.back.norm()) / (3 * shearModulus);
       double low = 0, high = std::pow(greatest, 1 / model.rateExponent), root = high;

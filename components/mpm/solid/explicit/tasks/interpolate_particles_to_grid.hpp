@@ -51,8 +51,7 @@ struct ForceSources {
 };
 
 /// Scatters the particles of a material to their nodes; `forces` is null if only mass and momentum are needed. Stores
-/// pointers,
-/// not views: its loops are those of every step.
+/// pointers, not views: its loops are those of every step.
 template <class Shape>
 class Scatter {
  public:
@@ -148,8 +147,7 @@ class Scatter {
     addParticles<true>(cell, first, count, moments.data(), touching);
   }
   /// Adds particles of a cell to the surrounding nodes: m v and m with S_i, -V sigma with its gradient. Where
-  /// `isWithin`,
-  /// only those that have their bit in `touching`, to nodes of the view's box.
+  /// `isWithin`, only those that have their bit in `touching`, to nodes of the view's box.
   template <bool isWithin>
   void addParticles(const Index<D>& cell, int first, int count, const Matrix3* moments, Touching touching = 0) const {
     prefetch(x_, first + count, count);
