@@ -43,7 +43,7 @@ std::vector<Family> readFamilies(std::string_view toml) {
   return families;
 }
 
-/// Number of letters of those words if they occur in a message in this order, otherwise 0.
+/// Number of letters of the fixed `words` if they occur in a message in this order, otherwise 0.
 std::size_t lettersIn(const std::string& message, std::string_view words) {
   std::size_t letters = 0, at = 0;
   while (true) {

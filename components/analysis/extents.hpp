@@ -50,8 +50,8 @@ struct ExtentSettings : Sampling {
   ExtentList extents;
 };
 
-/// A module that samples variables in extents; it receives one part of the state for each extent. Throws what
-/// checkExtents throws.
+/// A module that samples variables in extents; it receives one part of the state for each extent. Throws the exceptions
+/// of checkExtents.
 class ExtentModule : public SamplingModule {
  public:
   ExtentModule(const ExtentSettings& settings, int axes, const grid::Level& level);

@@ -84,7 +84,7 @@ struct ColdCurve {
 class CurvedGas {
  public:
   /// `gamma` is the Grüneisen parameter, at least 0; with a linear cold curve it is the value at rho_0. The specific
-  /// heat is c_v, J/(kg K).
+  /// heat c_v is in J/(kg K).
   CurvedGas(const ColdCurve& cold, double gamma, double specificHeat)
       : cold_(cold), gamma_(gamma), specificHeat_(specificHeat) {}
 

@@ -74,7 +74,7 @@ class Lanes {
     takeRegisters<numbers, Which, 1>(sum, from, std::make_integer_sequence<int, count>());
     return sum;
   }
-  /// The inverse operation: register `Which` of such vectors; element c of `of` contains their components c.
+  /// The inverse operation: register `Which` of such vectors; element c of `of` contains component c of all vectors.
   template <int Which, std::size_t numbers>
   [[gnu::always_inline]] static Lanes packed(const std::array<Lanes, numbers>& of) {
     Register sum = of[0].values_;

@@ -16,7 +16,7 @@ namespace {
 // MPI counts in int: messages go in words, so that one may hold 16 GB.
 constexpr std::size_t wordBytes = sizeof(std::uint64_t);
 
-/// A message of whole words: the number of bytes, followed by the bytes.
+/// Pads a message to whole words, and appends its length in bytes.
 Bytes sealed(Bytes bytes) {
   const std::uint64_t length = bytes.size();
   bytes.resize((bytes.size() + wordBytes - 1) / wordBytes * wordBytes + wordBytes);

@@ -46,7 +46,7 @@ class Span {
 /// time between two spans is recorded as a wait. Must not be called while threads record.
 std::string events(int rank);
 
-/// Makes a file in this format from the events of all ranks.
+/// Makes a file in Chrome's trace format from the events of all ranks.
 std::string fileOf(const std::string& events);
 
 }  // namespace tushar::trace

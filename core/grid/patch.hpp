@@ -17,7 +17,7 @@ class Patch {
   int id() const { return id_; }
   const Level& level() const { return *level_; }
   const Box& cells() const { return cells_; }
-  /// The nodes of the patch's cells, and the nodes outside the sides of the grid that the patch touches.
+  /// The nodes of the patch's cells and, if the patch touches sides of the grid, the nodes outside these sides.
   Box nodes() const;
   /// Cells within `width` of the patch that lie on the grid or, along periodic axes, on its periodic images.
   Box cellsWithin(int width) const;

@@ -13,9 +13,9 @@ class Grid;
 struct RimPiece {
   int axis, side;     ///< axis across the faces; side 0: lower faces of `cells`, 1: upper faces
   Box cells;          ///< cells of the patch that have these faces
-  int other;          ///< the patch behind
-  Index3 shift;       ///< index of the patch behind the faces
-  bool isFiner;       ///< shift of the periodic image of `other` [cells of the coarser level]
+  int other;          ///< index of the patch behind the faces
+  Index3 shift;       ///< shift of the periodic image of `other` [cells of the coarser level]
+  bool isFiner;       ///< whether the other level is the finer one
   std::size_t first;  ///< index of the first face among all rim faces of the patch
 
   /// Number of fluxes that a patch stores: one for each face and, if the other level is finer, a second one: the mean

@@ -20,8 +20,8 @@ class Outputs {
  public:
   /// A new archive will be made in folder `parent`; if it is empty, in the current folder.
   Outputs(RunState& run, std::filesystem::path parent);
-  /// If a run ends by an exception, finishes the output in progress if rank 0 can do so alone, or if all ranks come
-  /// here.
+  /// If a run ends by an exception, finishes the output in progress, provided that rank 0 can do so alone or that all
+  /// ranks reach this destructor.
   ~Outputs();
   Outputs(const Outputs&) = delete;
   Outputs& operator=(const Outputs&) = delete;
@@ -29,7 +29,7 @@ class Outputs {
   /// Locks the folder of the run that is continued. Throws FileError if another process has locked it.
   void lockArchive();
   /// Creates an archive if the scene has outputs, globals, samples or checkpoints. A restarted run, which has read its
-  /// checkpoint, continues the archive of the run before. Throws FileError.
+  /// checkpoint, continues its previous archive. Throws FileError.
   void open();
   /// Saves the globals and, if requested, an output at the start.
   void saveStart();
@@ -39,8 +39,8 @@ class Outputs {
   void saveIfDue();
   /// Begins to write an output, if the scene has outputs and this step has none yet; further steps may run meanwhile.
   void save();
-  /// If only rank 0 has failed since the ranks last synchronised with the clock of the run, throws its exception on
-  /// rank 0 and FailedElsewhere on the others.
+  /// If rank 0 alone has failed since the ranks last agreed on the wall time, throws its exception on rank 0 and
+  /// FailedElsewhere on the others.
   void throwIfFailed();
   /// Waits for the output in progress.
   void finishOutput();

@@ -21,7 +21,7 @@ using Totals = std::vector<std::vector<double>>;
 
 /// The state that the parts of a run share: the problem, its compiled tasks and variables, and its progress.
 struct RunState {
-  /// Compiles the task graphs. Throws what Phases throws.
+  /// Compiles the task graphs. Throws the exceptions of Phases.
   RunState(Problem problem, const RunOptions& options, Clock::time_point startedAt, const mpi::Communicator& ranks);
   RunState(const RunState&) = delete;
   RunState& operator=(const RunState&) = delete;

@@ -24,7 +24,7 @@ namespace tushar::simulation {
 /// and reports for all ranks.
 class Simulation {
  public:
-  /// Compiles the task graphs. `startedAt` is when the process started. Throws what Phases throws.
+  /// Compiles the task graphs. `startedAt` is when the process started. Throws the exceptions of Phases.
   Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt);
   /// Constructs a run on one of the ranks that share the grid. All ranks construct one, and make the same calls.
   Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt, const mpi::Communicator& ranks);

@@ -8,8 +8,8 @@
 
 namespace tushar::reference {
 
-/// The greatest residual at (x, t) of the gas equations in the axes of `axes` (1: counts), every derivative by central
-/// differences of fourth order with step `d`: of d rho/dt + div(rho v), rho Dv/Dt + grad p and Dp/Dt + gamma p div v.
+/// Returns the largest residual at (x, t) of the gas equations along those `axes` that are 1: d rho/dt + div(rho v),
+/// rho Dv/Dt + grad p and Dp/Dt + gamma p div v. Derivatives are central differences of fourth order with step `d`.
 inline double gasResidual(const GasReference& gas, const Vec3& x, double t, double gamma, double d,
                           const Vec3& axes = Vec3::Ones()) {
   const auto slope = [&](const Vec3& along, double inTime) -> Fields {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Grids of several levels: the same bits on any patches, threads and ranks, through restarts, in a mirror, and where
-another way leads to the same cells; nothing is lost between levels; the errors of the finest cells."""
+"""Grids of several levels: same bits on any patches, threads and ranks, after restarts, for mirror images, and for
+grids that are specified in another way; conservation between levels; errors of the finest cells."""
 import pathlib
 import re
 import sys
@@ -245,8 +245,8 @@ class Levels(FolderTest):
         self.assertIn("<adaptive> true needs a <Variable>", refused.err)
 
     def test_a_stream_that_interpolation_would_leave_without_pressure_goes_on(self):
-        """Cold gas that flies apart: on the cells that get finer once it is thin, energy and momentum that are
-        interpolated each by itself leave less than the motion takes."""
+        """Expanding cold gas, refined where it is thin: in new cells, the separately interpolated energy would be less
+        than the kinetic energy."""
         thin = '<Variable name="c.density" value=".9" type="below"/>'
         amr = (f"<max_levels>2</max_levels><min_timestep_interval>4</min_timestep_interval></Regridder><Euler>"
                f"<Refinement_Criteria_Thresholds>{thin}</Refinement_Criteria_Thresholds></Euler>")

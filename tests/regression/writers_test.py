@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Ranks that write together: the same bytes by any ranks and writers, little memory on each, and one sentence where one
-writer cannot write."""
+"""Ranks that write together: same bytes with any number of ranks and writers, little memory per rank, and one message
+if a writer cannot write."""
 import os
 import pathlib
 import shutil

@@ -317,8 +317,8 @@ def panel(cells):
 
 
 def panel_period(cells):
-    """The first and the second peak of its tip, m, and the time between them over the first period of a clamped beam in
-    plane strain, 2.72 ms, less 1."""
+    """Returns the first and the second peak of the tip [m], and the relative difference between the time from peak to
+    peak and 2.72 ms, the first period of a clamped beam in plane strain."""
     with tempfile.TemporaryDirectory() as folder:
         archive = panel_until(cells, 4.3e-3, folder)
         return peaks_of_panel(archive, 5e-5)

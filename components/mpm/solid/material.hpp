@@ -63,7 +63,7 @@ struct Material {
   double thermalExpansion = 0;     ///< coefficient of linear expansion [1/K]
   bool isRigid = false;            ///< whether the stress exerts no force
   bool transmitsForce = false;     ///< whether the material moves as one rigid body under the sum of the forces on it
-  /// Whether planes that separate it from others (see SeparatingPlane) may belong to it.
+  /// Whether this material may provide the planes that separate it from other materials (see SeparatingPlane).
   bool mayLeadContact = true;
   Damage damage;
   Erosion erosion;

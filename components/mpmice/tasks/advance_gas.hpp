@@ -206,7 +206,7 @@ void requireFinest(const Patch& patch, const NearBodies<D>& near) {
 
 /// Performs one step of the gas. Away from bodies, it is bitwise a step of `euler`. At bodies, fluxes pass through the
 /// open fraction of faces, walls exert a pressure and do work with the mean of their velocities before and after the
-/// step, and gas follows moving walls. Adds the power of the gas on bodies, W. K is the number of gases that share
+/// step, and gas follows moving walls. Adds the power of the gas on bodies [W]. K is the number of gases that share
 /// cells.
 template <int D, class Flux, class Shape, int K>
 void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings, double dt,

@@ -70,9 +70,8 @@ class Quantity:
         return self.variable.components == 1 or self.component is not None
 
     def scalar(self, values: Values, axis: Optional[int] = None) -> Values:
-        """The requested component; for a vector on a line along an axis, by default the component along this axis;
-        otherwise
-        the magnitude."""
+        """The requested component; by default, for a vector on a line along an axis, the component along this axis,
+        otherwise the magnitude."""
         if self.variable.components == 1:
             return values
         if self.component is not None:

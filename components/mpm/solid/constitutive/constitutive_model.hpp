@@ -104,10 +104,10 @@ consteval bool isConstitutiveModel() {
 /// - `Capabilities`: what the model can do beyond the members below; capabilities.hpp has them all.
 /// - `name`: the type in a scene.  `schema()`: the constants that a scene gives, with their units.
 /// - `initialState()`: the State of a particle at the start of the run.
-/// - `updateStress`: Cauchy stress at the end of the step, Pa, from that at the start of the step; brings the State to
+/// - `updateStress`: Cauchy stress [Pa] at the end of the step from that at the start; also updates the State to
 ///   the end of the step.
-/// - `waveSpeed`: of the fastest elastic wave, m/s, from the density at the start of the run [kg/m^3].
-/// - `strainEnergyDensity`: J per m^3 of the volume at the start of the run; a hyperelastic model returns W(F), any
+/// - `waveSpeed`: speed of the fastest elastic wave [m/s] for an initial density [kg/m^3].
+/// - `strainEnergyDensity`: energy per initial volume [J/m^3]; a hyperelastic model returns W(F), any
 ///   other the increment of the step (`strainEnergyIsRate` true).
 ///
 /// Use it to assert, not to choose an overload: a type that is no model stops compilation with a sentence.

@@ -82,7 +82,7 @@ class Model {
   /// Coefficients of the artificial viscosity that replace those of the scene, if any.
   virtual std::optional<ArtificialViscosity> ownViscosity() const = 0;
 
-  /// Speed of the fastest wave at the start of the run, m/s.
+  /// Speed of the fastest wave at the start of the run [m/s].
   virtual double initialWaveSpeed(double initialDensity, double temperature) const = 0;
   /// See capability::InitialVolumeRatio.
   virtual double initialVolumeRatio() const = 0;

@@ -20,7 +20,8 @@ struct Insertion {
 };
 
 /// Reads insertions, each with 8 numbers: time [s], color, the components of the shift [m] and of the new velocity
-/// (m/s). Problems go to the diagnostics, with file and line; one of the file as a whole to the place that names it.
+/// [m/s]. Reports problems to the diagnostics with file and line, and problems of the whole file at the tag that names
+/// the file.
 std::vector<Insertion> readInsertions(const std::string& path, const Location& named, input::Diagnostics& diagnostics);
 
 }  // namespace tushar::mpm::solid

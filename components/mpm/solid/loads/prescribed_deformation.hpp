@@ -39,7 +39,7 @@ class PrescribedDeformation {
 };
 
 /// Reads points of 14 numbers: time [s], the components of F row by row, an angle [degrees] and its axis. Reports
-/// problems to the diagnostics, with file and line; one of the file as a whole to the place that names it.
+/// problems to the diagnostics with file and line, and problems of the whole file at the tag that names the file.
 std::optional<PrescribedDeformation> readPrescribedDeformation(const std::string& path, const Location& named,
                                                                input::Diagnostics& diagnostics);
 

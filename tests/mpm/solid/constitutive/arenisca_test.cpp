@@ -200,8 +200,8 @@ Arenisca2 roundedSandstone(double capShape) {
   return model;
 }
 
-/// In z and r: half axes a and b = CR a, the cone's slope B; a line touches an ellipse where its distance from the
-/// middle is the root of the sum of the squares of the half axes times the components of its normal.
+/// In z and r, the semi-axes are a and b = CR a, and the cone has slope B. A line touches an ellipse if the square of
+/// its distance from the centre is the sum of the squares of the semi-axes times the components of the line's normal.
 TEST(Arenisca, HasACapThatTouchesItsCone) {
   for (const double capShape : {0.3, 1.0, 6.0, 14.8}) {
     const Arenisca2 model = roundedSandstone(capShape);

@@ -24,8 +24,8 @@ struct Moduli {
   }
 };
 
-/// The reduction of the bulk modulus by plastic compaction [Pa]: b3 exp(b4 / e_p), for a volumetric plastic strain e_p
-/// < 0.
+/// The reduction of the bulk modulus by plastic compaction [Pa]: b3 exp(b4 / e_p), for a negative volumetric plastic
+/// strain e_p.
 inline double lossOfBulk(const Constants& c, double plasticStrain) {
   return plasticStrain < 0 ? c.b3 * std::exp(c.b4 / plasticStrain) : 0.0;
 }
@@ -83,8 +83,8 @@ inline double greatestShear(const Constants& c) {
 }
 
 /// I1 at the end of the cap, without the contribution of the fluid [Pa]: the crush curve X = p0 + ln(1 + e_p / p3) / p1
-/// for -p3 < e_p <= 0 and X = p0 (1 + e_p)^(1 / (p0 p1 p3)) beyond, times K / K_dry where a fluid fills the pores. Once
-/// all have collapsed, there is no end.
+/// for -p3 < e_p <= 0 and X = p0 (1 + e_p)^(1 / (p0 p1 p3)) beyond, multiplied by K / K_dry if a fluid fills the pores.
+/// Once all pores have collapsed, the cap has no end.
 inline double capEnd(const Constants& c, double plasticStrain) {
   if (plasticStrain <= -c.p3) return 1e12 * c.p0;
   const double dry = plasticStrain <= 0 ? c.p0 + std::log((plasticStrain + c.p3) / c.p3) / c.p1

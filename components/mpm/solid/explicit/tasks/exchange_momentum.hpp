@@ -43,7 +43,7 @@ void addMomentum(const Contact& contact, const Records& records, double share, N
 /// Exchanges momentum between the velocities at the end of the step, as Uintah's exMomIntegrated: adds the force of
 /// rigid and specified contacts to `reaction` and, for a master that transmits force, the force that the others exert
 /// on it,
-/// - sum m (v* after - v* before) / dt at each node, N, to `transmitted`.
+/// - sum m (v* after - v* before) / dt at each node [N] to `transmitted`.
 template <int D>
 void exchangeMomentumAtEnd(const Patch& patch, const std::vector<Material>& materials,
                            const std::vector<Contact>& contacts, const Acceleration& acceleration, double time,
