@@ -110,7 +110,7 @@ consteval bool isConstitutiveModel() {
 /// - `strainEnergyDensity`: energy per initial volume [J/m^3]; a hyperelastic model returns W(F), any
 ///   other the increment of the step (`strainEnergyIsRate` true).
 ///
-/// Use it to assert, not to choose an overload: a type that is no model stops compilation with a sentence.
+/// Use it in assertions, not to select an overload: a type that is not a model stops compilation with a message.
 template <class M>
 concept ConstitutiveModel = isConstitutiveModel<M>();
 
