@@ -30,7 +30,7 @@ class RadialReference : public GasReference {
   /// for other values, or if all are 0.
   RadialReference(const Vec3& centre, const Vec3& round);
 
-  /// The number of these axes: 1, 2 or 3.
+  /// The number of axes in which the distance is measured: 1, 2 or 3.
   int dimension() const { return static_cast<int>(round_.sum()); }
 
  private:

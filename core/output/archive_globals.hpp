@@ -18,7 +18,7 @@ class GlobalFiles {
 
   /// The file name of a global quantity.
   static std::string nameOf(const std::string& global);
-  /// Adds a line to the file of a global quantity; the first sample replaces an old file. Returns whether this was the
+  /// Adds a line to the file of a global quantity; its first sample replaces an old file. Returns whether it was the
   /// first.
   bool append(const GlobalSample& sample);
   /// Continues the files of these global quantities, without the lines after `time` [s].

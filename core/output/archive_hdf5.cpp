@@ -94,7 +94,7 @@ void choose(hid_t space, const VirtualPart& part) {
 /// this file, each of which shows this many.
 constexpr std::size_t mostParts = 256;
 
-/// The end of the parts that belong to one dataset; parts that begin at the same entry stay together.
+/// Returns the end of the parts that one dataset contains; parts that begin at the same entry are not separated.
 std::size_t endOfRun(const std::vector<VirtualPart>& parts, std::size_t begin) {
   std::size_t end = std::min(begin + mostParts, parts.size());
   while (end < parts.size() && parts[end].first[0] == parts[end - 1].first[0]) ++end;

@@ -27,8 +27,8 @@ class ByteSum {
   std::uint64_t power(std::uint64_t number);
 
   std::uint64_t total_ = 0;
-  std::uint64_t last_ = 0, last_power_ = 1;  ///< exponent and value of the power that was needed last
-  std::uint64_t step_ = 0, step_power_ = 1;  ///< difference to the exponent before it, and the corresponding power
+  std::uint64_t last_ = 0, last_power_ = 1;  ///< exponent of the last power used, and that power
+  std::uint64_t step_ = 0, step_power_ = 1;  ///< difference of the last two exponents, and its power
 };
 
 /// Identifies one of several ranks that share work evenly.

@@ -58,7 +58,7 @@ void checkKind(const ConditionSection& condition, const Element& element, const 
     diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
 }
 
-/// A choice whose values equal the words.
+/// Choices in which each word stands for itself.
 input::Choices<std::string> wordsOf(const std::vector<std::string>& words) {
   input::Choices<std::string> choices;
   for (const std::string& word : words) choices.emplace_back(word, word);

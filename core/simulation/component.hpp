@@ -49,7 +49,8 @@ class Component {
   /// `newCells()` are the cells of the patch that were coarser before. At the start of a run cells of all levels are
   /// initialised instead.
   virtual void scheduleRefine(tasks::TaskList&) const {}
-  /// Adds tasks that compute diagnostics of the old state: totals, derived fields. Only tasks that are needed run.
+  /// Adds tasks that compute diagnostics of the old state: totals, derived fields. Tasks whose results are not needed
+  /// are omitted.
   virtual void scheduleDiagnostics(tasks::TaskList&) const {}
 };
 

@@ -26,7 +26,7 @@ class KeptReductions {
 
  private:
   data::Warehouse* warehouse_;
-  std::vector<std::pair<int, std::vector<std::byte>>> kept_;  ///< index of each reduction and its bytes
+  std::vector<std::pair<int, std::vector<std::byte>>> kept_;  ///< index and bytes of each reduction
 };
 
 }  // namespace tushar::simulation

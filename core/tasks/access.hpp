@@ -22,7 +22,7 @@ struct FieldAccess<data::FieldLabel<C, T>, Kind> {
   int ghost = 0;
   bool own = false;
   bool offered = false;
-  /// Kind of access; may be requiresNew if Kind is requiresOld, because both have the same type of view.
+  /// `Kind`, or requiresNew if `Kind` is requiresOld: both have the same type of view.
   AccessKind kind = Kind;
   int index = -1;  ///< index among the task's accesses
 

@@ -129,8 +129,8 @@ void gatherParticles(const Patch& patch, const Vec3& commonSize, const PlaneSour
   });
 }
 
-/// The normal at the k-th of these nodes: 0 unless there are particles on both sides. None points through a symmetry
-/// plane.
+/// The normal at the k-th of these nodes: 0 unless there are particles on both sides. It never points through a
+/// symmetry plane.
 template <int D>
 Vec<D> normalAt(const Patch& patch, const MeetingNodes<D>& nodes, std::size_t k) {
   const auto& around = nodes.particles[k];
