@@ -54,7 +54,8 @@ const input::Schema<FluxSettings>& fluxSchema() {
   return schema;
 }
 
-/// The velocity component along the axis, at a side of a cell that lies on a side of the grid.
+/// The velocity component along an axis [m/s] at a side of the grid: 0 at a symmetry plane, otherwise the prescribed
+/// one or, without it, that of the adjacent cell, `inside`.
 template <int D>
 double velocityAtEnd(const Level& level, int d, int side, int material, const Vec<D>& inside) {
   if (level.isSymmetry(d, side, material)) return 0;

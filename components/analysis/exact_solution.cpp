@@ -70,7 +70,7 @@ struct Measurable {
   bool derived;
 };
 
-/// The cell and node variables of a component that belong to no material: vectors and scalars, by name.
+/// The cell and node variables of a component that belong to no material, by name: its vectors or its scalars.
 std::map<std::string, Measurable> measurables(const Component& component, bool vectors) {
   TaskList state, derived;
   component.scheduleInitialize(state);
@@ -89,7 +89,7 @@ std::map<std::string, Measurable> measurables(const Component& component, bool v
   return found;
 }
 
-/// The variable with this name. Throws InputError naming the available ones.
+/// The variable that the settings name. Throws InputError, which lists the available ones, if there is none.
 Measurable findMeasurable(const Component& component, const ExactSolutionSettings& settings, const Location& where) {
   const std::string& name = settings.label;
   const std::map<std::string, Measurable> found = measurables(component, settings.component.has_value());
@@ -105,7 +105,7 @@ Measurable findMeasurable(const Component& component, const ExactSolutionSetting
   throw InputError({{where, "DataAnalysis/Module/label", names.empty() ? none : input::choiceProblem(name, names)}});
 }
 
-/// Computes errors of a scalar, or of a component of a vector along an axis of the scene.
+/// Adds to `error` the errors of a scalar field, or of one component of a vector field, on a patch.
 template <Centring C, int D, class T>
 void measure(const Patch& patch, const ExactSolutionSettings& settings, const double* time,
              data::GridView<C, const T> field, Norm& error) {

@@ -48,8 +48,8 @@ double coarsestWidth(const Level& level, int axis) {
   return 0;
 }
 
-/// The reason why the points are invalid; empty if there are cells of the grid between them. Uintah has a layer of
-/// cells beyond each side, which scenes may sample: there an extent begins or ends at the side.
+/// The reason why the points are invalid; empty if there are cells of the grid between them. Uintah's grid has one more
+/// layer of cells beyond each side. Scenes may sample it, but here an extent ends at the side.
 std::string problemOf(const Extent& extent, int axes, const Level& level) {
   const Vec3 lower = level.domain().lower, upper = level.domain().upper;
   int along = 0;
@@ -66,8 +66,8 @@ std::string problemOf(const Extent& extent, int axes, const Level& level) {
     if (from < to) ++along;
   }
   if (along == axes) return {};
-  return axes == 1 ? "a line is parallel to one axis: startingPt and endingPt must differ in exactly one coordinate"
-                   : "a plane is parallel to two axes: startingPt and endingPt must differ in exactly two coordinates";
+  return axes == 1 ? "a line is parallel to one axis: expected startingPt and endingPt to differ in one coordinate"
+                   : "a plane is parallel to two axes: expected startingPt and endingPt to differ in two coordinates";
 }
 
 }  // namespace

@@ -26,8 +26,7 @@ struct ExtentList {
   std::vector<Extent> list;
 };
 
-/// The schema of `<lines>` with tags `line`, or of `<planes>` likewise. `fewest` is the number of axes along which an
-/// extent must have a length.
+/// The schemas of `<lines>`, with tags `line`, and of `<planes>`, with tags `plane`.
 const input::Schema<ExtentList>& linesSchema();
 const input::Schema<ExtentList>& planesSchema();
 
@@ -35,8 +34,9 @@ const input::Schema<ExtentList>& planesSchema();
 /// axes, and for names that cannot be folders of the archive.
 void checkExtents(const std::vector<Extent>& extents, int axes, const grid::Level& level);
 
-/// The cells that an extent crosses, as a box; the upper cells if it lies between cells. Its nodes are those at the
-/// lower corners of these cells. `level` is the finest level; the cells are those of a level `coarser` levels above it.
+/// The box of the cells that an extent crosses; if the extent lies on faces between cells, the cells above these faces.
+/// The nodes of an extent are the lower corners of these cells. `level` is the finest level; the box is on the level
+/// that is `coarser` levels above it.
 grid::Box cellsOf(const Extent& extent, const grid::Level& level, int coarser = 0);
 
 /// A box of cells on a level; level 0 is the coarsest.
@@ -50,8 +50,8 @@ struct ExtentSettings : Sampling {
   ExtentList extents;
 };
 
-/// A module that samples variables in extents; it receives one part of the state for each extent. Throws the exceptions
-/// of checkExtents.
+/// A module that samples variables in extents; it receives one part of the state for each extent. Its constructor
+/// throws the exceptions of checkExtents.
 class ExtentModule : public SamplingModule {
  public:
   ExtentModule(const ExtentSettings& settings, int axes, const grid::Level& level);
@@ -72,8 +72,8 @@ int axisOf(const Extent& line);
 
 /// The index of a cell along x, y, z; 0 along the axes that the grid does not use.
 Index3 sceneIndex(const Index3& cell, const grid::Level& level);
-/// The centre of a cell, or its lower corner [m]; along the axes that the grid does not use, the middle of the domain.
-/// `coarser`: as of cellsOf.
+/// The position of a cell [m]: its centre or, if `isCorner`, its lower corner. Along the axes that the grid does not
+/// use, it is the middle of the domain. `coarser` has the meaning that it has for cellsOf.
 Vec3 placeOf(const Index3& cell, bool isCorner, const grid::Level& level, int coarser = 0);
 
 }  // namespace tushar::analysis

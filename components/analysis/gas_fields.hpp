@@ -11,15 +11,15 @@
 
 namespace tushar::analysis {
 
-/// Whether diagnostics compute a cell variable without a material; false if it is part of the state; none if there is
-/// no such variable.
+/// Whether diagnostics compute a cell variable that belongs to no material, rather than the state containing it; none
+/// if there is no such variable.
 std::optional<bool> isDerived(const simulation::Component& component, std::string_view label);
 
-/// The number of materials before the gas, which is also the index of the gas in the scene.
+/// The number of bodies, which is also the index of the gas among the materials of the scene, since bodies come first.
 int bodiesOf(const simulation::Component& component);
 
-/// Throws InputError if the <material> of a module is not a gas of the component. A missing <material> is correct, and
-/// as in Uintah any name if there is one material.
+/// Throws InputError if the <material> of a module is not a gas of the component. The tag may be missing; as in Uintah,
+/// it may have any text if the scene has only one material.
 void checkGas(const std::string& material, const simulation::Component& component, const input::Element& module);
 
 }  // namespace tushar::analysis

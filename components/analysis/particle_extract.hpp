@@ -6,9 +6,9 @@
 
 namespace tushar::analysis {
 
-/// `particleExtract`: writes variables of selected particles over time, one file per particle: those of one material
-/// whose p.color is above a threshold. The files are `particleExtract/L-0/<p.particleID>` in the archive, as Uintah
-/// writes them: a line of names, then for every sample the time, the position and the variables: scalars first, then
+/// `particleExtract`: writes variables of the particles of one material whose p.color is above a threshold, over time.
+/// Each particle has a file, `particleExtract/L-0/<p.particleID>` in the archive, as in Uintah. It begins with a line
+/// of names; then there is a line for every sample, with the time, the position and the variables: scalars first, then
 /// vectors, then tensors by rows.
 simulation::AnalysisKind particleExtractKind();
 

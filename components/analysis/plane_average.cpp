@@ -92,7 +92,8 @@ class PlaneAverage : public SamplingModule {
   }
 
  private:
-  /// Number of cells per plane; on several levels, of coarsest cells (finer ones count by their volume).
+  /// Number of cells per plane. On a grid of several levels, it counts coarsest cells; finer cells count by their
+  /// volume.
   int cellsPerPlane() const {
     int cells = 1;
     for (int d = 0; d < level_->dimension(); ++d)

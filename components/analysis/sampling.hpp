@@ -40,7 +40,7 @@ struct Sampling : Times {
 };
 
 const input::Schema<AnalyzedList>& analyzedSchema();
-/// The same schema with the additional attribute `weighting`.
+/// Like analyzedSchema, with the additional attribute `weighting`.
 const input::Schema<AnalyzedList>& weightedSchema();
 void checkTimes(const Times& times, const input::Element& module, input::Diagnostics& diagnostics);
 
@@ -77,8 +77,8 @@ input::Schema<Settings> samplingSchema(const std::string& name, const std::strin
 }
 
 /// Determines when samples are due: after the first step between `start` and `stop`, and then after each step that
-/// passes a time start + k / frequency. The initial state is none. What is due depends on the state and on that before
-/// alone, so that a run that goes on from a checkpoint samples the same ones.
+/// passes a time start + k / frequency. The initial state is never sampled. Whether a sample is due depends only on the
+/// times of the state and of the previous one, so a run that continues from a checkpoint takes the same samples.
 class SampleTimes {
  public:
   SampleTimes(double frequency, double start, double stop) : frequency_(frequency), start_(start), stop_(stop) {}
@@ -94,12 +94,13 @@ class SampleTimes {
   bool due_ = false;
 };
 
-/// The lines of a file before a time [s], and its comments: the part that remains valid if a run is repeated from that
-/// time on. The time is in a column, counted from 0. An incomplete last line, left by a kill, is dropped.
+/// The part of a file that remains valid if a run is repeated from a time [s] on: the comments, and the lines before
+/// this time. `column` is the index of the column that contains the time. An incomplete last line, left by a killed
+/// run, is dropped.
 std::string linesBefore(const std::string& text, double time, int column = 0);
 
-/// Text files to which each sample adds a line. If an earlier run has left one, the lines that are now repeated are
-/// removed from it.
+/// Text files to which each sample adds a line. If an earlier run has left such a file, the lines of the steps that
+/// this run repeats are removed from it.
 class SampleFiles {
  public:
   /// `column` is the index of the column that contains the time [s].
@@ -144,10 +145,10 @@ class SamplingModule : public simulation::Analysis {
   SampleTimes times_;
 };
 
-/// The name of a component of a variable in file headers: `v`, `v.x` for a vector, `v(0,1)` for a tensor.
+/// The name that file headers give to a component of a variable: `v`, `v.x` for a vector, `v(0,1)` for a tensor.
 std::string nameOfComponent(const std::string& name, int component, int components);
 
-/// An element of an array of any numeric type.
+/// The element at `place` of an array with numbers of any type.
 double numberAt(const output::Array& array, std::size_t place);
 
 }  // namespace tushar::analysis

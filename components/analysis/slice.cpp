@@ -106,7 +106,7 @@ const Schema<SliceSettings>& sliceSchema() {
 
 char nameOf(int axis) { return "xyz"[axis]; }
 
-/// The reason why a grid has no cells on a plane; empty if it has.
+/// The reason why a grid has no cells on a plane; empty if it has such cells.
 std::string problemOf(const Plane& plane, const Level& level) {
   const double lower = level.domain().lower[plane.axis], upper = level.domain().upper[plane.axis];
   if (level.dimension() < 2) return "a slice of a grid along one axis would be a point; remove the module";
@@ -169,7 +169,7 @@ class Slice : public Analysis {
       archives_[k]->write(parts[k]);
     }
   }
-  /// Updates the lists of each plane's archive, because a restart removes outputs that are not listed.
+  /// Updates the list of outputs in each plane's archive, because a restart removes outputs that are not listed.
   void flush() override {
     for (const auto& archive : archives_)
       if (archive) archive->flush();
@@ -188,7 +188,7 @@ class Slice : public Analysis {
     return fmt::format("slice/{}={}", nameOf(at.axis), at.at);
   }
 
-  /// The archive of a plane, without those outputs of an earlier run that are now repeated.
+  /// Opens the archive of a plane. The outputs of the steps that this run repeats are removed from it.
   std::unique_ptr<Archive> open(std::size_t plane, const Snapshot& first, const std::filesystem::path& folder) const {
     const auto own = folder / folderOf(settings_.planes[plane]);
     output::makeFolder(own);

@@ -5,8 +5,8 @@
 
 namespace tushar::analysis {
 
-/// `vorticity`: computes the curl of the gas velocity as a cell variable `c.vorticity`, which can be saved, and sampled
-/// by other modules; Uintah's `vorticity`.
+/// `vorticity`: computes the curl of the gas velocity as a cell variable, `c.vorticity`, which can be saved, and which
+/// other modules can sample. It corresponds to Uintah's `vorticity`.
 simulation::AnalysisKind vorticityKind();
 
 /// The curl of the gas velocity. It always has three components; some are 0 if the grid does not use all axes.

@@ -12,7 +12,7 @@ constexpr int kReach = 2;  ///< number of cells on each side that affect the flu
 
 double noSlope(double, double) { return 0; }
 
-/// u in a cell that may be outside the grid along axis `d`; outside, u is the inflow or outflow value.
+/// The value of u in a cell that may be outside the grid along axis `d`: there, it is the inflow or outflow value.
 template <int D>
 double valueAt(const Patch& patch, const BoundarySides<double>& sides, CellView<const double> u, Index<D> cell, int d) {
   if (patch.cellsWithin(kReach).contains(cell)) return u[cell];
@@ -42,7 +42,8 @@ double fluxThrough(const Patch& patch, const Settings& settings, const BoundaryS
   return faceFlux(row, slopeOf(settings.limiter), settings.viscosity * patch.level().inverseSpacing(d));
 }
 
-/// Stores half of the fluxes through the rim, in one of the two stages.
+/// Adds half of the fluxes through the rim of the level to the stored ones; each of the two stages contributes one
+/// half.
 template <int D>
 void keepHalf(const Patch& patch, const Settings& settings, const BoundarySides<double>& sides,
               CellView<const double> u, RimFlux<double> flux) {

@@ -33,9 +33,9 @@ Slope slopeOf(int limiter);
 /// Burgers' equation, du/dt + sum_d d(u²/2)/dx_d = nu div grad u, by finite volumes in D dimensions.
 ///
 /// Godunov's flux with face states from limited slopes, centred differences for the viscosity, and Heun's method in
-/// time: of second order where u is smooth. At a face with a Dirichlet condition for `Velocity`, its value [m/s]
-/// enters; at any other face, u leaves unchanged. Sources: S. K. Godunov, Mat. Sb. 47 (1959) 271; B. van Leer, J.
-/// Comput. Phys. 32 (1979) 101; S. Gottlieb & C.-W. Shu, Math. Comp. 67 (1998) 73.
+/// time. It is of second order where u is smooth. At a face with a Dirichlet condition for `Velocity`, gas with this
+/// velocity [m/s] enters; at any other face, u leaves unchanged. Sources: S. K. Godunov, Mat. Sb. 47 (1959) 271; B. van
+/// Leer, J. Comput. Phys. 32 (1979) 101; S. Gottlieb & C.-W. Shu, Math. Comp. 67 (1998) 73.
 template <int D>
 class Burgers : public Component {
  public:
@@ -63,7 +63,7 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, CellVie
 /// Godunov's flux between two states: the maximum of u²/2 between them if left > right, otherwise its minimum.
 double godunovFlux(double left, double right);
 
-/// Computes u* = u + dt L(u), where L is minus the sum of the fluxes out of a cell over its volume.
+/// Computes u* = u + dt L(u), where L(u) is the net inflow into a cell divided by its volume.
 template <int D>
 void predict(const Patch& patch, const Settings& settings, CellView<const double> u, double dt,
              CellView<double> predicted, RimFlux<double> flux = {});

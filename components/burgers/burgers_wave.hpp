@@ -36,8 +36,8 @@ class BurgersWave {
   double at(double x, double t) const;
   /// Mean of u over [lower, upper] [m]. Throws the same exceptions as at().
   double average(double lower, double upper, double t) const;
-  /// Whether the solution is available: false before t = 0, and while viscosity has spread less than the table
-  /// resolves, (2 nu t)^(1/2) < 2 steps.
+  /// Whether the solution is available at time `t` [s]. It is not before t = 0, nor as long as viscosity has spread
+  /// over less than the table resolves, (2 nu t)^(1/2) < 2 steps.
   bool holdsAt(double t) const;
 
  private:
@@ -63,7 +63,7 @@ class BurgersWave {
   std::vector<double> integrals_;    ///< U at the points of the table [m²/s]
 };
 
-/// `burgersWave`: computes errors of the component burgers, in one dimension, relative to the exact solution of the
+/// `burgersWave`: computes errors of the component burgers in one dimension, relative to the exact solution for the
 /// scene.
 simulation::AnalysisKind waveKind();
 

@@ -11,11 +11,11 @@
 
 namespace tushar::euler {
 
-/// A non-reflecting side, which slowly relaxes the pressure to a far-field value: the incoming characteristic, p - rho
-/// c u_n with n outwards, changes at the rate -K (p - p_far), K = sigma (1 - M²) c / L, where L is the length of the
-/// grid across the side. So the characteristic beyond the side is smaller by (p - p_far) sigma (1 + M) h / L. Sources:
-/// T. Poinsot & S. K. Lele, J. Comput. Phys. 101 (1992) 104; D. H. Rudy & J. C. Strikwerda, J. Comput. Phys. 36 (1980)
-/// 55, for K.
+/// A non-reflecting side, which slowly relaxes the pressure to a far-field value. With the normal n outwards, the
+/// incoming characteristic p - rho c u_n changes at the rate -K (p - p_far), where K = sigma (1 - M²) c / L and L is
+/// the length of the grid across the side. Therefore, it is smaller beyond the side by (p - p_far) sigma (1 + M) h / L.
+/// Sources: T. Poinsot & S. K. Lele, J. Comput. Phys. 101 (1992) 104; for K, D. H. Rudy & J. C. Strikwerda, J. Comput.
+/// Phys. 36 (1980) 55.
 struct Relaxation {
   double farPressure = 0;  ///< far-field pressure [Pa]; 0: none
   double sigma = 0;
@@ -23,8 +23,8 @@ struct Relaxation {
   int axis = 0, outwards = 0;
 
   bool acts() const { return farPressure > 0; }
-  /// The loss [Pa] of the incoming characteristic at a side, with the outward velocity u_n [m/s], during `crossings`
-  /// times the time in which sound crosses a cell.
+  /// The decrease [Pa] of the incoming characteristic at a side while sound crosses `crossings` cells. `speed` is the
+  /// outward velocity u_n [m/s].
   double loss(double pressure, double speed, double sound, double crossings = 1) const {
     const double mach = std::clamp(speed / sound, -1.0, 1.0);
     const double share = sigma * thickness * std::max(1 + mach, crossings * (1 - mach * mach));
@@ -32,7 +32,8 @@ struct Relaxation {
   }
 };
 
-/// The state beyond a side of the grid: W = factor * (the mirrored or the nearest cell) + value.
+/// The state beyond a side of the grid: W = factor * W_inside + value, where W_inside is that of the mirrored or of the
+/// nearest cell.
 template <int D>
 struct GhostRule {
   bool mirrored = false;
@@ -44,11 +45,11 @@ struct GhostRule {
   Relaxation relaxes = {};       ///< relaxation at a side that lets waves out
 };
 
-/// The rules of a side: outside its parts, and for each part.
+/// The rules of a side: a rule for each of its parts and, as the base class, the rule for the rest of the side.
 template <int D>
 struct SideRules : GhostRule<D> {
   std::vector<GhostRule<D>> parts = {};
-  /// If the scene gives formulas, the rule for a cell beyond a part of the side; otherwise empty.
+  /// If the scene gives formulas, the rule for a cell beyond a part of the side; otherwise no function.
   std::function<GhostRule<D>(int part, const Index<D>& cell)> varying = {};
 
   /// Whether the same rule applies to all cells of the side.
@@ -68,39 +69,42 @@ struct Place {
   double time = 0;
 };
 
-/// The value that a scene gives for a variable of a gas at a place, if any.
+/// The value that a scene prescribes at a place for a variable of a gas; none if it prescribes none.
 template <class T>
 std::optional<T> givenAt(const Place& place, const Gas& gas, const BoundaryLabel<T>& label) {
   const auto condition = place.level.boundary(place.axis, place.side, label, gas.material, place.part);
   return condition && condition->isDirichlet() ? std::optional(condition->at(place.x, place.time)) : std::nullopt;
 }
-/// The pressure that a scene gives at a place, if any. All materials share it: Uintah's scenes give it for material 0.
+/// The pressure that a scene prescribes at a place, if any. All materials share it, because Uintah's scenes give it for
+/// material 0.
 std::optional<double> pressureAt(const Place& place, const Gas& gas);
 
 /// Whether a place is a wall: it has the condition Symmetric, or only a Velocity that is tangential to the side.
 template <int D>
 bool isWall(const Place& place, const Gas& gas);
 
-/// The rules that follow from the scene's conditions: a wall mirrors the gas. If Density, Velocity or Pressure is
-/// given, gas with these values flows in; a Temperature together with a density or a pressure determines the other.
+/// The rules that follow from the scene's conditions. A wall mirrors the gas. At a side with Density, Velocity or
+/// Pressure, gas with these values flows in; a Temperature given with one of density and pressure determines the other.
 /// Quantities that are not given continue without gradient, so a side without conditions is an outflow.
 ///
-/// Formulas are evaluated at `time` [s] in the centre of each cell beyond the side, and act there like values. Throws
-/// NumericalError if a formula gives an impossible density or p + p_inf.
+/// Formulas are evaluated at `time` [s] in the centre of each cell beyond the side, and their results are used like
+/// values. Throws NumericalError if a formula gives an impossible density or p + p_inf.
 template <int D>
 GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time = 0);
 
-/// The rules for differences across the sides, of velocities and temperatures (which replace the densities): given
-/// values apply at the side itself, and the others are mirrored. Formulas count in the middle of each face.
+/// The rules for differences of velocity and temperature across the sides; the temperature replaces the density in the
+/// state. Prescribed values apply at the side itself; all other quantities are mirrored. Formulas are evaluated in the
+/// middle of each face.
 template <int D>
 GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time = 0);
 
-/// The rule for a cell beyond a side, or for the adjacent cell inside: the rule of the part to which the face belongs.
+/// The rule at a face of a side, given the cell beyond the face or the adjacent cell inside: the rule of the part to
+/// which the face belongs.
 template <int D>
 GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, int side, const Index<D>& cell);
 
-/// Fills the cells of a box that are outside the grid; the cells on the grid must be known, and so must the inner cells
-/// that the conditions at a side use.
+/// Fills the cells of a box that are outside the grid. It needs the state of the cells of the box on the grid, and of
+/// the inner cells that the conditions at a side use.
 template <int D, int K>
 void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D, K>& rows, const Box& box);
 template <int D, int K>

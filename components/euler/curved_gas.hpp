@@ -7,7 +7,7 @@
 namespace tushar::euler {
 
 /// The cold curve of a substance: pressure [Pa] and energy [J/m³] as functions of density, with dE/drho = (E + p) /
-/// rho, so that compression without heat costs p dV.
+/// rho, so that the energy rises by the work of compression without heat.
 struct ColdCurve {
   enum class Kind { jwl, murnaghan, linear };
 
@@ -17,9 +17,9 @@ struct ColdCurve {
   /// Source: E. L. Lee, H. C. Hornig & J. W. Kury, Adiabatic expansion of high explosive detonation products,
   /// UCRL-50422 (1968).
   double a = 0, b = 0, c = 0, r1 = 1, r2 = 1, omega = 1;
-  /// p = P0 + ((rho / rho_0)^n - 1) / (n K), K the compressibility [1/Pa] at rho_0; below rho_0 P0 (rho / rho_0)^(1 /
-  /// (K P0)), which has the same slope there and stays positive. The energy is 0 at rho_0. Source: F. D. Murnaghan,
-  /// Proc. Natl. Acad. Sci. 30 (1944) 244.
+  /// p = P0 + ((rho / rho_0)^n - 1) / (n K), with the compressibility K [1/Pa] at rho_0. Below rho_0, p = P0 (rho /
+  /// rho_0)^(1 / (K P0)), which continues with the same slope and stays positive. The energy is 0 at rho_0. Source: F.
+  /// D. Murnaghan, Proc. Natl. Acad. Sci. 30 (1944) 244.
   double exponent = 1, compressibility = 1, pressureThere = 1;
   /// p = P0 + A (rho / rho_0 - 1), with A in `a` and P0 in `pressureThere`; the energy is 0 at rho_0.
 
@@ -45,7 +45,8 @@ struct ColdCurve {
     if (kind == Kind::murnaghan) {
       const double ratio = rho / density;
       const double power = ratio >= 1 ? exponent : 1 / (compressibility * pressureThere);
-      // Far below rho_0 nothing is left of pressure and stiffness; what waves need to stay apart is kept.
+      // Far below rho_0, pressure and stiffness vanish; a small slope remains, so that the speeds of waves stay
+      // distinct.
       return std::max(std::pow(ratio, power - 1), 1e-12) / (compressibility * density);
     }
     const double volume = density / rho;
@@ -59,21 +60,21 @@ struct ColdCurve {
     if (ratio < 1) return pressureThere * std::pow(ratio, 1 / (compressibility * pressureThere));
     return pressureThere + (std::pow(ratio, exponent) - 1) / (exponent * compressibility);
   }
-  /// The energy per volume at rho_0.
+  /// The energy per mass times rho_0 [J/m³].
   double murnaghanEnergy(double ratio) const {
     if (ratio < 1) return pressureThere * rise(ratio, 1 / (compressibility * pressureThere));
     const double bulk = 1 / (exponent * compressibility);
     return (pressureThere - bulk) * (1 - 1 / ratio) + bulk * rise(ratio, exponent);
   }
-  /// The integral of x^(m - 2) from 1.
+  /// The integral of x^(m - 2) from 1 to `ratio`.
   static double rise(double ratio, double m) {
     return m == 1 ? std::log(ratio) : (std::pow(ratio, m - 1) - 1) / (m - 1);
   }
 };
 
-// The equation of state of a gas that is not a stiffened one. A state is the density [kg/m³] and a number that with it
-// gives pressure and energy: the pressure itself [Pa] or, of a substance whose pressure does not depend on its heat,
-// the heat rho c_v T [J/m³].
+// The equations of state of gases that are not stiffened gases. A state consists of the density [kg/m³] and a second
+// number, the last component, which together with the density determines pressure and energy. The second number is the
+// pressure [Pa] or, if the pressure does not depend on the heat, the heat rho c_v T [J/m³].
 
 /// The equation of state p = p_cold + Gamma rho c_v T, E = E_cold + rho c_v T, after Mie & Grueneisen. Gamma is
 /// constant or, with a linear cold curve, Gamma rho is constant. With Gamma = 0 the pressure depends on the density
@@ -91,11 +92,11 @@ class CurvedGas {
   const ColdCurve& cold() const { return cold_; }
   bool isBarotropic() const { return gamma_ == 0; }
 
-  /// The pressure p [Pa] for an internal energy per volume [J/m³].
+  /// The pressure p [Pa] at a density and an internal energy per volume [J/m³].
   double pressure(double rho, double energy) const {
     return cold_.pressure(rho) + (isBarotropic() ? 0.0 : gammaAt(rho) * (energy - cold_.energy(rho)));
   }
-  /// The last component of a state, for an internal energy per volume.
+  /// The last component of the state with a given density and internal energy per volume.
   double last(double rho, double energy) const {
     return isBarotropic() ? energy - cold_.energy(rho) : pressure(rho, energy);
   }
@@ -108,7 +109,7 @@ class CurvedGas {
     const double thermal = isBarotropic() ? 0.0 : factor * (last - cold_.pressure(rho)) / rho;
     return cold_.slope(rho) + thermal;
   }
-  /// The thermal energy per volume, which must be greater than 0.
+  /// The thermal energy per volume; it is greater than 0 in possible states.
   double heat(double rho, double last) const {
     return isBarotropic() ? last : (last - cold_.pressure(rho)) / gammaAt(rho);
   }
@@ -117,12 +118,12 @@ class CurvedGas {
   static double greatestEnergy(double) { return std::numeric_limits<double>::infinity(); }
 
   double temperature(double rho, double energy) const { return (energy - cold_.energy(rho)) / (rho * specificHeat_); }
-  /// The last component of a state, for a temperature [K].
+  /// The last component of the state with a given density and temperature [K].
   double lastAt(double rho, double temperature) const {
     const double heat = rho * specificHeat_ * temperature;
     return isBarotropic() ? heat : cold_.pressure(rho) + gammaAt(rho) * heat;
   }
-  /// The density rho for a pressure and a temperature, by bisection to round-off.
+  /// The density rho at a given pressure and temperature, by bisection to round-off.
   double densityAt(double pressure, double temperature) const {
     const auto below = [&](double rho) { return pressureOf(rho, lastAt(rho, temperature)) < pressure; };
     double least = cold_.density, most = cold_.density;
@@ -152,10 +153,10 @@ class CurvedGas {
   double gamma_, specificHeat_;
 };
 
-/// Water: v = v_0 (1 - k_0 p + L x²), x = a p + T - T_0. Its heat at p = 0 is c_p = c_0 + b (T_0 - T); at other
-/// pressures it follows from v. Valid above the temperature of greatest density (x > 0), up to the x at which c_v has
-/// fallen to half of c_p at p = 0: slightly above, water would become denser without any pressure. Source: J. S.
-/// Thomsen & T. J. Hartka, Am. J. Phys. 30 (1962) 26.
+/// Water: v = v_0 (1 - k_0 p + L x²), x = a p + T - T_0. Its specific heat at p = 0 is c_p = c_0 + b (T_0 - T); at
+/// other pressures, it follows from v. The law is valid for x > 0, that is, above the temperature of greatest density,
+/// and up to the x at which c_v has fallen to half of c_p at p = 0. At a slightly greater x, water would become denser
+/// without any pressure. Source: J. S. Thomsen & T. J. Hartka, Am. J. Phys. 30 (1962) 26.
 class Water {
  public:
   struct Numbers {
@@ -179,7 +180,7 @@ class Water {
   static bool isBarotropic() { return false; }
   double pressure(double rho, double energy) const {
     const double volume = 1 / rho, perMass = energy * volume;
-    // In x, the energy of a volume rises from 0 to the greatest x.
+    // At a given volume, the energy rises with x, which is between 0 and the greatest x.
     double least = 0, most = greatestX_, x = 0.2 * most;
     for (int k = 0; k < 100; ++k) {
       const double p = pressureAtX(volume, x), t = temperatureAt(p, x);
@@ -204,7 +205,7 @@ class Water {
     const double perHeat = expansion(x), perPressure = n_.volume * (2 * n_.bend * n_.a * x - n_.stiffness);
     return -1 / (rho * rho * (perPressure + t * perHeat * perHeat / heatOfPressure(last, t)));
   }
-  /// The heat; it is greater than 0 in possible states.
+  /// A measure of the heat; it is greater than 0 in possible states.
   double heat(double rho, double last) const {
     const double square = xSquared(rho, last);
     return std::min(square, greatestX_ * greatestX_ - square);
@@ -220,7 +221,7 @@ class Water {
     return temperatureAt(p, xAt(rho, p));
   }
   double lastAt(double rho, double temperature) const {
-    // x = a p + T - T_0 in v gives L x² + (k_0 / a) ((T - T_0) - x) + 1 - v / v_0 = 0.
+    // With x = a p + T - T_0, the equation for v becomes L x² + (k_0 / a) ((T - T_0) - x) + 1 - v / v_0 = 0.
     const double half = 0.5 * n_.stiffness / (n_.a * n_.bend), warmer = temperature - n_.temperature;
     const double rest = (2 * half * n_.bend * warmer + 1 - 1 / (rho * n_.volume)) / n_.bend;
     return (rest / (half + std::sqrt(half * half - rest)) - warmer) / n_.a;
@@ -243,7 +244,7 @@ class Water {
     return (n_.bend * x * x + 1 - volume / n_.volume) / n_.stiffness;
   }
   double temperatureAt(double p, double x) const { return n_.temperature - n_.a * p + x; }
-  /// The expansion dv/dT at constant p.
+  /// The derivative dv/dT at constant p.
   double expansion(double x) const { return 2 * n_.volume * n_.bend * x; }
   double heatOfPressure(double p, double t) const {
     return n_.heat + n_.b * (n_.temperature - t) - 2 * n_.volume * n_.bend * p * t;
@@ -252,8 +253,8 @@ class Water {
     const double perPressure = n_.volume * (2 * n_.bend * n_.a * x - n_.stiffness);
     return heatOfPressure(p, t) + t * expansion(x) * expansion(x) / perPressure;
   }
-  /// The energy per mass, e = c_0 w - b w² / 2 + v_0 (k_0 p² / 2 + L (a p (a p + ... ) ...)): h - p v, of dh = c_p dT +
-  /// (v - T dv/dT) dp.
+  /// The energy per mass, e = c_0 w - b w² / 2 + v_0 (k_0 p² / 2 + L (a p (a p + ... ) ...)). It is h - p v, where h
+  /// follows from dh = c_p dT + (v - T dv/dT) dp.
   double energyPerMass(double p, double t) const {
     const double w = t - n_.temperature, shift = n_.a * p;
     // (x³ - w³) / (3 a) and (x² - w²) / a with x = w + a p, without cancellation.

@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// The variables that show where a gas needs finer cells.
+/// The default refinement criteria of a gas: variables whose differences show where it needs finer cells.
 template <int D>
 std::vector<simulation::Criterion> criteria();
 
@@ -37,15 +37,15 @@ class Euler : public Component, public reference::GasSolution {
 
  protected:
   const Settings& settings() const { return settings_; }
-  /// Whether any quantities are transported with the mass.
+  /// Whether the gas carries any other quantities, whose fluxes follow from the mass flux.
   virtual bool keepsFaceMasses() const { return false; }
 
  private:
   Settings settings_;
 };
 
-/// Diagnostics that do not depend on the type of gas: mass, momentum, energy, kinetic energy, and the smallest density
-/// and energy.
+/// Schedules the diagnostics that do not depend on the type of gas: mass, momentum, energy, kinetic energy, and the
+/// smallest density and energy.
 template <int D>
 void scheduleTotals(TaskList& tasks);
 

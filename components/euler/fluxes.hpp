@@ -5,15 +5,16 @@
 
 namespace tushar::euler {
 
-/// The state of the gas at a face where two states meet: rho, v, the pressure, and total energy per volume.
+/// The state of the gas at a face where two states meet: rho, v and the pressure in `w`, and the total energy per
+/// volume.
 template <int D, int K = 1>
 struct FaceState {
   State<D, K> w;
   double energy;
 };
 
-/// The flux F = (m, m v + p n, (E + p) v_n) through a face across `Axis`, m = rho v_n; for several gases, also each
-/// mass and volume fraction times v_n.
+/// The flux F = (m, m v + p n, (E + p) v_n) through a face across `Axis`, where m = rho v_n. For several gases, it also
+/// contains the mass and the volume fraction of each gas, times v_n.
 template <int D, int Axis, int K>
 State<D, K> fluxOf(const FaceState<D, K>& face) {
   const double normal = face.w[kVelocity(Axis)];

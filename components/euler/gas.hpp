@@ -34,7 +34,7 @@ constexpr std::size_t kShare(int k) {
   return D + 2 + K + k;
 }
 
-/// A stiffened gas: p = (gamma - 1) rho e - gamma p_inf; with p_inf = 0 an ideal gas.
+/// A stiffened gas: p = (gamma - 1) rho e - gamma p_inf. With p_inf = 0, it is an ideal gas.
 ///
 /// With P = p + p_inf, all waves are those of an ideal gas with pressure P. Source: F. H. Harlow & A. A. Amsden, Fluid
 /// Dynamics, LANL report LA-4700 (1971).
@@ -46,7 +46,7 @@ struct StiffenedGas {
   double soundSpeedSquared(double density, double pressure) const { return gamma * (pressure + pInfinity) / density; }
   /// Internal energy per volume [J/m³] = (p + gamma p_inf) / (gamma - 1).
   double energyOf(double, double pressure) const { return (pressure + gamma * pInfinity) * (1 / (gamma - 1)); }
-  /// Pressure [Pa] for an internal energy per volume [J/m³].
+  /// Pressure [Pa] at an internal energy per volume [J/m³].
   double pressure(double, double internalEnergyPerVolume) const {
     return (gamma - 1) * internalEnergyPerVolume - gamma * pInfinity;
   }
@@ -56,11 +56,11 @@ struct StiffenedGas {
   }
   static double pressureOf(double, double pressure) { return pressure; }
   double shockSlope() const { return 0.5 * (gamma + 1); }
-  /// p + p_inf [Pa], which must be greater than 0.
+  /// p + p_inf [Pa]; it is greater than 0 in possible states.
   double heat(double, double pressure) const { return pressure + pInfinity; }
 };
 
-/// A gas: a stiffened gas unless it has its own law.
+/// A gas: a stiffened gas, or a gas with its own law.
 struct Gas {
   using Law = std::variant<CurvedGas, Water>;
 
@@ -78,8 +78,8 @@ struct Gas {
     return std::visit(use, *law);
   }
 
-  // Of a primitive state, density and its last number. That is the pressure but in gases whose pressure is that of the
-  // density alone, where it is the heat per volume.
+  // Several of the following functions take the density and the last component of a primitive state. The last component
+  // is the pressure, except in gases whose pressure depends only on the density; there, it is the heat per volume.
 
   /// Squared speed of sound, c² [m²/s²].
   double soundSpeedSquared(double density, double last) const {
@@ -93,38 +93,38 @@ struct Gas {
   double pressureOf(double density, double last) const {
     return withLaw([&](const auto& of) { return of.pressureOf(density, last); });
   }
-  /// A quantity that must be greater than 0: p + p_inf, the heat, or a number with the same sign.
+  /// A quantity that is greater than 0 in possible states: p + p_inf, the heat, or a number with the same sign.
   double heat(double density, double last) const {
     return withLaw([&](const auto& of) { return of.heat(density, last); });
   }
-  /// Pressure [Pa] for an internal energy per volume [J/m³].
+  /// Pressure [Pa] at a density and an internal energy per volume [J/m³].
   double pressure(double density, double internalEnergyPerVolume) const {
     return withLaw([&](const auto& of) { return of.pressure(density, internalEnergyPerVolume); });
   }
-  /// The last component of a state, for an internal energy per volume [J/m³].
+  /// The last component of the state with a given density and internal energy per volume [J/m³].
   double last(double density, double internalEnergyPerVolume) const {
     return withLaw([&](const auto& of) { return of.last(density, internalEnergyPerVolume); });
   }
 
-  /// R [J/(kg K)] = (gamma - 1) c_v in p + p_inf = rho R T.
+  /// The gas constant R = (gamma - 1) c_v [J/(kg K)] in p + p_inf = rho R T.
   double gasConstant() const { return (gamma - 1) * specificHeat; }
-  /// The last component of a state, for a temperature [K].
+  /// The last component of the state with a given density and temperature [K].
   double lastAt(double density, double temperature) const {
     if (!law) return gasConstant() * density * temperature - pInfinity;
     return std::visit([&](const auto& of) { return of.lastAt(density, temperature); }, *law);
   }
-  /// Density [kg/m³] for a pressure [Pa] and a temperature [K].
+  /// Density [kg/m³] at a given pressure [Pa] and temperature [K].
   double densityAt(double pressure, double temperature) const {
     if (!law) return (pressure + pInfinity) / (gasConstant() * temperature);
     return std::visit([&](const auto& of) { return of.densityAt(pressure, temperature); }, *law);
   }
-  /// Temperature [K] for a density and an internal energy per volume [J/m³]: c_v T = e - p_inf / rho if the gas has no
-  /// law of its own.
+  /// Temperature [K] at a given density and internal energy per volume [J/m³]; if the gas has no law of its own, from
+  /// c_v T = e - p_inf / rho.
   double temperature(double density, double internalEnergyPerVolume) const {
     if (!law) return (internalEnergyPerVolume - pInfinity) / (density * specificHeat);
     return std::visit([&](const auto& of) { return of.temperature(density, internalEnergyPerVolume); }, *law);
   }
-  /// The smallest and largest internal energy that a law allows [J/kg].
+  /// The smallest and the largest internal energy that the gas can have at a density [J/kg].
   std::pair<double, double> energyLimits(double density) const {
     return std::visit(
         [&](const auto& of) {
@@ -142,7 +142,7 @@ struct Gas {
   }
 };
 
-/// The law of a gas; it must be of type Law.
+/// The law of a gas, whose type is Law.
 template <class Law>
 Law lawOf(const Gas& gas) {
   if constexpr (std::is_same_v<Law, StiffenedGas>)
@@ -154,7 +154,7 @@ Law lawOf(const Gas& gas) {
 /// The number of gases that a law describes.
 template <class G>
 inline constexpr int kGases = 1;
-/// The law that applies in a state: for a single gas, the gas's own.
+/// The law that applies in a state; for a single gas, the same in all states.
 template <int D, class G>
 const G& lawIn(const G& gas, const State<D>&) {
   return gas;  // NOLINT(bugprone-return-const-ref-from-parameter): callers keep the gas

@@ -36,7 +36,7 @@ inline constexpr BoundaryLabel<double> density{"Density"};
 inline constexpr BoundaryLabel<Vec3> velocity{"Velocity"};
 inline constexpr BoundaryLabel<double> pressure{"Pressure"};
 inline constexpr BoundaryLabel<double> temperature{"Temperature"};
-/// The condition that lets waves out; its components are the far-field pressure [Pa], sigma and 0.
+/// The condition that lets waves out. Its three components are the far-field pressure [Pa], sigma, and 0.
 inline constexpr BoundaryLabel<Vec3> waves{"LODI"};
 }  // namespace boundary
 

@@ -2,14 +2,15 @@
 
 #include "components/euler/gas.hpp"
 
-// Several gases in a cell at one pressure and one velocity, each in its share of the volume: the model of five
-// equations, of G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577. The mass of each gas is kept, as are
-// momentum and total energy, and the shares z_k go with the flow, dz_k/dt + v . grad z_k = 0.
+// Several gases in a cell at one pressure and one velocity, each in its part of the volume: the five-equation model of
+// G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577. The mass of each gas, the momentum and the total
+// energy are conserved; the volume fractions z_k move with the flow, dz_k/dt + v . grad z_k = 0.
 
 namespace tushar::euler {
 
-/// Stiffened gases that share a cell. With G = sum of z_k / (gamma_k - 1) and S = sum of z_k gamma_k p_inf,k / (gamma_k
-/// - 1), which are linear in the shares, their energy per volume is p G + S. So a contact keeps its pressure.
+/// Stiffened gases that share a cell. Their energy per volume is p G + S, where G = sum of z_k / (gamma_k - 1) and S =
+/// sum of z_k gamma_k p_inf,k / (gamma_k - 1). G and S are linear in the volume fractions, so the pressure stays
+/// uniform across a contact.
 struct MixedGas {
   double softness = 0;   ///< G
   double stiffness = 0;  ///< stiffness S [J/m³]
@@ -25,7 +26,7 @@ struct MixedGas {
   }
   /// Internal energy per volume [J/m³].
   double energyOf(double, double pressure) const { return pressure * softness + stiffness; }
-  /// Pressure [Pa] for an internal energy per volume [J/m³].
+  /// Pressure [Pa] at an internal energy per volume [J/m³].
   double pressure(double, double internalEnergyPerVolume) const {
     return (internalEnergyPerVolume - stiffness) / softness;
   }
@@ -33,7 +34,7 @@ struct MixedGas {
     return pressure(density, internalEnergyPerVolume);
   }
   static double pressureOf(double, double pressure) { return pressure; }
-  /// p + p_inf [Pa] of the stiffened gas with the same G and S, which must be greater than 0.
+  /// p + p_inf [Pa] of the stiffened gas with the same G and S; it is greater than 0 in possible states.
   double heat(double, double pressure) const { return pressure + leastPressure(); }
   double leastPressure() const { return stiffness / (1 + softness); }
   /// (gamma + 1) / 2 of the equivalent stiffened gas.
@@ -55,7 +56,7 @@ struct Mixture {
 template <int K>
 inline constexpr int kGases<Mixture<K>> = K;
 
-/// The law that applies to a state, given the volume fractions of the gases in it.
+/// The law that applies in a state, from the volume fractions that the state contains.
 template <int D, int K>
 MixedGas lawIn(const Mixture<K>& gases, const State<D, K>& w) {
   MixedGas mixed;

@@ -10,7 +10,7 @@
 
 namespace tushar::euler {
 
-/// The address of a row of `count` cells in a view; in builds with checks, both ends are checked.
+/// The address of a row of `count` cells in a view. Builds with checks check both ends of the row.
 template <int D, class T>
 T* rowOf(const CellView<T>& view, Index<D> first, int count) {
   T* row = &view[first];
@@ -19,17 +19,18 @@ T* rowOf(const CellView<T>& view, Index<D> first, int count) {
   return row;
 }
 
-/// Largest number of cells in a block of work: the block and its surroundings fit into the second-level cache.
+/// Largest number of cells along each axis in a block of work; the block and its surroundings fit into the second-level
+/// cache.
 template <int D>
 inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
                                  : D == 2 ? Index3{{128, 16, 1}}
                                           : Index3{{64, 8, 8}};
 
-/// Number of cells across a column of work, including ghosts: the planes of the column that are in use fit into the
-/// second-level cache.
+/// Number of cells in a plane of a column of work, including ghosts. With it, the planes of a column that are in use
+/// fit into the second-level cache.
 inline constexpr int kColumnCells = 2400;
 
-/// A box with the size of the largest block of a box.
+/// A box as large as the largest block into which forEachBlock divides `box`.
 template <int D>
 Box largestBlock(Box box) {
   for (int d = 0; d < D; ++d) box.upper[d] = std::min(box.lower[d] + kBlock<D>[d], box.upper[d]);
@@ -56,8 +57,8 @@ void forEachBlock(const Box& box, Visit&& visit) {
   forEachBlock<D>(box, kBlock<D>, std::forward<Visit>(visit));
 }
 
-/// The extents along x and y of the columns along z that tile a box, each with `reach` ghost cells around it: as wide
-/// as a block along x, and as wide as kColumnCells allows along y.
+/// The extents of columns along z that tile a box. Along x, a column is as wide as a block; along y, it is as wide as
+/// kColumnCells allows with `reach` ghost cells on each side.
 inline Index3 columnOf(const Box& box, int reach) {
   const int width = std::min(kBlock<3>[0], box.extent(0));
   return {{width, std::clamp(kColumnCells / (width + 2 * reach) - 2 * reach, 1, box.extent(1)), box.extent(2)}};
@@ -79,10 +80,10 @@ struct Unfilled : std::allocator<T> {
   }
 };
 
-/// One State of K gases per cell of a box; each component is in a separate array, with the first axis fastest.
+/// One State of K gases per cell of a box. Each component is in a separate array, with the first axis fastest.
 ///
-/// For a three-dimensional box, it may store only as many consecutive planes of z as it has space for. A new plane then
-/// replaces the plane that lies this number of planes before or behind it.
+/// For a three-dimensional box, it may have space for only a few consecutive planes of z. A new plane then replaces the
+/// plane that lies this number of planes before or behind it.
 template <int D, int K = 1>
 class Rows {
  public:
@@ -103,7 +104,7 @@ class Rows {
   /// Distance in memory between neighbours along an axis; undefined along z if only some planes are stored.
   std::ptrdiff_t stride(int axis) const { return stride_[axis]; }
 
-  /// Pointers to the components of a cell; those of the next cell of its row follow in memory.
+  /// Pointers to the components of a cell. Those of the next cells of its row follow in memory.
   Pointers at(const Index<D>& cell) {
     const std::ptrdiff_t offset = offsetOf(cell);
     Pointers pointers;

@@ -41,13 +41,13 @@ struct Settings {
   std::string section = "Euler";  ///< path of the section with the objects
   std::string name = {};          ///< name of the gas
   Method method;
-  /// Whether objects may contain no cell centre; true if they are parts of objects in the scene.
+  /// Whether objects may contain no cell centre; true if they are parts into which an object of the scene was divided.
   bool objectsMayBeEmpty = false;
   double cfl = 0.8;  ///< Courant number: dt max(sum_d (|v_d| + c) / h_d)
   Gas gas;
   std::vector<GasObject> objects;  ///< regions with their initial gas; where they overlap, the last one applies
-  /// Changes the initial velocity and, for objects that have one, the initial temperature at a point where the density
-  /// is `rho`.
+  /// Changes the initial velocity and, for objects with a temperature, the initial temperature at a point with the
+  /// density `rho`.
   std::function<void(const Vec3& point, double rho, Vec3& velocity, double& temperature)> disturb = {};
 };
 

@@ -8,7 +8,7 @@
 
 namespace tushar::euler {
 
-/// Views of the state that a step reads or writes: T is double or const double.
+/// Views of the state that a step reads (T is const double) or writes (T is double).
 template <int D, class T>
 struct StateViews {
   CellView<T> density;
@@ -16,7 +16,7 @@ struct StateViews {
   CellView<T> totalEnergy;
 };
 
-/// Views of the state of several gases: of the mixture and of each gas.
+/// Views of the state of several gases: of the mixture as a whole, and of each gas.
 template <int D, class T>
 struct MixtureViews : StateViews<D, T> {
   std::vector<CellView<T>> masses, shares;

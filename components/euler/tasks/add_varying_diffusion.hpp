@@ -32,8 +32,8 @@ void addVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffus
   diffuse<D>(patch, diffuser, dt, diffusingCells<D>(patch.level(), gas, how, old), newMomentum, newTotalEnergy, rims);
 }
 
-/// Computes dt as cfl over the largest combined rate of crossing cells and of diffusion. `soundSpeedKnob`: how much of
-/// the speed of sound counts.
+/// Computes dt as cfl divided by the largest rate at which flow and diffusion together cross a cell. `soundSpeedKnob`
+/// is the fraction of the speed of sound that is included.
 template <int D>
 void limitVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffusion& how, double cfl,
                            double soundSpeedKnob, const OldState<D>& old, double time, Minimum& dt) {

@@ -41,8 +41,8 @@ Mixture<K> mixtureOf(const std::vector<Settings>& gases) {
   return mixture;
 }
 
-/// Throws NumericalError for the first cell of the patch with an impossible state, if there is one; `held` contains the
-/// shares of each gas.
+/// Throws NumericalError for the first cell of the patch with an impossible state, if there is one. `held` contains the
+/// volume fractions of each gas.
 template <int D, class Held, class T>
 void refuseBrokenMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Held>& held,
                          const StateViews<D, T>& state);
@@ -58,12 +58,12 @@ MixtureViews<D, T> viewsOf(const StateViews<D, T>& all, const std::vector<Held>&
   return views;
 }
 
-/// One step of several gases: as Advance for their mixture, but with limited slopes of the mass and the volume fraction
-/// of each gas instead of the density. Volume fractions are advected with the velocity of the contact at faces, so that
-/// uniform velocity and pressure remain uniform. Slopes of three gases need not add up; they are scaled until the
-/// fractions at a face add up to 1, without changing the densities of the gases. Sources: G. Allaire, S. Clerc & S.
-/// Kokh, J. Comput. Phys. 181 (2002) 577; E. Johnsen & T. Colonius, J. Comput. Phys. 219 (2006) 715, for volume
-/// fractions with HLLC.
+/// One step of several gases. It is that of Advance for their mixture, but with limited slopes of the mass and the
+/// volume fraction of each gas instead of the density. Faces advect volume fractions with the velocity of the contact,
+/// so that uniform velocity and pressure remain uniform. The limited fractions of three gases at a face need not add up
+/// to 1. They are scaled until they do, at constant densities of the gases. Sources: G. Allaire, S. Clerc & S. Kokh, J.
+/// Comput. Phys. 181 (2002) 577; for volume fractions with HLLC, E. Johnsen & T. Colonius, J. Comput. Phys. 219 (2006)
+/// 715.
 template <int D>
 using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>& gases, const OldState<D>& old,
                                 const std::vector<OldGas>& oldGases, double time, double dt, const NewState<D>& fresh,
@@ -73,12 +73,12 @@ using AdvanceMixture = void (*)(const Patch& patch, const std::vector<Settings>&
 /// The largest number of gases.
 inline constexpr int kMostGases = 3;
 
-/// The body for a method and a number of gases, with the HLLC flux and van Leer's slopes or none.
+/// The body of the task for a method and a number of gases, with the HLLC flux and van Leer's slopes or none.
 template <int D>
 AdvanceMixture<D> chooseAdvanceMixture(const Method& method, std::size_t gases);
 
-/// Rescales volume fractions where fluxes through the rim of a level were corrected, because there they no longer add
-/// up to 1. Divides them by their sum, the correction of the flux of volume. Other cells are unchanged.
+/// Divides volume fractions by their sum in the cells where it is not 1, because fluxes through the rim of a level were
+/// corrected there. The sum contains the correction of the flux of volume. Other cells are unchanged.
 template <int D>
 void closeShares(const Patch& patch, const std::vector<Settings>& gases, const std::vector<CellView<double>>& shares);
 
@@ -90,9 +90,9 @@ struct ChangedGas {
     return {.mass = take(modifies(c::gasMass)), .share = take(modifies(c::gasShare))};
   }
 };
-/// Like mendNewCells, for several gases. Since the values of new cells are interpolated separately, the density is set
-/// to the sum of the masses, and the volume fractions are rescaled to add up to 1. If the result is not a valid gas,
-/// all children of the parent cell get their mean.
+/// Like mendNewCells, for several gases. Since the values of new cells are interpolated separately, this sets the
+/// density to the sum of the masses, and scales the volume fractions so that they add up to 1. If the result is not a
+/// possible state, all children of the parent cell get their mean.
 template <int D>
 void mendNewMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& newCells,
                     const ChangedState<D>& state, const std::vector<ChangedGas>& held);

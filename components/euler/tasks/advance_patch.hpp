@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// Whether the new states of a block are valid; checked while they are in the cache.
+/// Whether the new states of a block are possible; to be called while they are in the cache.
 template <int D, class G>
 bool canBe(const G& gas, const Box& block, const StateViews<D, double>& fresh) {
   bool fine = true;

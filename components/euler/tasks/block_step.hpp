@@ -11,7 +11,7 @@ namespace tushar::euler {
 struct Constant {
   static constexpr int reach = 1;
 };
-/// Linear reconstruction with limited slopes: the values at a cell's faces are those half a step later.
+/// Linear reconstruction with limited slopes: the values at a cell's faces are advanced by half a step.
 template <class Limited>
 struct Sloped {
   static constexpr int reach = 2;
@@ -20,10 +20,10 @@ struct Sloped {
 /// Work arrays for a block of cells and the cells around it.
 template <int D, int K = 1>
 struct Work {
-  /// Allocates space for the blocks of a patch. Cells over edges of the grid stay 0; all other values are written
-  /// before they are read.
+  /// Allocates space for the blocks of a patch. Cells that are outside the grid along several axes stay 0; all other
+  /// values are written before they are read.
   Work(const Box& cells, int reach) : Work(largestBlock<D>(cells).grown(reach, D).size(), reach > 1, {}) {}
-  /// Allocates space for the planes, of up to `cells` cells, that a ColumnStep needs at a time.
+  /// Allocates space for the planes, with up to `cells` cells each, that a ColumnStep needs at a time.
   static Work ofColumns(std::size_t cells, int reach) { return {cells, reach > 1, {2 * reach, 1, 2}}; }
   void hold(const Box& box) {
     w.hold(box);
@@ -38,7 +38,7 @@ struct Work {
   std::vector<double> least;             ///< smallest density and p + p_inf at faces, for one row
 
  private:
-  /// Number of planes to store: of cells, of faces, and of upper faces along the last axis; 0: all.
+  /// Numbers of planes to store: planes of cells, of faces, and of upper faces along the last axis; 0 means all planes.
   struct Planes {
     int cells = 0, faces = 0, above = 0;
   };
@@ -81,8 +81,8 @@ void reconstruct(const G& gas, const Index<D>& first, int count, double ratio, W
   halfStepRow<D, Axis>(gas, lower, upper, ratio, count, work.flux.at(first));
 }
 
-/// Computes the values at the faces of the cells of `box`, half a step later. The rows of fluxes hold intermediate
-/// values.
+/// Computes the values at the faces of the cells of `box`, half a step later. It uses the rows of fluxes for
+/// intermediate values.
 template <int D, class G>
 void predict(const G&, const Level&, const Box&, double, Work<D, kGases<G>>&, Constant) {}
 template <int D, class Limited, class G>
@@ -115,7 +115,7 @@ void computeFluxes(const G& gas, const Box& faces, Work<D, kGases<G>>& work, Row
   });
 }
 
-/// Adds the net inflow of each of several gases across an axis.
+/// Adds the net inflow of each gas across an axis, for several gases.
 template <int D, int Axis, int K>
 void addFluxesOfEach(double ratio, const Index<D>& first, int count, const MixtureViews<D, const double>& old,
                      Rows<D, K>& flux, const MixtureViews<D, double>& fresh) {
@@ -130,7 +130,7 @@ void addFluxesOfEach(double ratio, const Index<D>& first, int count, const Mixtu
   }
 }
 
-/// Adds the net inflow across an axis; the first axis starts from the old state.
+/// Adds the net inflow across an axis: for the first axis, to the old state; for the others, to the new one.
 template <int D, int Axis, int K>
 void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>& old, Rows<D, K>& flux,
                const ViewsOf<D, K, double>& fresh) {
@@ -148,7 +148,7 @@ void addFluxes(double ratio, const Box& block, const ViewsOf<D, K, const double>
   });
 }
 
-/// Stores the fluxes across an axis at the rim of the level.
+/// Stores the fluxes across an axis through the rim of the level.
 template <int D, int K>
 void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D, K>& flux) {
   if (rims.mass.empty()) return;

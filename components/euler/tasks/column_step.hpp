@@ -4,8 +4,8 @@
 
 namespace tushar::euler {
 
-/// Performs a step for columns of cells along z, plane after plane, bitwise equal to advanceBlock. It stores only the
-/// planes that it needs at a time, and computes nothing twice along z.
+/// Performs a step for columns of cells along z, plane after plane; the result is bitwise that of advanceBlock. It
+/// stores only the planes that it needs at a time, and computes nothing twice along z.
 template <class Flux, class Shape, class G>
 class ColumnStep {
  public:
@@ -56,7 +56,7 @@ class ColumnStep {
     box.upper[z] = end;
     return box;
   }
-  /// Loads the gas before the step in some planes, including those outside the grid.
+  /// Loads the state before the step in some planes, including planes outside the grid.
   void take(const Box& planes) {
     recover<3>(gas_, level_, planes, old_, work_.w);
     fillBeyondGrid<3>(level_, rules_, work_.w, planes);

@@ -60,8 +60,8 @@ void findLeast(const Patch& patch, CellView<const double> density, CellView<cons
   });
 }
 
-/// Computes the sum of m (ln((p + p_inf) / ((gamma - 1) rho)) - (gamma - 1) ln rho) [kg]: entropy over c_v, up to a
-/// constant that depends on the units. Laws have their own.
+/// Computes the sum of m (ln((p + p_inf) / ((gamma - 1) rho)) - (gamma - 1) ln rho) [kg]: the entropy divided by c_v,
+/// up to a constant that depends on the units. A gas with its own law has its own entropy.
 template <int D>
 void sumEntropy(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
                 CellView<const double> totalEnergy, Sum& entropy) {
