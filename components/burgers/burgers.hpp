@@ -33,8 +33,8 @@ Slope slopeOf(int limiter);
 /// Burgers' equation, du/dt + sum_d d(u²/2)/dx_d = nu div grad u, by finite volumes in D dimensions.
 ///
 /// Godunov's flux with face states from limited slopes, centred differences for the viscosity, and Heun's method in
-/// time. It is of second order where u is smooth. At a face with a Dirichlet condition for `Velocity`, gas with this
-/// velocity [m/s] enters; at any other face, u leaves unchanged. Sources: S. K. Godunov, Mat. Sb. 47 (1959) 271; B. van
+/// time. It is of second order where u is smooth. At a face with a Dirichlet condition for `Velocity`, this u
+/// [m/s] enters; at any other face, u leaves unchanged. Sources: S. K. Godunov, Mat. Sb. 47 (1959) 271; B. van
 /// Leer, J. Comput. Phys. 32 (1979) 101; S. Gottlieb & C.-W. Shu, Math. Comp. 67 (1998) 73.
 template <int D>
 class Burgers : public Component {

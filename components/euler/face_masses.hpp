@@ -9,8 +9,8 @@ namespace c {
 /// The mass fluxes through the lower and the upper faces of cells, for scalars that the gas carries.
 template <int D>
 inline constexpr std::array<CellLabel<Vec<D>>, 2> massFlux{
-    {{"c.massFluxBelow", "kg/(m^2 s)", "mass through the lower faces"},
-     {"c.massFluxAbove", "kg/(m^2 s)", "mass through the upper faces"}}};
+    {{"c.massFluxBelow", "kg/(m^2 s)", "mass flux through the lower faces"},
+     {"c.massFluxAbove", "kg/(m^2 s)", "mass flux through the upper faces"}}};
 }  // namespace c
 
 /// Views of the mass fluxes through the faces of cells in a step [kg/(m² s)]; empty if no task needs them.

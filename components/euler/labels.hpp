@@ -26,8 +26,8 @@ inline constexpr CellLabel<Vec<D>> mach{"c.mach", "1", "Mach number: speed divid
 inline constexpr CellLabel<double> internalEnergy{"c.internalEnergy", "J/kg", "internal energy per mass"};
 /// State variables of each gas, if there are several.
 inline constexpr CellLabel<double> gasMass{"c.gasMass", "kg/m^3",
-                                           "mass of one of several gases per volume of the cell"};
-inline constexpr CellLabel<double> gasShare{"c.gasShare", "1", "fraction of the cell that the gas fills"};
+                                           "mass of one of several gases, per cell volume"};
+inline constexpr CellLabel<double> gasShare{"c.gasShare", "1", "fraction of the cell that one of several gases fills"};
 }  // namespace c
 
 /// Labels of the state of gas that flows in through a side of the grid.

@@ -20,7 +20,7 @@ struct Sutherland {
   }
 };
 
-/// A box in which the gas has another viscosity, such as a layer that absorbs waves in front of a side of the grid.
+/// A box in which the gas has a different viscosity, such as a layer in front of a side of the grid that absorbs waves.
 struct SpongeLayer {
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< lower corner and upper corner [m]
   double viscosity = 0;                             ///< viscosity [Pa s]
@@ -30,7 +30,7 @@ struct SpongeLayer {
   }
 };
 
-/// Viscosity and conduction that vary in space or with the flow.
+/// Viscosity and conductivity that vary in space or with the flow.
 struct VaryingDiffusion {
   Diffusion uniform = {};                     ///< used where none of the following settings applies
   std::optional<Sutherland> sutherland = {};  ///< replaces the uniform viscosity
@@ -39,7 +39,7 @@ struct VaryingDiffusion {
   double smagorinsky = 0;
 
   bool varies() const { return sutherland || !sponges.empty() || smagorinsky > 0; }
-  /// The coefficients of the gas, without eddies, at a point [m] with a temperature [K].
+  /// The coefficients of the gas at a point [m] and a temperature [K], without eddies.
   Diffusion at(const Vec3& point, double temperature) const {
     Diffusion here = uniform;
     if (sutherland) here.viscosity = sutherland->viscosity(temperature);

@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// The index of T in a State, in place of the density; that of the pressure is unused.
+/// The index of T in a State, where it takes the place of the density; the component of the pressure is unused.
 inline constexpr std::size_t kTemperature = kDensity;
 
 /// Distances in memory between neighbours, and 1/h, along each axis.
