@@ -31,12 +31,12 @@ struct Location {
   std::string text() const;
 };
 
-/// The place at which to report an invalid combination of several `parts` of a tag: the option that overrides one of
-/// them, otherwise `tag`.
+/// Returns where to report an invalid combination of values that are given in several `parts` of a tag: at the
+/// command-line option that overrides one of these parts or, if there is none, at `tag`.
 const Location& placeOf(std::initializer_list<const Location*> parts, const Location& tag);
 const Location& placeOf(std::initializer_list<const Location*> parts, const Location&& tag) = delete;  // would dangle
 
-/// One mistake in a scene, in one sentence.
+/// One mistake in a scene, described in one sentence.
 struct InputProblem {
   Location where;
   std::string tagPath;   ///< path of the tag, such as `Grid/Level/Box/resolution`; may be empty
@@ -61,12 +61,13 @@ class TaskError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Exception for a non-finite or unphysical value: which value, where, when, and what the user can try.
+/// Exception for a non-finite or unphysical value; says which value it is, where and when it occurred, and what the
+/// user can try.
 class NumericalError : public std::runtime_error {
  public:
-  /// `what` names the value and its position; `advice` is a suggestion to the user, by default that of the component.
-  /// `value` is only the name of the value, and `cell` the index of its cell: if several patches report an error, the
-  /// one in the lowest cell is kept, so that the layout does not matter.
+  /// `what` is the message, which names the value and its position; `advice` is a suggestion to the user, by default
+  /// that of the component. `value` is the bare name of the value, and `cell` the index of its cell. If several patches
+  /// report an error, the one with the lowest cell index is kept, so that the layout does not matter.
   NumericalError(const std::string& what, std::string advice, std::string value = {}, std::uint64_t cell = 0)
       : std::runtime_error(what), advice_(std::move(advice)), value_(std::move(value)), cell_(cell) {}
   const std::string& advice() const { return advice_; }
@@ -78,7 +79,7 @@ class NumericalError : public std::runtime_error {
   std::uint64_t cell_;
 };
 
-/// Exception for a file or folder that cannot be read or written: its path and the reason given by the system.
+/// Exception for a file or folder that cannot be read or written; gives its path and the system's reason.
 class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

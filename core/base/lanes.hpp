@@ -60,21 +60,23 @@ class Lanes {
   friend Lanes operator/(Lanes a, Lanes b) { return a.values_ / b.values_; }
   friend Mask operator<(Lanes a, Lanes b) { return a.values_ < b.values_; }
   friend Mask operator>(Lanes a, Lanes b) { return a.values_ > b.values_; }
-  /// The lanes of `low` and `high` side by side, from lane `Start` of `low` on.
+  /// Returns one register of consecutive lanes from the sequence `low`, `high`, starting at lane `Start` of `low`.
   template <int Start>
   friend Lanes window(Lanes low, Lanes high) {
     return join<Start>(low.values_, high.values_, std::make_integer_sequence<int, count>());
   }
   friend Mask operator>=(Lanes a, Lanes b) { return a.values_ >= b.values_; }
   friend Lanes select(Mask which, Lanes yes, Lanes no) { return which ? yes.values_ : no.values_; }
-  /// Component `Which` of consecutive vectors with `numbers` components, one vector per lane.
+  /// Loads component `Which` of consecutive vectors at `from`, which have `numbers` components: lane k gets that of
+  /// vector k.
   template <int numbers, int Which>
   [[gnu::always_inline]] static Lanes unpacked(const double* from) {
     Register sum = at(from).values_;
     takeRegisters<numbers, Which, 1>(sum, from, std::make_integer_sequence<int, count>());
     return sum;
   }
-  /// The inverse operation: register `Which` of such vectors; element c of `of` contains component c of all vectors.
+  /// Returns register `Which` of such vectors as they are stored in memory, the inverse of `unpacked`. Element c of
+  /// `of` contains component c of all vectors.
   template <int Which, std::size_t numbers>
   [[gnu::always_inline]] static Lanes packed(const std::array<Lanes, numbers>& of) {
     Register sum = of[0].values_;
@@ -82,7 +84,8 @@ class Lanes {
     return sum;
   }
   friend Mask isNaN(Lanes a) { return a.values_ != a.values_; }
-  /// One step of a transposition: swaps the elements of two rows that lie `step` columns apart.
+  /// Performs one step of a transposition of two rows: exchanges element c + `step` of the upper row with element c of
+  /// the lower row, for all c in which the bit `step` is not set.
   template <int step>
   [[gnu::always_inline]] friend void swapBlocks(Lanes& upper, Lanes& lower) {
     upper.template swapWith<step>(lower, std::make_integer_sequence<int, count>());
@@ -99,8 +102,8 @@ class Lanes {
     return __builtin_shufflevector(low, high, (Start + Lane)...);
   }
 
-  /// Adds component Which of register Next and of all later registers to `sum`, which already contains the previous
-  /// ones.
+  /// Inserts component Which of the vectors in register Next and in all later registers into `sum`, which already
+  /// contains that of the vectors in earlier registers.
   template <int numbers, int Which, int Next, int... Lane>
   [[gnu::always_inline]] static void takeRegisters(Register& sum, const double* from,
                                                    std::integer_sequence<int, Lane...> lanes) {
@@ -113,7 +116,7 @@ class Lanes {
       takeRegisters<numbers, Which, Next + 1>(sum, from, lanes);
     }
   }
-  /// Puts component Next and later ones of register Which into `sum`.
+  /// Inserts component Next and all later components of register Which into `sum`.
   template <int Which, int Next, std::size_t numbers, int... Lane>
   [[gnu::always_inline]] static void takeComponents(Register& sum, const std::array<Lanes, numbers>& of,
                                                     std::integer_sequence<int, Lane...> lanes) {
@@ -141,7 +144,7 @@ class Lanes {
 /// A square block: the number of rows equals the number of lanes.
 using LanesSquare = std::array<Lanes, Lanes::count>;
 
-/// Lane k of row r moves to lane r of row k.
+/// Transposes a square block: lane k of row r moves to lane r of row k.
 template <int step = Lanes::count / 2>
 [[gnu::always_inline]] inline void transpose(LanesSquare& rows) {
 #pragma GCC unroll 8
@@ -170,7 +173,7 @@ template <int numbers, class At>
   return columns;
 }
 
-/// columnsOf for short records that are contiguous in memory.
+/// Like columnsOf, for short records that are contiguous in memory.
 template <int numbers, int... Which>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> unpack(const double* from,
                                                                 std::integer_sequence<int, Which...>) {

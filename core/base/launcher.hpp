@@ -2,8 +2,8 @@
 
 namespace tushar {
 
-/// Number of processes started by the launcher (mpirun, srun); 1 without a launcher. Read from the environment that
-/// launchers set, so that MPI is not needed for it.
+/// Number of processes started by the launcher (mpirun, srun); 1 without a launcher. Reads environment variables that
+/// launchers set, so MPI need not be initialised.
 int launchedRanks();
 
 /// Index of this process among those started by the launcher, from 0; 0 without a launcher.

@@ -2,7 +2,7 @@
 
 namespace tushar {
 
-/// Memory used by this process [bytes]: now, and the peak since its start. 0 if the system does not report it.
+/// Memory that this process uses now, and its peak use since it started [bytes]; 0 if the system does not report them.
 struct ResidentMemory {
   double now = 0, peak = 0;
 };

@@ -20,7 +20,7 @@ using Bytes = std::vector<std::byte>;
 /// The kind of a message: a rank that waits for one kind does not receive messages of another.
 enum class Tag : int { ghosts, migrants, patches, output };
 
-/// Adds `length` bytes to the end.
+/// Appends `length` bytes, which start at `from`.
 inline void append(Bytes& bytes, const void* from, std::size_t length) {
   const auto* first = static_cast<const std::byte*>(from);
   bytes.insert(bytes.end(), first, first + length);
@@ -29,7 +29,7 @@ inline void append(Bytes& bytes, const void* from, std::size_t length) {
 /// Name and version of the MPI library; MPI need not be initialised.
 std::string libraryVersion();
 
-/// Exception on a rank when another rank has failed; that other rank reports the cause.
+/// Exception thrown on a rank because another rank has failed; the rank that has failed reports the cause.
 class FailedElsewhere : public std::runtime_error {
  public:
   FailedElsewhere() : std::runtime_error("another rank has failed") {}
@@ -38,7 +38,7 @@ class FailedElsewhere : public std::runtime_error {
 /// The ranks that run a simulation together, as seen from one of them.
 ///
 /// All functions except `receive` are collective: every rank calls them, in the same order. On a single rank they
-/// return at once and do not use MPI.
+/// return immediately and do not use MPI.
 class Communicator {
  public:
   struct Native;
@@ -93,7 +93,7 @@ class Communicator {
   /// Waits for the next message of rank `from` with this tag.
   Bytes receive(int from, Tag tag) const;
 
-  /// A communicator of the ranks with the same colour.
+  /// Returns a communicator of the ranks that pass the same `colour`.
   Communicator split(int colour) const;
   /// MPI's communicator; null for a single rank.
   const Native* native() const { return native_.get(); }
@@ -103,16 +103,16 @@ class Communicator {
   int rank_ = 0, size_ = 1;
 };
 
-/// Outgoing messages, whose bytes are kept until they have been sent.
+/// Sends messages, and keeps their bytes until they have been sent.
 class Outbox {
  public:
   explicit Outbox(const Communicator& ranks);
   Outbox(const Outbox&) = delete;
   Outbox& operator=(const Outbox&) = delete;
-  /// Messages that have not been received yet remain in memory, because MPI may still read them.
+  /// Leaves messages in memory that have not been sent completely, because MPI may still read them.
   ~Outbox();
 
-  /// Starts sending a message and returns at once.
+  /// Starts sending a message, and returns immediately.
   void send(int to, Tag tag, Bytes bytes);
   /// Waits until all messages are sent; later messages reuse their memory.
   void wait();
@@ -141,14 +141,15 @@ class Session {
 
   const Communicator& ranks() const { return ranks_; }
 
-  /// Must be called by a rank that cannot continue for any reason; `isKnown` if it has its own error message. If all
-  /// ranks call this within some seconds, all can end in order: returns true on the first rank with a message, which
-  /// must print it, and all get its exit code. Otherwise this rank must report its own error and stop the others by
-  /// `abort`; the ranks do so in order, so that if several fail at the same time, one reports.
+  /// Returns whether this rank must print its error message. Must be called by each rank that cannot continue;
+  /// `isKnown`: whether the rank has an error message of its own. If all ranks call this within two seconds, the
+  /// program can end without `abort`: only the first rank with a message gets true, and all ranks get its exit code.
+  /// Otherwise, each rank with a message gets true, and must print it and stop the others by `abort`. In this case, the
+  /// ranks return one after the other, so that usually only one reports.
   bool speaks(bool isKnown, int& exitCode);
   /// Whether all ranks have called `speaks`.
   bool isAgreed() const { return is_agreed_; }
-  /// Ends the program on all ranks at once.
+  /// Ends the program on all ranks immediately.
   [[noreturn]] void abort(int exitCode);
 
  private:

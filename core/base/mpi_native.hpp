@@ -1,6 +1,6 @@
 #pragma once
 
-// MPI itself, for those few files that hand it on to a library.
+// MPI's own types, for the few files that pass a communicator to a library.
 
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>

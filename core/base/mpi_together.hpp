@@ -12,15 +12,15 @@ namespace tushar::mpi {
 
 // Collective operations: all ranks call these, in the same order; a single rank needs no MPI for them.
 
-/// Runs an action on each rank. If it fails on any rank, all ranks throw: its exception where it failed,
-/// FailedElsewhere on the others.
+/// Runs an action on each rank. If it throws on any rank, all ranks throw: a rank on which it failed rethrows its
+/// exception, and the others throw FailedElsewhere.
 void together(const Communicator& ranks, const std::function<void()>& action);
 
-/// Whether all ranks call this within `patience`. If not, the run is about to end, and `ranks` must not be used any
-/// more.
+/// Whether all ranks call this within `patience`. If it returns false, the run is about to end, and `ranks` must not be
+/// used any more.
 bool meet(const Communicator& ranks, std::chrono::milliseconds patience);
 
-/// Adds up values addressed to ranks: `of[r]` is this rank's value for rank r. Returns the sum of those for this rank.
+/// Sends the number `of[r]` to each rank r, and returns the sum of the numbers that this rank receives.
 int sumForMe(const Communicator& ranks, std::span<const int> of);
 
 /// The sum of the values of all ranks with a lower index than this one.

@@ -6,8 +6,8 @@
 
 namespace tushar {
 
-/// Shows the progress of a run: a line for each output and, on a terminal, a live line that is drawn over; elsewhere,
-/// as in the log of a batch job, one line per minute of wall time.
+/// Shows the progress of a run. Prints a line for each output. On a terminal, it also keeps redrawing one live line; in
+/// a file, such as the log of a batch job, it writes one line per minute of wall time instead.
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;

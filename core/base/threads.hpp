@@ -8,8 +8,8 @@
 
 namespace tushar {
 
-/// Number of cores that this rank may use: those to which it is bound, or its share if several ranks of a launcher use
-/// the same machine; at most SLURM_CPUS_PER_TASK, if that is set.
+/// Number of cores that this rank may use: at most the cores to which it is bound, at most its equal share if a
+/// launcher started several ranks on this machine, and at most SLURM_CPUS_PER_TASK, if that is set.
 int allowedThreads();
 
 /// The version of TBB in use.
@@ -27,8 +27,9 @@ class Threads {
   /// Sets the number of threads for the next and later loops.
   void resize(int count);
 
-  /// Calls `work(0)` to `work(times - 1)`, in any order and possibly concurrently, and returns when all are done. If
-  /// calls throw, all are made nevertheless, and the exception of the lowest number is rethrown.
+  /// Calls `work(0)` to `work(times - 1)`, in any order and possibly concurrently, and returns when all are done. If a
+  /// call throws, the remaining calls are made nevertheless; then the exception of the call with the lowest number is
+  /// rethrown.
   template <class Work>
   void forEach(int times, const Work& work, trace::Kind kind = trace::Kind::task) {
     run(times, {&work, [](const void* called, int k) { (*static_cast<const Work*>(called))(k); }}, kind);
@@ -51,10 +52,10 @@ class Threads {
   };
   const Use& use() const { return use_; }
 
-  /// If true, loops on a single thread do not read the clock, because their caller measures the time.
+  /// If `outside` is true, loops on a single thread do not read the clock, because their caller measures the time.
   void countOutside(bool outside) { counted_outside_ = outside && !pool_; }
   bool isCountedOutside() const { return counted_outside_; }
-  /// Counts the time [s] of loops that did not read the clock.
+  /// Adds the time [s] of loops that did not read the clock.
   void count(double seconds, trace::Kind kind) {
     (kind == trace::Kind::message ? use_.message : use_.task) += seconds;
     use_.loops += seconds;

@@ -13,7 +13,7 @@ enum class Kind { task, message, output, wait };
 
 std::string_view nameOf(Kind kind);
 
-/// Starts recording spans. Until then, a span costs one test of a flag.
+/// Starts recording spans. Before this call, a span costs only the test of a flag.
 void start();
 bool isOn();
 

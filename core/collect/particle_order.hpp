@@ -12,15 +12,16 @@
 
 namespace tushar::collect {
 
-/// The order (cell, id) of the old particles of a material over the whole grid, which is the same for every layout, and
-/// the places of this rank's patches in it. Cells come with the first axis fastest; if there are several levels, block
-/// by block. A rank stores the counts of its own cells alone.
+/// Orders the old particles of a material over the whole grid by (cell, id), independently of the layout, and locates
+/// the particles of this rank's patches in this order. Cells are ordered with the first axis fastest or, on several
+/// levels, block by block. A rank stores only the counts of its own cells.
 class ParticleOrder {
  public:
   /// Orders the particles in the warehouses of all ranks. Collective.
   ParticleOrder(data::Warehouse& warehouse, int material);
 
-  /// A request for the numbers of particles in `count` consecutive cells, from a place in the order of all cells.
+  /// A request for the numbers of particles in `count` consecutive cells, starting at position `first` in the order of
+  /// all cells; they are written to `to`.
   struct Wanted {
     std::size_t first, count;
     std::int32_t* to;
@@ -34,7 +35,7 @@ class ParticleOrder {
   std::shared_ptr<const output::Source> perCell() const;
   /// Gives each patch its particles, without their values.
   void install();
-  /// The rows with particles in the patches of this rank.
+  /// The runs of particles in the patches of this rank.
   Runs runs() const;
 
  private:

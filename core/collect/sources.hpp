@@ -21,7 +21,7 @@ struct Run {
 /// Runs, sorted by position.
 using Runs = std::vector<Run>;
 
-/// The runs of this rank's patches in an order of cells or nodes.
+/// The runs of the cells or nodes of this rank's patches in a given order.
 Runs runsOfGrid(const grid::Grid& grid, const data::Label& label, const Parts& parts, const GridOrder& order);
 
 /// The memory location of a particle: the index of its part, and its index there.
@@ -69,11 +69,11 @@ struct ParticlePlaces {
 /// The particles with these ids, sorted by id, with their positions among those of all ranks. Collective.
 ParticlePlaces rankedById(const mpi::Communicator& ranks, const Parts& ids);
 
-/// A source of entries in the order of the runs; `entries` is their number on all ranks.
+/// A source that provides entries in the order of the runs; `entries` is the number of entries on all ranks.
 std::shared_ptr<const output::Source> sourceInRuns(std::shared_ptr<const Runs> runs, std::size_t entries, Parts parts,
                                                    const EntryForm& form);
 
-/// A source of the entries at these locations.
+/// A source that provides the entries at these locations.
 std::shared_ptr<const output::Source> sourceAt(std::shared_ptr<const ParticlePlaces> places, Parts parts,
                                                const EntryForm& form);
 

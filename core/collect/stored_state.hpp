@@ -18,8 +18,8 @@ struct StateNames {
 };
 
 /// The old values of the variables, exact to the last bit, in an order that does not depend on the layout: nodes and
-/// cells with x fastest, particles by (cell, id). Variables that are not held are left out. The values stay where they
-/// are, and are valid until the state changes.
+/// cells with x fastest, particles by (cell, id). Variables without values are left out. The values are not copied;
+/// they are valid until the state changes.
 ///
 ///     /particles/<material>/perCell    number of particles of each cell
 ///     /particles/<material>/<label>    shape: particles × components along the axes in use
@@ -38,8 +38,9 @@ class StoredState {
 };
 
 /// Loads a stored state as the old values, on any patches; each rank reads only what its own patches need. `checks`
-/// verifies the part that is read, then the rest. Collective. Throws DamageError, and InputError if a variable of
-/// `required` is missing in the file, or has another form or number of values there.
+/// verifies the bytes that the ranks read, and then the rest of the file. Collective. Throws DamageError, and
+/// InputError if a variable of `required` is missing in the file, or is stored there in another form or with another
+/// number of values.
 void readState(const output::Hdf5Input& file, data::Warehouse& warehouse, const StateNames& names,
                const std::vector<std::string>& required, output::CheckedParts& checks);
 

@@ -24,11 +24,11 @@ class BufferPool {
 
   /// Number of requests for which the pool had no suitable buffer.
   std::size_t allocations() const { return allocations_; }
-  /// Number of free bytes, and of bytes in buffers that came from the pool.
+  /// Number of bytes in free buffers; `lent`: number of bytes in buffers that the pool has given out.
   std::size_t free() const { return free_bytes_; }
   std::size_t lent() const { return lent_; }
-  /// Limit on the sum of both: slightly more than 5/4 of the largest amount that was lent at the same time in this step
-  /// or the last.
+  /// Limit on free() + lent(): slightly more than 5/4 of the largest amount lent at any time in this step or the
+  /// previous one.
   std::size_t bound() const;
 
  private:

@@ -17,8 +17,9 @@ enum class Centring { particle, node, cell, rim, reduction };
 /// The type in which a number of a variable is stored.
 enum class Number { real, id, integer };
 
-/// Where the values of a node variable are defined: on all nodes, or only on those that particles of its material
-/// touch. Then patches exchange only those (tasks/near_rows); the others are undefined, or as each patch wrote them.
+/// The nodes on which the values of a node variable are defined: all nodes, or only those that particles of its
+/// material touch. In the second case, patches exchange only the touched nodes (see tasks/near_rows); the values on
+/// other nodes are undefined, and may differ between patches.
 enum class Counts { everywhere, nearParticles };
 
 /// The properties of a variable of any type that the graph, the archive and messages to users need. Two labels with the
@@ -58,7 +59,8 @@ struct Stored<int> {
   static constexpr int components = 1;
   static constexpr bool isVector = false;
 };
-/// Vectors along the kernel axes; wider matrices are stored as they are in memory: tensors row by row.
+/// Matrices with one column are vectors along the kernel axes. Matrices with several columns, such as tensors, are
+/// stored as they are in memory: row by row.
 template <int Rows, int Columns, int Options>
 struct Stored<Eigen::Matrix<double, Rows, Columns, Options>> {
   static constexpr Number number = Number::real;
@@ -83,7 +85,7 @@ struct FieldLabel : Label {
     if (C != Centring::node) throw std::invalid_argument("Counts::nearParticles is only for node labels");
     counts = where;
   }
-  /// Keeps `count` values of T for each particle, node or cell.
+  /// Sets the number of values of T that are stored for each particle, node or cell.
   constexpr void setCount(int count) {
     components = count * Stored<T>::components;
     bytes = count * sizeof(T);
@@ -112,7 +114,8 @@ struct ReductionLabel : Label {
               1,      sizeof(R), false,   Bound::none,         &data::makeReduction<R>} {}
 };
 
-/// The name of the label of particle positions; positions of ghosts are shifted at periodic faces.
+/// The name of the label of particle positions. The positions of ghosts that are periodic images are shifted by the
+/// period.
 inline constexpr std::string_view positionName = "p.x";
 
 /// The label of the id of a particle; the framework stores an id for each particle.

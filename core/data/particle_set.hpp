@@ -41,18 +41,19 @@ struct GhostRun {
 
 /// The particles of one material on a patch, cell by cell.
 ///
-/// Positions in memory are counted from the first particle of the patch. The patch's own particles are stored from
-/// there on, sorted by (cell, id). Ghosts are particles of other patches in the cells around this patch. If their patch
-/// is on the same rank, they are accessed in its memory, before (at negative positions) or behind; only ghosts from
-/// other ranks and from periodic images are copies. The index of cells defines one order for all: sums run over cells
-/// in lexicographic order, and by id within a cell, so they do not depend on which patch owns a particle.
+/// Particles have indices, which count positions in memory from the patch's first particle. The patch's own particles
+/// come first, sorted by (cell, id). Ghosts are particles of other patches in the cells around this patch. A ghost
+/// whose patch is on the same rank is not copied: it is read in the memory of its own patch, which lies before this
+/// patch's memory (negative indices) or behind it. Only ghosts from other ranks and periodic images are copies. Sums
+/// run over cells in lexicographic order and, within a cell, by id, so they do not depend on which patch owns a
+/// particle.
 class ParticleSet {
  public:
   /// Makes the set empty, for a patch and the cells of the grid within `reach` of it.
   void reset(const grid::Patch& patch, int reach);
 
   int owned() const { return owned_; }
-  /// Whether there is a particle with this index that the patch owns or may read.
+  /// Whether `place` is the index of a particle that the patch owns or may read.
   bool covers(int place) const {
     return (place >= 0 && place < owned_) || (place >= ghosts_.first && place < ghosts_.last);
   }
@@ -98,7 +99,8 @@ class ParticleSet {
   }
 
   /// The rows of nodes that particles of cells() touch: the nodes of their cells and `ghost` layers around them, along
-  /// the first `dimension` axes. They are found on first use, which must not be by several threads at once.
+  /// the first `dimension` axes. The rows are found by the first call, which several threads must not make at the same
+  /// time.
   const TouchedRows& touched(int ghost, int dimension) const;
 
   /// The particle ranges of consecutive cells along the first axis, starting at `cell`.
@@ -112,10 +114,11 @@ class ParticleSet {
   /// Like setOwned, after closeRow has been called for every row that has particles.
   void setOwnedOfClosedRows(int count) { owned_ = count; }
 
-  /// Declares the particles of another set in `box` as ghosts; that set begins `offset` positions after this one.
+  /// Declares those particles of the set `theirs` that are in `box` as ghosts; `theirs` begins `offset` positions after
+  /// this set in memory.
   void addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset);
-  /// Declares copies as the ghosts of a cell, starting at index `to`: of the particles `there` in cell - shift on
-  /// `patch`.
+  /// Declares copies, which are stored from index `to` on, as the ghosts of `cell`. The originals are the particles
+  /// `there` of the patch `patch`, in its cell `cell - shift`.
   void addCopies(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift, int to);
   const std::vector<GhostRun>& ghostRuns() const { return ghost_runs_; }
   bool hasGhosts() const { return has_ghosts_; }
@@ -141,7 +144,7 @@ class ParticleSet {
 
   /// Removes the particles of the cells of a row, except those in `kept`.
   void empty(std::size_t row, const Span& kept);
-  /// Extends a row of cells by ghosts from `first` up to `last`.
+  /// Extends the occupied part of a row by `cells`, and the range of ghosts by `places`.
   void widen(std::size_t row, const Span& cells, const ParticleRange& places);
 
   grid::Box owned_cells_, cells_;

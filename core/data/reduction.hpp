@@ -13,7 +13,8 @@
 
 namespace tushar::data {
 
-/// The origin of a value as a short text, such as `CFL`, stored so that its bytes can be sent.
+/// A short text that says where a value comes from, such as `CFL`. It contains no pointers, so that its bytes can be
+/// sent.
 class Reason {
  public:
   constexpr Reason() = default;
@@ -37,8 +38,8 @@ class Reason {
   std::array<char, 32> letters_{};
 };
 
-/// The minimum of all values, with its reason if one is given; +infinity if there are none. If values are equal, the
-/// reason that comes first in the alphabet is kept, so that the order of the additions does not matter.
+/// The minimum of all values, with its reason if one is given; +infinity if there are no values. If values are equal,
+/// the reason that comes first in the alphabet is kept, so that the order in which values are added does not matter.
 struct Minimum {
   double value = std::numeric_limits<double>::infinity();
   Reason reason{};
@@ -74,8 +75,8 @@ void addExactly(Number& a, Number& b) {
   a = sum;
 }
 
-/// A sum with about 48 digits: it accumulates the rounding error of each addition, and the rounding error of that. Its
-/// 16 leading digits do not depend on the order of the additions, even if most of it cancels out.
+/// A sum with about 48 digits: it accumulates the rounding error of each addition, and in turn the rounding errors of
+/// these additions. Its 16 leading digits do not depend on the order of the additions, even if the terms nearly cancel.
 struct Sum {
   double value = 0, error = 0, rest = 0;
 
@@ -132,8 +133,8 @@ struct VectorSum {
   std::vector<double> values() const { return {x.total(), y.total(), z.total()}; }
 };
 
-/// Norms of an error over the places for which it is added, by default with equal weights: L1 = mean |e|,
-/// L2 = sqrt(mean e²), max |e|, and L1 over the mean magnitude of the exact values, where they are given.
+/// Norms of an error over the places at which it is added, with equal weights by default: L1 = mean |e|, L2 = sqrt(mean
+/// e²), max |e| and, if exact values are given, L1 divided by their mean magnitude.
 struct Norm {
   Sum absolute, squared, count, exact;
   double max = 0;

@@ -11,7 +11,7 @@ namespace tushar::data {
 const Label& rimLabelOf(const Label& label);
 
 /// The fluxes of a variable through those faces of a patch at which its level ends: the amount per unit area and time,
-/// along the axis. Empty on a single level, and where no task needs the fluxes. Several tasks of a step may each add a
+/// along the axis. Empty on a single level, and if no task needs the fluxes. Several tasks of a step may each add a
 /// part; the sum starts at 0.
 template <class T>
 class RimFlux {

@@ -12,7 +12,7 @@ class ParticleSet;
 /// The rows of nodes along the first axis that particles touch; other nodes are neither cleared nor read nor copied.
 class TouchedRows {
  public:
-  /// No rows.
+  /// Constructs an empty set of rows.
   TouchedRows() = default;
   /// All rows of `nodes`, in full.
   static TouchedRows all(const grid::Box& nodes);

@@ -25,8 +25,8 @@ class AccessError : public std::logic_error {
 [[noreturn]] void refuse(const Label* label, const Index3& index, const grid::Box& box);
 [[noreturn]] void refuse(const Label* label, int particle, int count);
 
-/// A task's view of a particle variable: one T per particle of its patch and of the declared ghost cells. `const T`
-/// where it may only read.
+/// A task's view of a particle variable: one T per particle of its patch and of the declared ghost cells. T is const if
+/// the task may only read.
 template <class T>
 class ParticleView {
  public:

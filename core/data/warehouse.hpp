@@ -63,21 +63,23 @@ inline grid::Box ownBox(const grid::Patch& patch, const Label& label) {
   return label.centring == Centring::node ? patch.nodes() : patch.cells();
 }
 
-/// The generation of a value: old, the state at the start of the step (read with `requiresOld`), or new, computed in
-/// it.
+/// The generation of a value. `old`: it belongs to the state at the start of the step, which `requiresOld` reads;
+/// `fresh`: it is computed in the step.
 enum class Generation { old, fresh };
 
 /// Holds the variables and particle sets of this rank, in two generations.
 ///
-/// A variable is one piece of memory, in which each patch of the rank has its slot. All particle variables of a
-/// material and generation of its sets have the same layout, so that a place counted from the first particle of one
-/// patch reaches the particles of any other: patches read the ghosts that are on their rank in place. Only the contents
-/// of variables and sets may be used by several threads at once.
+/// A variable is one contiguous piece of memory, in which each patch of the rank has a slot. All particle variables of
+/// a material that belong to the same generation of particle sets have the same layout. An index counted from the first
+/// particle of one patch can therefore denote a particle of another patch, so that patches read ghosts from their own
+/// rank without copying them. Several threads may use the contents of variables and sets at the same time, but must not
+/// call other functions of the warehouse.
 class Warehouse {
  public:
   /// A warehouse for a run on one rank.
   Warehouse(const grid::Grid& grid, VariableTable& table);
-  /// A warehouse on several ranks. `ranks` share the grid as the grid prescribes, and must outlive the warehouse.
+  /// A warehouse on several ranks. `ranks` are the ranks over which `grid` distributes its patches; they must outlive
+  /// the warehouse.
   Warehouse(const grid::Grid& grid, VariableTable& table, const mpi::Communicator& ranks)
       : grid_(&grid), table_(&table), ranks_(&ranks) {}
 
@@ -103,11 +105,12 @@ class Warehouse {
     return static_cast<TypedReduction<R>&>(slot(number)).part(patch - grid_->firstPatch());
   }
   void resetReduction(int number);
-  /// The slot of a reduction of any type, made on first use, which must not happen on several threads at once.
+  /// The slot of a reduction of any type. The first call makes it; several threads must not make this call at the same
+  /// time.
   ReductionSlot& slot(int number);
   /// The values of a reduction; empty if no task has computed it.
   std::vector<double> reductionValues(int number) const;
-  /// The bytes of the reducer; empty if no task has computed it.
+  /// The bytes of the reducer of a reduction; empty if no task has computed the reduction.
   std::span<const std::byte> reductionBytes(int number) const;
   /// Restores the bytes of a reduction from an earlier run.
   void restoreReduction(int number, std::vector<std::byte> bytes);
@@ -128,14 +131,14 @@ class Warehouse {
   /// Returns the memory of a variable to the pool.
   void free(Generation generation, int number);
 
-  /// Assigns slots to the sets of a material, whose particles are complete on all patches; if possible, the slots of
-  /// `base`.
+  /// Assigns slots to the particle sets of a material once their particles are complete on all patches; keeps the slots
+  /// of generation `base` if possible.
   void layOut(Generation generation, int material, Generation base);
   /// Moves a particle variable from the previous slots of the sets to those of generation `set`. Values in unchanged
-  /// slots are kept; patches with other slots have undefined values. If the variable now has other memory, returns the
-  /// previous buffer, which the caller must release.
+  /// slots are kept; patches whose slots have changed get undefined values. If the variable gets new memory, returns
+  /// the previous buffer, which the caller must release.
   Buffer follow(Generation generation, int number, Generation set);
-  /// The memory of a variable, and the positions of patches and sets in it.
+  /// The memory of a variable; `slots` gives the positions of the patches in it.
   std::byte* memory(Generation generation, int number) { return storage(generation, number).memory.data(); }
   const SharedSlots& slots(Generation generation, int number) const;
   const SharedSlots& slotsOfSets(Generation generation, int material) { return layout(generation, material).slots; }
@@ -144,7 +147,7 @@ class Warehouse {
   /// Reserves the next `count` indices for ghost copies of a patch; returns the first, counted from the patch's first
   /// particle.
   int placeCopies(Generation set, int material, int patch, int count);
-  /// Makes space for all ghost copies with a reserved index; existing values are preserved.
+  /// Makes space for all ghost copies whose indices have been reserved; existing values are preserved.
   void reserveCopies(Generation generation, int number, Generation set);
 
   /// Lends memory for a short time; return it with takeBack.
@@ -158,7 +161,7 @@ class Warehouse {
   /// Whether any rank has values of a variable. Collective.
   bool isHeld(Generation generation, int number);
 
-  /// Makes the new generation old and frees the previous one, on every patch.
+  /// Makes the new values of a variable its old ones on every patch, and frees the previous old values.
   void makeOld(int number);
   void swapSets(int material);
   /// Removes the ghosts of all particle sets; the next exchange plans them again.
