@@ -15,14 +15,14 @@ struct BlockId {
   Index3 at{};
 
   friend bool operator==(const BlockId&, const BlockId&) = default;
-  /// The order along Morton's curve through all levels, depth first: a block precedes its children. Levels from 0 to
-  /// 31; any place, also outside the grid.
+  /// The order along Morton's curve through all levels, depth first: a block precedes its children. Works for levels
+  /// from 0 to 31 and for any index, even outside the grid.
   friend std::strong_ordering operator<=>(const BlockId& a, const BlockId& b);
 };
 
-/// The tree of blocks of a grid and its leaves: every cell of the grid is in one of them. A block is refined into two
-/// along each axis. Leaves that touch, over an edge or a corner too, differ by one level at most; along periodic axes,
-/// their images do. A tree never changes: regridding makes another.
+/// The tree of blocks of a grid. Its leaves are the blocks that are not refined; together they cover the grid. Refining
+/// a block divides it in two along each axis. Leaves that touch, even only at an edge or a corner, differ by at most
+/// one level; along periodic axes, this includes their images. A tree never changes: regridding makes a new one.
 class BlockTree {
  public:
   /// A tree without refined blocks. `roots`: blocks of level 0 along the kernel axes (1 beyond `dimension`);
@@ -39,8 +39,8 @@ class BlockTree {
   /// The leaves, depth first along Morton's curve through all levels (G. M. Morton, A Computer Oriented Geodetic Data
   /// Base and a New Technique in File Sequencing, IBM 1966).
   const std::vector<BlockId>& leaves() const { return leaves_; }
-  /// The level of the leaf at the place of a block: the block's own, a coarser one, or block.level + 1 if the block is
-  /// refined. Along periodic axes, images count; outside the grid along other axes: -1.
+  /// The level of the leaf at the place of a block: the block's own level, or a coarser one; block.level + 1 if the
+  /// block is refined. Periodic images count as their originals; for other blocks outside the grid, returns -1.
   int levelAt(const BlockId& block) const;
   /// Position of a leaf on the curve, from 0; the block must be a leaf, not a periodic image.
   int placeOf(const BlockId& leaf) const;
@@ -50,7 +50,7 @@ class BlockTree {
   bool isRefined(const BlockId& block) const { return levelAt(block) > block.level; }
 
   /// The tree in which exactly these blocks are refined: all of `wanted`, those of `kept` that are refined now, and all
-  /// blocks that these imply, that is, ancestors, and neighbours of refined blocks, so that adjacent leaves differ by
+  /// blocks that must be refined because of these: their ancestors, and neighbours, so that adjacent leaves differ by
   /// at most one level. Periodic images count as their originals. Blocks of the last level, and blocks outside the grid
   /// along other axes, are ignored. The order of blocks, and duplicates, do not matter.
   BlockTree regridded(const std::vector<BlockId>& wanted, const std::vector<BlockId>& kept) const;
@@ -60,7 +60,7 @@ class BlockTree {
   /// for the level.
   const std::vector<std::uint64_t>& keys() const { return keys_; }
   /// The tree with these leaves. Throws std::invalid_argument if they are not, in this order, the leaves of a tree that
-  /// covers the grid, or some that touch differ by more than one level.
+  /// covers the grid, or if touching leaves differ by more than one level.
   static BlockTree fromKeys(int dimension, const Index3& roots, const Index3& periodic, int levels,
                             const std::vector<std::uint64_t>& keys);
 
@@ -76,7 +76,8 @@ class BlockTree {
   std::optional<BlockId> inside(const BlockId& block) const;
   /// The smallest valid tree in which these blocks of each level are refined.
   BlockTree withRefined(std::vector<Keys> refined) const;
-  /// Adds the blocks one level coarser that must be refined so that all neighbours of a refined block exist.
+  /// Adds to `coarser` the blocks of the next coarser level that must be refined so that all neighbours of a refined
+  /// block exist.
   void addRefinedAround(const BlockId& block, Keys& coarser) const;
   void setLeaves(const std::vector<Keys>& refined);
 

@@ -41,7 +41,7 @@ struct BoundaryLabel : BoundaryVariable {
   constexpr explicit BoundaryLabel(std::string_view called) : BoundaryVariable{called, std::is_same_v<T, Vec3>} {}
 };
 
-/// Stands for the whole state, mirrored at a symmetry plane, not for a single variable.
+/// Stands for the whole state, which a symmetry plane mirrors, not for a single variable.
 inline constexpr BoundaryVariable symmetric{"Symmetric"};
 
 /// One `BCType` of a `Face`: the condition for a variable at a side of the domain.
@@ -93,8 +93,9 @@ inline constexpr int restOfSide = -1;
 
 /// The conditions at the faces x-, x+, y-, y+, z-, z+, in this order. A face without conditions is open.
 ///
-/// Parts of a side may have their own conditions. On such a part, the conditions of the whole side do not apply to
-/// materials for which the part has conditions, and to no material if the part has no conditions at all.
+/// Parts of a side may have their own conditions. On a part, these replace the conditions of the whole side for the
+/// materials that they concern. On a part without any conditions, the conditions of the whole side apply to no
+/// material.
 struct BoundaryConditions {
   std::array<std::vector<BoundaryCondition>, 6> faces;
   std::array<std::vector<ConditionsOfPart>, 6> parts;

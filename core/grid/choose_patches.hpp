@@ -10,7 +10,8 @@ namespace tushar::grid {
 /// Smallest number of cells per thread for which an additional thread pays off.
 inline constexpr int cellsPerThread = 8192;
 
-/// The number of threads, from 1 to `most`, that pay off for a number of cells.
+/// The number of threads, from 1 to `most`, that pay off for `cells` cells if each thread needs at least
+/// `cellsOfThread`.
 int usefulThreads(double cells, int cellsOfThread, int most);
 
 /// The ranks and threads that work on a grid.
@@ -23,7 +24,7 @@ struct Workers {
   /// Number of threads of each rank for a grid of `cells` along x, y, z: a thread with too few cells costs more than it
   /// saves.
   int threadsFor(const Index3& cells) const;
-  /// Number of patches that distribute the work evenly: one if there is one worker.
+  /// Number of patches with which the work is distributed evenly; 1 for a single worker.
   int patchesFor(const Index3& cells) const;
 };
 

@@ -21,9 +21,9 @@ namespace tushar::grid {
 /// grid has a million.
 class Grid {
  public:
-  /// One level is split into patches as the domain says; along an axis with fewer cells than requested patches, a patch
-  /// per cell. Several are cut into blocks, the regions of `domain.refinement` refined, and patches are boxes of
-  /// blocks.
+  /// A grid of one level is divided into the patches that `domain` specifies; along an axis with fewer cells than
+  /// requested patches, each cell gets a patch. A grid of several levels is divided into blocks, those in the regions
+  /// of `domain.refinement` are refined, and patches are boxes of blocks.
   explicit Grid(const Domain& domain, Share share = {});
   Grid(const Grid&) = delete;
   Grid& operator=(const Grid&) = delete;
@@ -34,7 +34,7 @@ class Grid {
   const Level& finest() const { return levels_.back(); }
   bool isFinest(const Patch& patch) const { return &patch.level() == &finest(); }
   /// Whether all cells of a box on the finest level exist, that is, none is part of a coarser cell; cells outside the
-  /// grid and its images are ignored.
+  /// grid and its periodic images are ignored.
   bool isFinest(const Box& cells) const;
   int dimension() const { return level().dimension(); }
 
@@ -69,15 +69,16 @@ class Grid {
   /// The rank to which a patch belongs.
   int ownerOf(int patch) const { return isMine(patch) ? share_.rank : partition_->ownerOf(patch); }
   const Share& share() const { return share_; }
-  /// The nodes that a patch of this rank owns: all except those on an upper face behind which there are only patches of
-  /// this rank, which own them. So each node of the rank's patches has one owner among them.
+  /// The nodes that a patch of this rank owns: all its nodes, except those on an upper face if all patches behind this
+  /// face are on this rank, because then those patches own them. So each node has exactly one owner among the patches
+  /// of this rank.
   const Box& ownNodes(int patch) const { return own_nodes_[patch - first_patch_]; }
   /// The distribution of patches over ranks.
   RankOffsets rankOffsets() const;
   /// Redistributes the patches over the ranks. The caller must move their values: see tasks::migratePatches.
   void share(RankOffsets offsets);
 
-  /// The patch that contains a cell of a level, which must be neither refined nor part of a coarser one.
+  /// The patch that contains a cell of a level; the cell must be neither refined nor part of a coarser cell.
   Patch patchOf(const Index3& cell, int level) const { return patchOf(tiling_->tileOf(level, cell)); }
   /// The patches of a level that contain cells of a box, in the order of their cells.
   std::vector<Patch> patchesOverlapping(const Box& cells, int level) const;

@@ -38,8 +38,8 @@ struct Domain {
 /// symmetry planes or one periodic cell; the other axes keep their order.
 ///
 /// Along a periodic axis, cell and node indices continue beyond both ends: outside the grid they refer to images of the
-/// cells inside, and to ghosts of the patches there. The first and the last node of the grid are identical; both
-/// patches complete it.
+/// cells inside, and to ghosts of the patches there. The first and the last node of the grid are the same point; the
+/// patches at both ends complete its values.
 class Level {
  public:
   explicit Level(const Domain& domain) : Level(domain, 0, 1, nullptr) {}
@@ -95,7 +95,8 @@ class Level {
   }
 
   /// The index of the cell that contains coordinate x along a kernel axis: the c with nodePosition(c) <= x <
-  /// nodePosition(c+1). The upper end of the grid belongs to the last cell; outside the grid -1 or the number of cells.
+  /// nodePosition(c+1). The upper end of the grid belongs to the last cell. Outside the grid, returns -1 or the number
+  /// of cells.
   int cellAlong(int kernelAxis, double x) const;
   template <int D>
   Index<D> cellOf(const Vec<D>& x) const {
@@ -153,15 +154,15 @@ class Level {
     return full;
   }
 
-  /// The condition for a variable of a material on a part of a side of the grid (`side` 0: lower, 1: upper), or on the
-  /// rest of it, if the scene gives one.
+  /// The condition that the scene gives for a variable of a material on a part of a side of the grid, or on the rest of
+  /// the side; none if the scene gives none. `side` 0: lower, 1: upper.
   template <class T>
   std::optional<BoundaryValue<T>> boundary(int kernelAxis, int side, const BoundaryLabel<T>& variable, int material = 0,
                                            int part = restOfSide) const {
     const BoundaryCondition* found = condition(kernelAxis, side, variable, material, part);
     return found ? std::optional(BoundaryValue<T>::of(*found)) : std::nullopt;
   }
-  /// The conditions for a variable on all sides, for kernels that visit the cells of a patch.
+  /// Looks up the conditions for a variable on all sides, for kernels that visit the cells of a patch.
   template <class T>
   BoundarySides<T> sides(const BoundaryLabel<T>& variable, int material = 0) const;
   /// The parts of a side that have their own conditions.

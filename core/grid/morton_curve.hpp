@@ -8,9 +8,9 @@
 
 namespace tushar::grid {
 
-/// Blocks between cuts along each axis, in Morton order (G. M. Morton, A Computer Oriented Geodetic Data Base and a New
-/// Technique in File Sequencing, IBM 1966): neighbours on the curve are close in space, so consecutive blocks have few
-/// faces to other blocks.
+/// The blocks of a grid that is cut along each axis, in Morton order (G. M. Morton, A Computer Oriented Geodetic Data
+/// Base and a New Technique in File Sequencing, IBM 1966): neighbours on the curve are close in space, so consecutive
+/// blocks have few faces to other blocks.
 ///
 /// The number of blocks along an axis is arbitrary. Nothing is stored for individual blocks: a position is found by
 /// halving the grid, in as many steps as the number of blocks has bits.

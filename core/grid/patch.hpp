@@ -8,8 +8,8 @@ class Level;
 
 /// A box of cells of the grid, the unit of work of a task.
 ///
-/// A patch has all nodes of its cells. Nodes on a face between two patches belong to both; both patches complete them
-/// from the same particles in the same order, so they are bitwise equal.
+/// A patch has all nodes of its cells. Nodes on a face between two patches belong to both; both patches complete their
+/// values from the same particles in the same order, so the values are bitwise equal.
 class Patch {
  public:
   Patch(const Level& level, int id, const Box& cells) : level_(&level), id_(id), cells_(cells) {}

@@ -8,12 +8,14 @@
 
 namespace tushar::grid {
 
-/// The shapes of a part of a side: those attributes of a `Face` that name its side.
+/// The shapes that a part of a side can have. Each is an attribute of `Face`, whose value is the side to which the part
+/// belongs.
 inline constexpr std::array<std::string_view, 5> sidePartNames{"circle", "annulus", "ellipse", "rectangle",
                                                                "rectangulus"};
 
-/// A part of a side of the grid. Its rim belongs to it, the rim of its hole does not, each to within a billionth of its
-/// size, so that round-off does not make a jet lopsided. Coordinates across the side do not matter.
+/// A part of a side of the grid. The outer rim belongs to the part, the rim of a hole does not. Both hold with a
+/// tolerance of a billionth of the size, so that round-off does not make a jet lopsided. Coordinates across the side do
+/// not matter.
 class SidePart {
  public:
   /// The points within `radius` [m] of `origin`, on a side across `axis`.
@@ -40,7 +42,8 @@ class SidePart {
     Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
     friend bool operator==(const Corners&, const Corners&) = default;
   };
-  /// Two foci, which coincide for a circle, and the sum of the distances to them [m].
+  /// An ellipse, given by its two foci, which coincide for a circle, and the sum of the distances from its points to
+  /// them [m].
   struct Oval {
     Vec3 first = Vec3::Zero(), second = Vec3::Zero();
     double sum = 0;

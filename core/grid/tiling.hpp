@@ -25,7 +25,7 @@ class Tiling {
   virtual Tile tile(int id) const = 0;
   /// The patch that contains a cell of a level; its id is -1 if the cell is refined or part of a coarser cell.
   virtual Tile tileOf(int level, const Index3& cell) const = 0;
-  /// The patches of a level that contain cells of a box of this level, all of which are on the grid.
+  /// The patches of a level that contain cells of a box; the whole box must lie on the grid.
   virtual std::vector<Tile> overlapping(int level, const Box& cells) const = 0;
 
   /// Number of cells of all patches together.

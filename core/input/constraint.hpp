@@ -24,7 +24,7 @@ Constraint between(double least, double most);
 inline Constraint positive() { return greaterThan(0); }
 inline Constraint nonNegative() { return atLeast(0); }
 
-/// A constraint on formulas for the start of a run: they must not depend on time.
+/// A constraint on formulas that are evaluated at the start of a run: they must not depend on time.
 struct WithoutTime {
   std::string allowed = "without t";
 };

@@ -15,8 +15,8 @@ namespace tushar::input {
 /// A formula in the coordinates x, y, z [m] and the time t [s], such as `1e5*(1 + 0.1*sin(2*pi*x))`.
 ///
 /// Knows the operators + - * / ^, comparisons, && ||, `condition ? a : b`, the constants pi and e, and the usual
-/// functions (sin, cos, exp, ln, sqrt, abs, min, max, …). A formula with none of x, y, z, t is evaluated once, when it
-/// is read. Several threads may evaluate it at once.
+/// functions (sin, cos, exp, ln, sqrt, abs, min, max, …). A formula without x, y, z and t is evaluated only once, when
+/// it is read. Several threads may evaluate a formula at the same time.
 class Expression {
  public:
   /// A formula with the constant `value`.

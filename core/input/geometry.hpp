@@ -16,8 +16,9 @@ std::vector<std::string> geometryNames();
 /// The allowed content of these tags, for Schema::forms.
 std::vector<TagForm> geometryForms();
 
-/// The shapes among the children of a `<geom_object>` or a similar tag, as their union if there are several; the schema
-/// of `parent` reads the other children. Null, with an error in the diagnostics, if there is none or if one is invalid.
+/// Reads the shapes among the children of `parent`, a `<geom_object>` or a similar tag; several shapes form a union.
+/// The schema of `parent` reads the other children. Returns null, with an error in the diagnostics, if there is no
+/// shape or if one is invalid.
 ///
 /// A shape with a `label` (or `name`) can be reused further down in the same section of the scene (the tag below the
 /// root) by an empty tag of the same kind with that label.

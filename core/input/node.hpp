@@ -8,7 +8,7 @@
 
 namespace tushar::input {
 
-/// An XML attribute and its location: that of its tag, or of the option that overrides the attribute.
+/// An XML attribute, and the location of its tag or of the option that overrides the attribute.
 struct Attribute {
   std::string name;
   std::string value;

@@ -18,7 +18,7 @@
 
 namespace tushar::input {
 
-/// Converts a pointer to a member of a base of S to one of S.
+/// Converts a pointer to a member of a base class of S to a pointer to a member of S.
 template <class S, class T, class Base>
 T S::*memberOf(T Base::*member) {
   return member;
@@ -71,7 +71,7 @@ class Schema : public SchemaBase {
     return put(valueEntry<T>(member, name, unit, sentence, constraints...));
   }
 
-  /// Declares a tag with a value that must be given at least `atLeast` times.
+  /// Declares a tag with a value; the tag may be repeated, and must be given at least `atLeast` times.
   template <class T, class... C>
   Schema& values(std::string_view name, std::vector<T> S::*member, std::string_view unit, std::string_view sentence,
                  int atLeast, const C&... constraints) {
@@ -160,7 +160,7 @@ class Schema : public SchemaBase {
                           std::string_view sentence = "") {
     return put(mandatory(nestedEntry(name, schema, sentence, member)));
   }
-  /// Declares a tag that is read by another schema and must be given at least `atLeast` times.
+  /// Declares a tag that is read by another schema; it may be repeated, and must be given at least `atLeast` times.
   template <class T>
   Schema& list(std::string_view name, std::vector<T> S::*member, const Schema<T>& schema,
                std::string_view sentence = "", int atLeast = 0) {
@@ -178,9 +178,9 @@ class Schema : public SchemaBase {
     return put(attribute(textEntry(name, sentence)));
   }
 
-  /// Declares a function that reads what declarations cannot express. `reader` is called once with the element of
-  /// *this* schema, even if none of the tags listed in `takes` (`name` itself if none are listed) is given. `Read` is a
-  /// function of an S&, an Element and Diagnostics.
+  /// Declares a function that reads what declarations cannot express. `reader` takes an S&, an Element and Diagnostics.
+  /// It is called once, with the element of *this* schema, even if none of its tags is given. These tags are listed in
+  /// `takes`; if that is empty, the only one is `name`.
   template <class Read>
   Schema& custom(std::string_view name, Read reader, std::vector<std::string> takes, std::string_view sentence,
                  std::function<void(std::ostream&, int)> describeBelow = {}) {
@@ -193,8 +193,8 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// The allowed content of the tags of the last declaration, a custom one, for the schemas of editors; at least
-  /// `atLeast` of these tags must be given in total.
+  /// Declares, for the schemas of editors, the allowed content of the tags of the last declaration, which must be a
+  /// custom one; at least `atLeast` of these tags must be given in total.
   Schema& forms(std::vector<TagForm> forms, int atLeast = 0) {
     setFormsOfLast(std::move(forms), atLeast);
     return *this;
@@ -208,8 +208,8 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// Checks values against each other; called only if the element has no problem so far. `Check` is a function of a
-  /// const S&, an Element and Diagnostics.
+  /// Checks values against each other; called only if the element has no problem so far. `checker` takes a const S&, an
+  /// Element and Diagnostics.
   template <class Check>
   Schema& check(Check checker) {
     addCheck([checker = std::move(checker)](const void* object, const Element& element, Diagnostics& diagnostics) {
@@ -224,7 +224,8 @@ class Schema : public SchemaBase {
     return *this;
   }
 
-  /// For a word that is not an option of the last choice, adds to the error message where the word is available.
+  /// Adds `sentence` to the error message for `word`, which is not an option of the last choice; it says where the word
+  /// is available.
   Schema& elsewhere(std::string_view word, std::string_view sentence) {
     explainWordOfLast(word, sentence);
     return *this;

@@ -82,7 +82,7 @@ class SchemaBase {
   void describeContents(std::ostream& out, int indent = 0) const;
 
   using Fill = std::function<void(void* object, const Element& element, Diagnostics& diagnostics)>;
-  /// Schema::custom and Schema::forms for functions that do not need the object.
+  /// Like Schema::custom (and, below, Schema::forms), for functions that do not need the object.
   void addCustom(std::string_view name, Fill&& fill, std::vector<std::string>&& takes, std::string_view sentence,
                  std::function<void(std::ostream&, int)>&& describeBelow = {});
   void setFormsOfLast(std::vector<TagForm> forms, int atLeast = 0);
@@ -108,7 +108,7 @@ class SchemaBase {
   static SchemaEntry flagEntry(SchemaEntry&& entry);
   static SchemaEntry ignoredEntry(std::string_view name, std::string_view sentence);
   static SchemaEntry textEntry(std::string_view name, std::string_view sentence);
-  /// A tag that `schema` reads; if `sentence` is empty, the description of the schema is used.
+  /// The entry of a tag that `schema` reads; if `sentence` is empty, the description of the schema is used.
   static SchemaEntry sectionEntry(std::string_view name, const SchemaBase& schema, std::string_view sentence);
   void markLastOurs();
   void markAllOurs() { all_ours_ = true; }

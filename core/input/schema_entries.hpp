@@ -78,7 +78,7 @@ Limit<T> limitOf(const C& constraint) {
           }};
 }
 
-/// Reads a T into a member.
+/// The entry that reads a T into a member.
 template <class T, class M>
 SchemaEntry valueEntryOf(Reach<M> member, std::string_view name, std::string_view unit, std::string_view sentence,
                          Limits<T> limits) {
@@ -105,7 +105,7 @@ void setDefaultOf(SchemaEntry& entry, Reach<T> member, const T& byDefault) {
   entry.setDefault = [member = std::move(member), byDefault](void* object) { *member(object) = byDefault; };
 }
 
-/// Reads one of several words into a member.
+/// The entry that reads one of several words into a member.
 template <class E, class M>
 SchemaEntry choiceEntryOf(Reach<M> member, std::string_view name, const Choices<E>& choices,
                           std::string_view sentence) {

@@ -44,7 +44,8 @@ class TypedTag<std::variant<Ts...>> {
   }
 };
 
-/// Adds such a tag to a schema; if the tag is omitted, the member keeps its default.
+/// Adds a tag whose attribute `type` selects a struct (see TypedTag) to a schema; if the tag is omitted, the member
+/// keeps its default.
 template <class S, class Variant>
 void typedTag(input::Schema<S>& schema, const std::string& tag, Variant S::*member, const std::string& sentence,
               bool isRequired) {

@@ -21,8 +21,8 @@ struct CellEquation {
 };
 
 /// A linear system with one unknown and one equation for each cell of the grid, on all levels, solved by all ranks
-/// together. It is assembled, solved and read out within one step. Where there are several levels it need not be
-/// symmetric, and is solved as one that is not.
+/// together. It is assembled, solved and read out within one step. On several levels, the matrix need not be symmetric,
+/// and the solver does not assume that it is.
 template <int D>
 class CellSystem {
  public:
@@ -62,8 +62,8 @@ class CellSystem {
     if (isRefined && unknowns_.constantIsFree) takeOutMean();
     return outcome;
   }
-  /// Throws NumericalError if the solve of `what` has failed; `section` contains the settings of the solver, `quantity`
-  /// is the label of the solution, and `also` is further advice.
+  /// Throws NumericalError if the solver has not converged. `what` names the system, `section` is the section of the
+  /// scene with the settings of the solver, `quantity` is the label of the solution, and `also` is further advice.
   void requireConvergence(const solvers::Outcome& outcome, const std::string& what, const std::string& section,
                           const std::string& quantity, const std::string& also = "") const {
     if (outcome.converged) return;
@@ -114,7 +114,7 @@ class CellSystem {
       matrix.add({columns.data(), 1}, {&column, 1}, {&far.weight, 1});
     }
   }
-  /// Subtracts the mean of the solution, weighted by the volumes of cells.
+  /// Subtracts from the solution its mean, weighted by the volumes of cells.
   void takeOutMean() {
     data::Sum sum, volume;
     forEachCell([&](std::size_t p, const Index<D>& cell) {

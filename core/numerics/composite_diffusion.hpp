@@ -15,12 +15,12 @@ namespace tushar::numerics {
 ///
 ///     F = 4/5 (phi* - phi_1) / R + 1/5 k_12 (phi_1 - phi_2) / h,
 ///
-/// where phi_1 is the value in the finer cell, phi_2 that in the cell behind it, phi* that in the coarser cell,
-/// interpolated along the face to the line through both finer cells (FaceInterpolation), and h the finer width. For
-/// constant k this is the slope at the face of the parabola through the three values (Martin & Cartwright, Solving
-/// Poisson's Equation Using Adaptive Mesh Refinement, 1996), which is of second order. It remains so if k varies, and
-/// the flux is correct if k jumps at the face. Both cells use the same F, so the scheme is conservative. The system is
-/// not symmetric.
+/// where phi_1 is the value in the finer cell at the face, phi_2 the value in the next finer cell behind it, phi* the
+/// value in the coarser cell, interpolated along the face to the line through both finer cells (FaceInterpolation), and
+/// h the width of the finer cells. For constant k, F / k is the slope at the face of the parabola through the three
+/// values (Martin & Cartwright, Solving Poisson's Equation Using Adaptive Mesh Refinement, 1996), which is of second
+/// order. The flux remains of second order if k varies, and is correct if k jumps at the face. Both cells use the same
+/// F, so the scheme is conservative. The system is not symmetric.
 template <int D>
 class CompositeDiffusion {
  public:
@@ -54,7 +54,8 @@ class CompositeDiffusion {
  private:
   const Diffusion<D>& on(int level) const { return ofLevels_[level]; }
 
-  /// Calls `visit` for the finer cells inside a cell that touch its face to the previous cell.
+  /// Calls `visit` for those finer cells inside the cell `next` that touch its face to the cell from which `next` lies
+  /// on side `side` along axis d.
   template <class Visit>
   static void forEachFiner(const Index<D>& next, int d, int side, Visit&& visit) {
     for (int k = 0; k < (1 << D); ++k) {
@@ -64,7 +65,7 @@ class CompositeDiffusion {
     }
   }
 
-  /// Adds `factor` times the flux A F from a cell into a coarser cell.
+  /// Adds `factor` times the flux A F through the face between a cell and the coarser cell behind its side `side`.
   void addRim(int level, const Index<D>& fine, int d, int side, double factor, Balance<D>& balance) const {
     const Diffusion<D>& diffusion = on(level);
     const grid::Level& here = grid_.level(level);

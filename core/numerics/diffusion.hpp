@@ -79,8 +79,8 @@ class Diffusion {
     const double outward = atFace(cell, next, true) * (phi[cell] - phi[next]) / level_.spacing(d);
     return side == 0 ? -outward : outward;
   }
-  /// The sum over the faces of a cell of k / h²: in an explicit step of at most 1 divided by this rate, no cell
-  /// overshoots.
+  /// The sum of k / h² over the faces of a cell. In an explicit step of at most 1 divided by this rate, the cell does
+  /// not overshoot.
   double rate(const Index<D>& cell) const {
     double sum = 0;
     forEachFace(cell, [&](int d, int, const Index<D>& next, bool isInside) {
@@ -125,7 +125,7 @@ class Diffusion {
     const double own = inCell(cell);
     return k_.isConstant() || !isInside ? own : harmonicMean(own, inCell(next));
   }
-  /// The value of phi outside a side of the grid with which the condition is satisfied on the side.
+  /// The value of phi in the cell outside a side of the grid for which phi satisfies the condition on the side.
   double mirrored(double phi, const Index<D>& cell, int d, int side) const {
     const auto& given = sides_(d, side, cell);
     if (!given) return phi;

@@ -13,8 +13,8 @@ class LeafCells {
   /// The grid must outlive this object.
   explicit LeafCells(const grid::Grid& grid) : grid_(&grid) {}
 
-  /// The level of the leaves at the place of a cell: the cell's own level, a coarser one, or the next finer one. Images
-  /// along periodic axes count; outside the grid: -1.
+  /// The level of the leaves at the place of a cell: the cell's own level, a coarser one, or the next finer one.
+  /// Periodic images count as their originals; for other cells outside the grid, returns -1.
   int levelAt(int level, const Index<D>& cell) const { return grid_->tree().levelAt(blockOf(level, cell)); }
   bool isThere(int level, const Index<D>& cell) const { return levelAt(level, cell) == level; }
   bool areInOneBlock(const Index<D>& a, const Index<D>& b) const { return blockOf(0, a).at == blockOf(0, b).at; }
@@ -32,9 +32,10 @@ class LeafCells {
   const grid::Grid* grid_;
 };
 
-/// Values of a field next to a face behind which there are finer cells. They follow from a polynomial through the cells
-/// of the level, of second degree along each axis of the face and with their mixed term. Cells that are not there are
-/// not used: beside finer ones, and at sides of the grid, it uses those on the other side.
+/// Interpolates a field along a face behind which there are finer cells. It uses a polynomial through cells of the
+/// coarser level, of second degree along each axis of the face, with the mixed term of these axes. Where a neighbour
+/// does not exist on this level, next to refined cells or at sides of the grid, cells on the opposite side are used
+/// instead.
 template <int D>
 class FaceInterpolation {
  public:

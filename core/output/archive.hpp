@@ -43,9 +43,9 @@ struct ArchivePoint {
 ///                 t00042.h5       /grid, /particles/<material>/<label>, /cells/…, /nodes/…, /reference/<column>
 ///
 /// Files other than `.dat` are written under another name and then renamed, so that a killed run leaves no incomplete
-/// files; lines of `.dat` files are passed to the system at once. index.xml and the XDMF file list all outputs. They
-/// may be out of date by a second or a twentieth of the run time, so that the cost of an output does not grow with the
-/// number of outputs.
+/// files; lines of `.dat` files are passed to the system immediately. index.xml and the XDMF file list all outputs.
+/// They may be out of date by a second or a twentieth of the run time, so that the cost of an output does not grow with
+/// the number of outputs.
 class Archive {
  public:
   /// Makes the folder `filebase.NNN`, where NNN is one above the largest existing number, and points the link
@@ -71,9 +71,9 @@ class Archive {
   void keepUp();
   /// Writes index.xml and the XDMF file if they are out of date.
   void flush();
-  /// Waits until the lines of globals are on the disk. Returns the current extent of the archive. Stored in a
-  /// checkpoint, it replaces lists that are out of date or that a power failure has destroyed. Outputs can be lost as
-  /// well, but only those of the last seconds.
+  /// Waits until the lines of globals are on the disk, and returns the current extent of the archive. A checkpoint
+  /// stores this extent, so that a restart can replace lists that are out of date or that a power failure has
+  /// destroyed. A power failure can also destroy outputs, but only those of the last seconds.
   ArchivePoint sync(int step, double time);
 
   /// The folder of this run, such as `sod.uda.001`.

@@ -15,7 +15,7 @@
 namespace tushar::output {
 
 /// Makes the folder `filebase.NNN`, where NNN is one above the largest existing number, and its parents. Returns its
-/// path. FileError if it cannot be made, or if `filebase` itself exists and is not a link.
+/// path. Throws FileError if it cannot be made, or if `filebase` itself exists and is not a link.
 std::filesystem::path makeNextFolder(const std::filesystem::path& filebase);
 
 /// Makes a folder and its parents, unless they exist. Throws FileError on failure.
@@ -24,14 +24,14 @@ void makeFolder(const std::filesystem::path& folder);
 /// Points the relative link `filebase` to `folder`, atomically.
 void pointLink(const std::filesystem::path& filebase, const std::filesystem::path& folder);
 
-/// Replaces the contents of the file by `text` atomically: a reader sees either the old text or the new one. FileError
-/// if it cannot.
+/// Replaces the contents of the file by `text` atomically: a reader sees either the old text or the new one. Throws
+/// FileError on failure.
 void replaceFile(const std::filesystem::path& file, const std::string& text);
 
 /// Replaces the contents of the file by the text that `write` puts into the stream, atomically.
 void replaceFile(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
-/// Like the first of these functions, but the file is on the disk when the function returns.
+/// Like replaceFile with a text, but returns only when the file is on the disk.
 void replaceFileOnDisk(const std::filesystem::path& file, const std::string& text);
 
 /// A file opened for appending, without a buffer. Its functions throw FileError.
@@ -56,7 +56,7 @@ class AppendFile {
 /// functions throw FileError.
 class Scratch {
  public:
-  /// `file` is the path of the file, which exists only while the file is created.
+  /// `file` is a path that exists only while the unnamed file is being created.
   explicit Scratch(std::filesystem::path file) : path_(std::move(file)) {}
   ~Scratch();
   Scratch(const Scratch&) = delete;

@@ -11,15 +11,15 @@
 namespace tushar::output {
 
 /// The `.dat` files of an archive. append() returns after the system has received the line, so that a killed run loses
-/// none.
+/// no line.
 class GlobalFiles {
  public:
   explicit GlobalFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// The file name of a global quantity.
   static std::string nameOf(const std::string& global);
-  /// Adds a line to the file of a global quantity; its first sample replaces an old file. Returns whether it was the
-  /// first.
+  /// Adds a line to the file of a global quantity; the first sample of a quantity replaces an old file. Returns whether
+  /// this sample was the first.
   bool append(const GlobalSample& sample);
   /// Continues the files of these global quantities, without the lines after `time` [s].
   void resume(const std::vector<std::string>& globals, double time);

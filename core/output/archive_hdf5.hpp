@@ -15,8 +15,8 @@ namespace tushar::output {
 /// The version of HDF5 in use.
 std::string hdf5Version();
 
-/// A dataset of another file that is shown as a box of a virtual dataset. `file` is relative to the folder of the
-/// latter, or `.` for the same file.
+/// A dataset that is shown as a box of a virtual dataset. `file` is the file that contains it, relative to the folder
+/// of the virtual dataset's file, or `.` if both are in the same file.
 struct VirtualPart {
   std::string file, dataset;
   std::vector<std::uint64_t> source;  ///< shape of the dataset; the part shown has the size of the box, or is the whole
@@ -29,11 +29,11 @@ struct VirtualPart {
 enum class Precision { asAsked, full };
 
 /// Writes one HDF5 file. It neither needs nor initialises MPI. Each function may throw FileError with the path and the
-/// reason: that of the system or, failing that, the innermost error of HDF5, whose own printing is suppressed.
+/// reason: the system's or, if the system gives none, HDF5's innermost error. HDF5 itself prints no errors.
 class Hdf5File {
  public:
-  /// Creates the file, replacing an existing one. Real numbers are stored in 4 bytes if `doubleAsFloat`, and all are
-  /// packed by gzip at level `compression` if that is above 0.
+  /// Creates the file, replacing an existing one. Real numbers are stored in 4 bytes if `doubleAsFloat` is true; all
+  /// numbers are packed by gzip if its level `compression` is above 0.
   Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression);
   /// Closes the file if close() was not called; errors are then lost.
   ~Hdf5File();
@@ -42,8 +42,9 @@ class Hdf5File {
 
   /// Makes a group such as `/particles/gas`, and its parent groups.
   void group(const std::string& name);
-  /// Writes an array as a dataset of shape `shape` × components (the last only if there are several), with the
-  /// attributes unit and description. Its parent groups are made. Values of a source are written piece by piece.
+  /// Writes an array as a dataset with the attributes unit and description, and makes its parent groups. The shape of
+  /// the dataset is `shape`, followed by the number of components if there are several. Values of a source are written
+  /// piece by piece.
   void dataset(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape,
                Precision precision = Precision::asAsked);
   /// Prepares a dataset whose values are written later: allocates contiguous space for them and returns where it starts
@@ -53,11 +54,11 @@ class Hdf5File {
   /// `skipped` HDF5's mask of filters.
   void chunk(const std::string& name, const std::vector<unsigned long long>& corner, std::uint32_t skipped,
              std::span<const std::byte> bytes);
-  /// Writes a text of any length as a dataset. Its parent groups are made.
+  /// Writes a text of any length as a dataset, and makes its parent groups.
   void text(const std::string& name, const std::string& value);
   /// Makes a dataset of real numbers, or of integers if `type` has integers, that shows parts of other datasets and
-  /// stores no numbers itself. Entries that no part covers are NaN or 0. Where it shows parts of this file, it has
-  /// their type. Parts come in the order of their first entries.
+  /// stores no numbers itself. Entries that no part covers are NaN or 0. If it shows parts of this file, it has their
+  /// type. `parts` must be sorted by their first entries.
   void virtualDataset(const std::string& name, const Array::Values& type, const std::vector<std::uint64_t>& shape,
                       const std::vector<VirtualPart>& parts);
   /// Writes 0, 1, 2, … as signed integers of 8 bytes.

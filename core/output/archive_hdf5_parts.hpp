@@ -28,8 +28,7 @@ class Hdf5Parts {
     std::size_t others = 0;
   };
   /// Reads parts in any order; contiguous parts are read together, and numbers that belong to several parts are read
-  /// once.
-  /// DamageError where the numbers that all ranks read are not those that were written.
+  /// once. Throws DamageError if the numbers that the ranks have read are not those that were written.
   void read(std::vector<Part> parts) const;
 
  private:

@@ -30,7 +30,7 @@ class ArchiveIndex {
   static std::size_t sizeOf(const std::string& text, int step) { return ArchiveIndex("", text, step).outputs_.size(); }
   /// The reason why an archive cannot be read (its index has a newer format); empty if it can.
   static std::string refusalOf(const std::string& text);
-  /// The name of a variable, given the name of its datasets, in which some characters may be replaced.
+  /// The name of the variable whose datasets have a given name, in which some characters may have been replaced.
   std::string labelOf(const std::string& nameInFile) const;
   /// The steps of all outputs, ascending.
   std::vector<int> steps() const;

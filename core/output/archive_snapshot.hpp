@@ -15,10 +15,10 @@ namespace tushar::output {
 
 class FileInFlight;
 
-/// A snapshot that is being written to an HDF5 file, under a temporary name until it is complete. When one is made, the
-/// values have been taken over, and `behind` brings them to the file. All ranks make one, each with the values that it
-/// has. Both functions throw FileError on a rank that cannot write, FailedElsewhere on the others; no file is left
-/// then.
+/// A snapshot that is being written to an HDF5 file, which has a temporary name until it is complete. The constructor
+/// copies the values, and `behind` then writes them to the file. All ranks construct one, each with its own values. The
+/// constructor and finish() throw FileError on a rank that cannot write, and FailedElsewhere on the others; no file is
+/// left then.
 class SnapshotInFlight {
  public:
   /// `writers` and `behind` must outlive this object.
@@ -26,8 +26,8 @@ class SnapshotInFlight {
                    const Writers& writers, Behind& behind);
   ~SnapshotInFlight();
   SnapshotInFlight(SnapshotInFlight&&) noexcept;
-  /// Waits until the file is complete, and renames it to its final name. Collective on `ranks`: those of the writers,
-  /// or the first alone where it is the only writer.
+  /// Waits until the file is complete, and renames it to its final name. Collective on `ranks`: the ranks of the
+  /// writers, or rank 0 alone if it is the only writer.
   void finish(const mpi::Communicator& ranks);
   /// Time and size of compression on this rank, once the file is finished.
   PackingUse packing() const;

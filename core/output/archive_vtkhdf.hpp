@@ -22,8 +22,8 @@ class VtkHdfIndex {
   /// `scratch` must outlive this object.
   explicit VtkHdfIndex(Scratch& scratch) : boxes_(scratch) {}
 
-  /// Adds the XDMF grid of an output in a block (`cells`, `nodes`, or a material); replaces an earlier output of the
-  /// same step.
+  /// Adds an output of a block (`cells`, `nodes`, or a material), described by its XDMF grid; replaces an earlier
+  /// output of the same step.
   void add(const std::string& block, int step, const pugi::xml_node& grid);
   /// Forgets all outputs.
   void forget();

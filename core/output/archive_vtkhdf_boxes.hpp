@@ -19,8 +19,9 @@ class ShownBoxes {
   void add(const pugi::xml_node& grid, ShownOutput& output);
   /// Whether any output contained a spatial collection.
   bool any() const { return any_; }
-  /// Writes a VTKHDF file of type OverlappingAMR, of virtual datasets. No box lies over another: where cells are
-  /// refined, there are no coarser ones. Layout: VTKHDF 2.2. Outputs ascend in time.
+  /// Writes a VTKHDF file of type OverlappingAMR (layout: VTKHDF 2.2) that consists of virtual datasets. Despite the
+  /// name of the type, boxes do not overlap: where cells are refined, there are no coarser cells. `outputs` must be
+  /// sorted by time.
   void write(Hdf5File& file, const std::vector<const ShownOutput*>& outputs) const;
 
  private:

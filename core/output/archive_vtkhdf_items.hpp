@@ -32,7 +32,7 @@ struct LevelRows {
   std::uint32_t boxes;
   std::uint64_t place;  ///< place in the scratch file, which has six 32-bit numbers for each box: first and last cell
                         ///< along x, y, z
-  std::uint64_t first, rows;  ///< cells
+  std::uint64_t first, rows;  ///< first row, and number of rows; each cell is a row
 };
 
 /// An output of a block.
@@ -65,7 +65,7 @@ std::vector<Number> numbersIn(const char* text) {
 /// The dataset to which an XDMF DataItem refers; `count` is set to the number of entries if it is a list.
 Item itemOf(const pugi::xml_node& node, std::uint64_t& count);
 
-/// The items of the attributes of an XDMF grid, which may be rows of datasets, and of its points.
+/// The items of the points and of the attributes of an XDMF grid; an attribute may consist of some rows of a dataset.
 Items itemsOf(const pugi::xml_node& grid, std::uint64_t& count);
 
 /// The path of an object in a VTKHDF file.

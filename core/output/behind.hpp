@@ -13,7 +13,8 @@ namespace tushar::output {
 
 /// A thread that runs jobs in order while the caller continues. Each job has a buffer, and the total size of all
 /// buffers is bounded: if the bound is reached, the caller waits. The first failure is kept, and later jobs are
-/// abandoned, so that a process that fails still takes part in collective operations. To be called from one thread.
+/// abandoned, so that a process that fails still takes part in collective operations. All functions must be called from
+/// the same thread.
 class Behind {
  public:
   Behind() = default;
@@ -22,7 +23,8 @@ class Behind {
   Behind(const Behind&) = delete;
   Behind& operator=(const Behind&) = delete;
 
-  /// Sets the largest total size of all buffers; 0: each job runs at once. Waits for all jobs, and clears a failure.
+  /// Sets the largest total size of all buffers; if it is 0, put() runs each job itself. Waits for all jobs, and clears
+  /// a failure.
   void setMost(std::size_t bytes);
   std::size_t most() const { return most_; }
 

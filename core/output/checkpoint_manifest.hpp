@@ -43,7 +43,8 @@ struct Inspection {
 /// the XXH64 of the XXH64s of its blocks of 2^24 bytes.
 Inspection inspect(const std::filesystem::path& folder, const mpi::Communicator& ranks = mpi::Communicator::alone());
 
-/// Describes the damage in a folder, including the parts; empty if there is none. Collective; all get the same result.
+/// Inspects a folder, including the parts, and describes the damage; empty if there is none. Collective; all ranks get
+/// the same result.
 std::string damageOf(const std::filesystem::path& folder, const mpi::Communicator& ranks = mpi::Communicator::alone());
 
 /// Exception for a damaged part; its text is that of Inspection::damage.
@@ -51,8 +52,8 @@ class DamageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Parts that are checked while ranks read the bytes that they need. Collective; where it throws DamageError, all ranks
-/// do.
+/// Parts of files that are checked while ranks read the bytes that they need. All functions are collective; if one
+/// throws DamageError, it does so on all ranks.
 class CheckedParts {
  public:
   /// `ranks` must outlive this object.

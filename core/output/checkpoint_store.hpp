@@ -14,7 +14,7 @@ namespace tushar::output {
 ///
 ///     sod.uda.001/checkpoints/LATEST     the name of the newest, `t00050`
 ///                             t00040/    the one before
-///                             t00050/    files, and the manifest, which shows whether they are as they were written
+///                             t00050/    files, and the manifest, with their checksums
 ///
 /// A checkpoint is written under a temporary name, flushed to the disk, and then renamed. Only then is LATEST replaced
 /// (by a rename, too), and only then is the oldest checkpoint removed. So a run that is killed, or finds the disk full,

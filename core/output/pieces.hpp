@@ -20,7 +20,7 @@ struct Piece {
 /// written. On several ranks, which wait for each other at each piece, it should be small compared with 64 MB.
 std::size_t mostOfPiece(const Writers& writers);
 
-/// Size of an entry in memory, and of all entries on all ranks [bytes].
+/// Size of an entry in memory; `bytesOf`: size of all entries on all ranks [bytes].
 std::size_t entryBytes(const Array& array);
 std::uint64_t bytesOf(const Array& array);
 
@@ -31,8 +31,8 @@ class Pieces {
   /// `writers` must outlive this object.
   explicit Pieces(const Writers& writers) : writers_(&writers), outbox_(writers.ranks()) {}
 
-  /// Sends each writer its piece of the array, which must have a source; `of[w]` is for writer w. Returns the entries
-  /// of this rank's own piece, stored in `into`, which is enlarged if necessary. Collective.
+  /// Sends each writer its piece of the array, which must have a source; `of[w]` is the piece of writer w. Returns the
+  /// entries of this rank's own piece, stored in `into`, which is enlarged if necessary. Collective.
   std::span<std::byte> bring(const Array& array, std::span<const Piece> of, std::vector<std::byte>& into);
 
  private:

@@ -19,8 +19,9 @@ struct RunRecord {
   int step = 0;  ///< step from which the run starts
 };
 
-/// `run.json` in the folder of an archive: a list of the runs that wrote to it, each start and restart, with dates
-/// (UTC). Dates are not stored in outputs, so that equal results have equal bytes. A run without an end was killed.
+/// The file `run.json` in the folder of an archive: a list of the runs that wrote to the archive, with dates (UTC);
+/// each start and each restart is an entry. Dates are not stored in outputs, so that equal results have equal bytes. A
+/// run without an end was killed.
 class RunLog {
  public:
   /// The format of the archive, raised when an older sus would mistake a newer archive for a damaged one. 2: the
@@ -29,8 +30,8 @@ class RunLog {
 
   /// The reason why a file with this text must not be extended (a newer version has written it); empty if it may be.
   static std::string refusalOf(const std::string& text);
-  /// Adds a run that starts now. A file that cannot be read is moved to `run.json.damaged`. FileError if it cannot be
-  /// written.
+  /// Adds a run that starts now. A file that cannot be read is moved to `run.json.damaged`. Throws FileError if the
+  /// file cannot be written.
   RunLog(const std::filesystem::path& folder, const RunRecord& record);
   /// If the run has no end yet, records `error` and exit code 1.
   ~RunLog();

@@ -32,8 +32,8 @@ struct Storage {
 /// An HDF5 file that ranks write together: rank 0 creates it, calls `header` for contents that only rank 0 has, and
 /// writes the datasets whose values are in memory; all ranks contribute the values of datasets that have a source. The
 /// bytes do not depend on the number of ranks and writers, or on time steps made meanwhile: the constructor copies the
-/// values, and `behind` writes them to the file. Collective: all ranks must pass the same datasets. Both functions
-/// throw FileError on a rank that cannot write, and FailedElsewhere on the others; the caller then removes the
+/// values, and `behind` writes them to the file. Collective: all ranks must pass the same datasets. The constructor and
+/// finish() throw FileError on a rank that cannot write, and FailedElsewhere on the others; the caller then removes the
 /// incomplete file.
 class FileInFlight {
  public:
@@ -44,8 +44,8 @@ class FileInFlight {
   FileInFlight(const FileInFlight&) = delete;
   FileInFlight& operator=(const FileInFlight&) = delete;
 
-  /// Waits until the file is complete, and closes it. Collective on `ranks`: those of the writers, or the first alone
-  /// where it is the only writer.
+  /// Waits until the file is complete, and closes it. Collective on `ranks`: the ranks of the writers, or rank 0 alone
+  /// if it is the only writer.
   void finish(const mpi::Communicator& ranks);
   /// The byte ranges in the file of all datasets with a source; empty if the file is compressed.
   const std::vector<ByteRange>& places() const { return places_; }

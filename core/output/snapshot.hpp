@@ -53,8 +53,8 @@ struct FieldBlock {
   Array array;
 };
 
-/// A box of cells on one level: [lower, upper), counted from the corner of the domain along x, y, z.
-/// Their width is that of the grid over 2^level along the axes that the scene uses.
+/// A box of cells on one level: [lower, upper), counted from the corner of the domain along x, y, z. Along the axes
+/// that the scene uses, their width is GridInfo::spacing divided by 2^level.
 struct GridBox {
   int level = 0;
   Index3 lower{}, upper{};

@@ -6,17 +6,19 @@
 
 namespace tushar::output {
 
-/// The ranks that write files together. Those among them that write the bytes are the writers; the first is rank 0.
+/// The ranks that take part in writing files, and the writers among them, which write the bytes. The first writer is
+/// rank 0.
 class Writers {
  public:
   /// A single process, which is the only writer.
   Writers() : Writers(mpi::Communicator::alone(), {0}) {}
   /// Writers with these rank indices, ascending from 0. `ranks` must outlive this object.
   Writers(const mpi::Communicator& ranks, std::vector<int> writers);
-  /// Selects `count` evenly spaced ranks (as given on rank 0), at most all; 0: one rank on each node. Collective.
+  /// Selects `count` evenly spaced ranks as writers, at most all ranks; if `count` is 0, one rank on each node. The
+  /// value of `count` on rank 0 applies to all ranks. Collective.
   static Writers spread(const mpi::Communicator& ranks, int count);
 
-  /// Only those ranks that pass `true`, and rank 0. Collective.
+  /// Returns a selection whose writers are those ranks that pass `true`, and rank 0. Collective.
   Writers only(bool mine) const;
 
   const mpi::Communicator& ranks() const { return *ranks_; }

@@ -39,7 +39,8 @@ class Intersection : public GeometryPiece {
   std::vector<PiecePtr> pieces_;
 };
 
-/// The points inside the first piece and outside the second; the faces of the second piece do not belong to it.
+/// The points inside the first piece and outside the second; the faces of the second piece do not belong to the
+/// difference.
 class Difference : public GeometryPiece {
  public:
   Difference(PiecePtr from, PiecePtr taken) : from_(std::move(from)), taken_(std::move(taken)) {}

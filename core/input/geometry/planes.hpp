@@ -12,8 +12,8 @@
 
 namespace tushar::input {
 
-/// A polygon in the plane z = 0, and all points within 1e-5 m of it, as in Uintah. A ray from the point crosses its
-/// sides an odd number of times.
+/// A polygon in the plane z = 0, extended to all z within 1e-5 m of this plane, as in Uintah. A point is inside if a
+/// ray from it crosses the sides of the polygon an odd number of times.
 class Polygon : public GeometryPiece {
  public:
   /// Constructs a polygon from at least three corners, in order around it; their z coordinates are ignored.
@@ -26,8 +26,9 @@ class Polygon : public GeometryPiece {
   Box3 bounds_;
 };
 
-/// The corners of a polygon: a line `x y` for each, in the file `path`. If a line is malformed, there are fewer than
-/// three, or there is no such file, reports an error at `tag` and returns no corners.
+/// Reads the corners of a polygon from the file `path`, which has one line `x y` for each corner. If the file is
+/// missing, a line is malformed, or there are fewer than three corners, reports an error at `tag` and returns no
+/// corners.
 std::vector<Vec3> readPolygon(const std::string& path, const Element& tag, Diagnostics& diagnostics);
 
 /// A half-space, bounded by a plane; the normal of the plane points into the body.

@@ -8,9 +8,9 @@
 namespace tushar::input {
 
 // `contains` treats faces as Uintah does, with the same formulas in the same order, so that rounding has the same
-// effect: the faces of boxes, cylinders, cones and spheres belong to them; of a parallelepiped only the far ones do, of
-// a torus none; an ellipsoid's reaches 1e-12 (of the sum) beyond it. `owns` leaves out the flat upper faces (max, top,
-// far from p1), as for cells.
+// effect: boxes, cylinders, cones and spheres include their faces; a parallelepiped includes only the faces far from
+// p1, and a torus none; an ellipsoid includes points at which the sum in its inequality exceeds 1 by less than 1e-12.
+// `owns` excludes the flat upper faces (at max, at the top, far from p1), as a half-open cell does.
 
 /// A box: the points p with min <= p <= max along each axis.
 struct Box : GeometryPiece {
@@ -45,8 +45,8 @@ struct Ellipsoid : GeometryPiece {
   static const Schema<Ellipsoid>& schema();
 };
 
-/// A cone: with s from 0 at the bottom to 1 at the top, 0 <= s <= 1 and distance from the axis <= radius(s), linear in
-/// s.
+/// A cone: the points with 0 <= s <= 1 whose distance from the axis is at most radius(s). The coordinate s along the
+/// axis is 0 at the bottom and 1 at the top; radius(s) is linear.
 struct Cone : GeometryPiece {
   Vec3 bottom = Vec3::Zero();
   Vec3 top = Vec3::Zero();
