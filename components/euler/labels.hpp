@@ -25,8 +25,7 @@ template <int D>
 inline constexpr CellLabel<Vec<D>> mach{"c.mach", "1", "Mach number: speed divided by the speed of sound"};
 inline constexpr CellLabel<double> internalEnergy{"c.internalEnergy", "J/kg", "internal energy per mass"};
 /// State variables of each gas, if there are several.
-inline constexpr CellLabel<double> gasMass{"c.gasMass", "kg/m^3",
-                                           "mass of one of several gases, per cell volume"};
+inline constexpr CellLabel<double> gasMass{"c.gasMass", "kg/m^3", "mass of one of several gases, per cell volume"};
 inline constexpr CellLabel<double> gasShare{"c.gasShare", "1", "fraction of the cell that one of several gases fills"};
 }  // namespace c
 

@@ -22,15 +22,15 @@ struct SimpleBurn {
   double coefficient = 0;        ///< burn rate at the reference pressure [kg/(m² s)]
   double referencePressure = 0;  ///< reference pressure [Pa]
 
-  /// kg/(m² s)
+  /// The burn rate [kg/(m² s)].
   double rate(const AtSurface& at) const {
     constexpr double exponent = 0.778;  // of Uintah's model, for the explosive PBX 9501
     return coefficient * std::pow(at.pressure / referencePressure, exponent);
   }
 };
 
-/// The steady deflagration of a solid, with a reaction in the solid and one in the gas close to it: its surface
-/// temperature T_s and its rate m satisfy
+/// The steady deflagration of a solid, with one reaction in the solid and another one in the gas close to it. The
+/// surface temperature T_s and the burn rate m satisfy
 ///
 ///   m² = A R k_c rho T_s² exp(-E / (R T_s)) / (E c (T_s - T_0 - Q_c / (2 c)))
 ///   T_s = T_0 + Q_c / c + Q_g / c / (1 + x m c / k_g),   x = 2 k_g / (c (sqrt(m² + 4 k_g B (W p)² / (c R²)) - m)).
@@ -70,7 +70,7 @@ struct SteadyBurn {
   }
 
  private:
-  /// Burn rate m of a surface with a given temperature [kg/(m² s)].
+  /// Burn rate m [kg/(m² s)] of a surface with the temperature `surface` [K].
   double rateAt(double surface, const AtSurface& at) const {
     const double reaction = solidFactor * gasConstant * solidConductivity * at.bodyDensity * surface * surface *
                             std::exp(-activationEnergy / (gasConstant * surface));
@@ -85,8 +85,8 @@ struct Decay {
   double startTime = 0;  ///< start time [s]
 };
 
-/// The time that a flame takes to cross a cell of explosive: a flame spreads along a surface with the speed F_b (p /
-/// p_0)^F_c, and into the body faster, by the factor 1 / I_c. Source: S. F. Son, B. W. Asay, E. M. Whitney & H. L.
+/// The time that a flame takes to cross a cell of explosive. Along a surface, a flame spreads with the speed F_b (p /
+/// p_0)^F_c; into the body, it is faster by the factor 1 / I_c. Source: S. F. Son, B. W. Asay, E. M. Whitney & H. L.
 /// Berghout, Proc. Combust. Inst. 31 (2007) 2063; the dependence on the angle is that of Uintah's DDT1.
 struct Induction {
   double inwards = 1;   ///< I_c [1]
@@ -94,13 +94,13 @@ struct Induction {
   double speed = 0;     ///< speed F_b [m/s]
   double exponent = 0;  ///< F_c [1]
 
-  /// Fraction of the time along the surface if the flame comes at an angle with this cosine to the normal: from I_c to
-  /// 1.
+  /// The time of a flame divided by its time along a surface, from I_c to 1. `cosine` belongs to the angle between the
+  /// path of the flame and the normal of the surface.
   double part(double cosine) const {
     const double along = 1 - 2 * cosine * cosine;  // sin(2 theta - pi/2)
     return 0.5 * (1 + inwards) + 0.5 * (1 - inwards) * along;
   }
-  /// The time [s] that a flame takes along a surface, over a width [m] at a pressure [Pa].
+  /// The time [s] that a flame takes to cover a width [m] along a surface at the pressure `at` [Pa].
   double time(double width, double at) const { return width / (speed * std::pow(at / pressure, exponent)); }
 };
 
@@ -113,16 +113,17 @@ struct Ddt {
   std::optional<Induction> induction;
 
   double rate(const AtSurface& at) const { return surface.rate(at); }
-  /// Whether gas at a pressure [Pa] burns in cracks of a radius [m]. Source: H. L. Berghout, S. F. Son, C. B. Skidmore,
-  /// D. J. Idar & B. W. Asay, Thermochim. Acta 384 (2002) 261, after Belyaev: p^2.84 w^2 > 8e8.
+  /// Whether gas at a pressure [Pa] burns in cracks with a radius [m]: p^2.84 w^2 > 8e8. Source: H. L. Berghout, S. F.
+  /// Son, C. B. Skidmore, D. J. Idar & B. W. Asay, Thermochim. Acta 384 (2002) 261, after Belyaev.
   static bool enterCracks(double pressure, double radius) {
     return pressure > 0 && std::pow(pressure, 2.84) * radius * radius > 8e8;
   }
-  /// The surface of cracks per volume of the body [1/m], as in Uintah: that of plates 2 mm thick.
+  /// The area of the surface of cracks per volume of the body [1/m], as in Uintah: that of plates with a thickness of 2
+  /// mm.
   static constexpr double surfaceOfCracks = 500;
 };
 
-/// A body that is converted into a gas, and how it burns.
+/// A body that is converted into a gas, and the law by which it burns.
 struct BurnModel {
   Location where;                  ///< in the scene
   std::string from, to;            ///< names of the two materials

@@ -17,7 +17,7 @@ void addMaterials(Schema<Section>& tags) {
       .required("toMaterial", &Section::to, "1", "name of the gas into which it is converted");
 }
 
-/// Declares the parameters of a steady deflagration; `pressure` is the name of the tag with the threshold.
+/// Declares the parameters of a steady deflagration; `pressure` is the name of the tag for the threshold pressure.
 template <class Section>
 void addSteadyBurn(Schema<Section>& tags, const char* pressure) {
   const auto of = [](double SteadyBurn::*number) -> double Section::* { return number; };

@@ -55,7 +55,7 @@ const Schema<SineSection>& sineSchema() {
   return schema;
 }
 
-/// Reads the section of BoundaryConditions that a condition requires.
+/// Reads the section of <BoundaryConditions> that a condition needs.
 template <class S>
 std::optional<S> sectionOf(const Schema<S>& schema, const Element& sides, const Element& condition,
                            Diagnostics& diagnostics) {
@@ -72,7 +72,7 @@ std::optional<S> sectionOf(const Schema<S>& schema, const Element& sides, const 
 std::vector<BoundaryCondition> readWaves(const std::string& label, const Element& sides, const Element& condition,
                                          Diagnostics& diagnostics) {
   const auto section = sectionOf(wavesSchema(), sides, condition, diagnostics);
-  // Whatever else has LODI goes with the waves.
+  // Variables with LODI other than the pressure need no condition: they follow the waves.
   if (!section || label != euler::boundary::pressure.name) return {};
   BoundaryCondition waves{euler::boundary::waves, BoundaryKind::dirichlet};
   waves.value = Vec3(section->farPressure, section->sigma, 0);

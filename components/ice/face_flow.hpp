@@ -20,8 +20,8 @@ struct IceSettings {
   solvers::LinearSettings solver = {};
 };
 
-/// A function that returns whether a cell has no slopes because of a body in it or next to it; empty if all cells have
-/// slopes.
+/// A function that returns whether a cell has no slopes, because a body is in it or next to it. If it is empty, all
+/// cells have slopes.
 template <int D>
 using IsFlat = std::function<bool(const Index<D>&)>;
 
@@ -29,8 +29,9 @@ using IsFlat = std::function<bool(const Index<D>&)>;
 template <int K>
 using LawsOf = std::conditional_t<K == 1, euler::Gas, euler::Mixture<K>>;
 
-/// To be called after separate changes of the components of several gases: scales masses and shares so that the shares
-/// add up to 1, and sets the density to the sum of the masses. Returns whether each mass and each share is at least 0.
+/// Makes a state of several gases consistent after its components have been changed separately: scales masses and
+/// shares so that the shares add up to 1, and sets the density to the sum of the masses. Returns whether each mass and
+/// each share is at least 0.
 template <int D, int K>
 bool closeState([[maybe_unused]] euler::State<D, K>& w) {
   if constexpr (K == 1) {
@@ -49,8 +50,8 @@ bool closeState([[maybe_unused]] euler::State<D, K>& w) {
   }
 }
 
-/// The state of one gas, or of K gases, before a step, including cells beyond sides of the grid, and the values
-/// prescribed at faces in these sides. A face is identified by an axis and the cell above it.
+/// The state of one gas, or of K gases, before a step, including cells beyond the sides of the grid, and the values
+/// prescribed at faces on these sides. A face is identified by an axis and by the cell above it.
 template <int D, int K = 1>
 class GasBefore {
  public:
@@ -81,16 +82,17 @@ class GasBefore {
   const euler::Rows<D, K>& old() const { return old_; }
   /// Speed of sound in a cell [m/s].
   double soundSpeed(const Index<D>& cell) const { return soundSpeed(cell, old_.number(cell, euler::kDensity)); }
-  /// Speed of sound in a cell [m/s] if its density [kg/m³] had the given value.
+  /// Speed of sound [m/s] that a cell would have with the given density [kg/m³].
   double soundSpeed(const Index<D>& cell, double density) const {
     const double pressure = old_.number(cell, euler::kPressure<D>);
     return std::sqrt(euler::lawIn<D>(gas_, old_.state(cell)).soundSpeedSquared(density, pressure));
   }
-  /// Fills `rows`, also beyond sides, with the old state but with another pressure in the cells of the grid.
+  /// Fills `rows` with the old state, but with the given pressure in the cells of the grid; cells beyond sides follow
+  /// from it.
   void fillWithPressure(const CellView<const double>& pressure, euler::Rows<D, K>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double) { return pressure[cell]; });
   }
-  /// Fills `rows` in the same way, given the change of the old pressure.
+  /// Like fillWithPressure, given the change of the old pressure.
   void fillWithChange(const CellView<const double>& change, euler::Rows<D, K>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double old) { return old + change[cell]; });
   }
@@ -116,12 +118,13 @@ class GasBefore {
     if (rule && rule->factor[euler::kVelocity(axis)] == 0) return rule->value[euler::kVelocity(axis)];
     return {};
   }
-  /// Whether a face lies in a side at which no pressure is given.
+  /// Whether a face lies on a side at which no pressure is given.
   bool isFree(const Index<D>& face, int axis) const {
     const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     return rule && rule->factor[euler::kPressure<D>] != 0;
   }
-  /// Whether a face lies in a side through which gas leaves: neither a pressure nor a velocity across it is given.
+  /// Whether a face lies on a side through which gas leaves: neither a pressure nor a velocity across the side is
+  /// given.
   bool isOpen(const Index<D>& face, int axis) const { return isFree(face, axis) && !givenVelocity(face, axis); }
   /// Density at a face, rho_f [kg/m³].
   double density(const Index<D>& face, int axis) const { return mean(old_, face, axis, euler::kDensity); }
@@ -129,8 +132,8 @@ class GasBefore {
   double stiffPressure(const Index<D>& face, int axis) const {
     return mean(old_, face, axis, euler::kPressure<D>) + gas_.pInfinity;
   }
-  /// Dt / (rho_f h) [m/(s Pa)]: the decrease of the normal velocity in a time dt [s] per Pa of pressure rise across the
-  /// face; 0 where pressure does not act.
+  /// dt / (rho_f h) [m/(s Pa)]: the decrease of the normal velocity in a time dt [s], per Pa by which the pressure
+  /// rises across the face; 0 where pressure does not act.
   double mobility(const Index<D>& face, int axis, double dt) const {
     if (isFree(face, axis) || givenVelocity(face, axis)) return 0;
     return dt * level_.inverseSpacing(axis) / density(face, axis);
@@ -156,7 +159,7 @@ class GasBefore {
     });
     euler::fillBeyondGrid<D>(level_, rules_, rows);
   }
-  /// The rule at a face in a side of the grid: the rule for the cell beyond it.
+  /// The rule at a face on a side of the grid, that is, for the cell beyond it; none at other faces.
   std::optional<euler::GhostRule<D>> ruleOf(const Index<D>& face, int axis) const {
     const bool isUpper = face[axis] == level_.cells().upper[axis];
     if (level_.isPeriodic(axis) || (face[axis] != 0 && !isUpper)) return {};
@@ -175,17 +178,17 @@ class GasBefore {
 ///
 ///   u_f = u*_f - dt / (rho_f h) (p'_R - p'_L),   u*_f = the mean of v - dt (v . grad) v of both cells + dt g,
 ///
-/// where rho_f is the mean density. At walls, and at sides with a Velocity, u_f is that velocity, whatever the
-/// pressure. Other sides without a Pressure are open: no wave enters through them. With n outwards, p_o = p + rho g_n h
-/// / 2 in the centre of the side, and the cell c next to it,
+/// where rho_f is the mean density. At walls, and at sides with a Velocity, u_f is the velocity given there, whatever
+/// the pressure. Other sides without a Pressure are open: no wave enters through them. With the outward normal n, the
+/// pressure p_o = p + rho g_n h / 2 at the centre of the side, and the adjacent cell c,
 ///
 ///   u_n = v_n,c + (p'_f - p_o + r) / (rho_f c) = u*_n,c - dt / (rho_f h / 2) (p'_f - p'_c),
 ///
 /// where r is the loss of the incoming wave if the side relaxes to a far-field pressure, and 0 otherwise.
 ///
-/// Only the change p' - p is used, so that gas at rest is not moved by round-off of p.
+/// Only the change p' - p is used, so that round-off of p does not move gas at rest.
 /// Sources: F. H. Harlow & A. A. Amsden, J. Comput. Phys. 8 (1971) 197; N. Kwatra, J. Su, J. T. Gretarsson & R. Fedkiw,
-/// J. Comput. Phys. 228 (2009) 4146; K. W. Thompson, J. Comput. Phys. 68 (1987) 1, for open sides.
+/// J. Comput. Phys. 228 (2009) 4146; for open sides, K. W. Thompson, J. Comput. Phys. 68 (1987) 1.
 template <int D, int K = 1>
 class FaceFlow : public GasBefore<D, K> {
  public:
@@ -201,7 +204,7 @@ class FaceFlow : public GasBefore<D, K> {
         hasSlopes_(method.reconstruction != euler::Reconstruction::firstOrder),
         ahead_(this->old()) {}
 
-  /// Loads the faces of the cells in `box`; needs the state in two more layers.
+  /// Loads the faces of the cells in `box`; it needs the state in two more layers of cells.
   void hold(const Box& box, const euler::ViewsOf<D, K, const double>& before) {
     GasBefore<D, K>::hold(box.grown(2, D), before);
     ahead_ = this->old();
@@ -223,14 +226,14 @@ class FaceFlow : public GasBefore<D, K> {
     return this->mean(ahead_, face, axis, euler::kVelocity(axis)) + dt_ * this->gravity()[axis] -
            this->mobility(face, axis, dt_) * rise;
   }
-  /// The decrease of u_f per increase of pressure in the cell above the face, which equals its increase per increase in
-  /// the cell below [m/(s Pa)]; beyond a side, the pressure does not change.
+  /// The decrease of u_f per increase of the pressure in the cell above the face [m/(s Pa)]. It equals the increase of
+  /// u_f per increase of the pressure in the cell below. The pressure beyond a side does not change.
   double loss(const Index<D>& face, int axis) const {
     if (!this->isOpen(face, axis)) return this->mobility(face, axis, dt_);
     const OpenSide side = openSide(face, axis);
     return side.lightness * side.push / (side.push + side.lightness);
   }
-  /// p' [Pa] in an open side if the pressure of the adjacent cell changes by `change` [Pa].
+  /// p' [Pa] on an open side if the pressure of the adjacent cell changes by `change` [Pa].
   double openPressure(const Index<D>& face, int axis, double change) const {
     const OpenSide side = openSide(face, axis);
     return side.pressure +

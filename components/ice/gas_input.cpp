@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* solverTag = "Solver";
 
-/// Reports invalid conditions of the gas: invalid values, and derivatives other than 0.
+/// Reports conditions of the gas that are not available: invalid values, and derivatives other than 0.
 void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
   const auto text = condition.child("value");
@@ -62,7 +62,8 @@ void checkConditions(const Element& root, int gas, int gases, Diagnostics& diagn
   }
 }
 
-/// Reports a condition that contradicts the others of its face: a wall that slips, or a side that lets waves out.
+/// Reports a condition that another one of its face excludes. `slips`: the face is a wall that slips; `relaxes`: it
+/// lets waves out.
 void checkBeside(const Element& condition, bool slips, bool relaxes, Diagnostics& diagnostics) {
   const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
   const bool isGiven = var == nameOf(BoundaryKind::dirichlet);
@@ -96,7 +97,7 @@ void checkWords(const Element& root, Diagnostics& diagnostics) {
 
 bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }
 
-/// Notes sections for implicit steps that have no effect in Tushar.
+/// Notes sections for implicit steps that have no effect here.
 void noteIdle(const Element& root, const IceSection& ice, bool isImplicit, Diagnostics& diagnostics) {
   if (const auto solver = root.child(solverTag))
     diagnostics.note(*solver, isImplicit ? "does nothing: the settings of the solve are in <ImplicitSolver>"
@@ -152,7 +153,7 @@ void refuseBesideBodies(const Element& root, const IceSection& ice, Diagnostics&
   if (ice.push) diagnostics.error(*tag.child("fixedPressureGradient"), sentence);
 }
 
-/// Sorts the models of a scene. Exchanges of mass from a body to a gas are treated as burning.
+/// Distributes the models of a scene over its settings. Exchanges of mass from a body to a gas are treated as burning.
 void takeModels(ModelsSection& models, const Element& root, int solids, GasScene& scene, Diagnostics& diagnostics) {
   scene.scalars = std::move(models.scalars);
   scene.massExchanges = std::move(models.massExchanges);

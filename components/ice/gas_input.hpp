@@ -17,7 +17,8 @@
 
 namespace tushar::ice {
 
-/// Values for each pair of materials, the upper triangle of their matrix row by row: Uintah's `exchange_coefficients`.
+/// Uintah's `exchange_coefficients`: values for each pair of materials, which are the upper triangle of a matrix, row
+/// by row.
 struct Exchange {
   Location where;                ///< in the scene
   std::vector<double> momentum;  ///< momentum exchange coefficients [kg/(m³ s)]
@@ -58,7 +59,7 @@ struct GasScene {
   std::optional<ImplicitPressure> implicit = {};
   Heating heating = {};
   std::vector<ScalarSettings> scalars = {};  ///< scalars that are transported with the gas
-  /// If there are several gases: each of them, with its initial state; `gas` above is the first.
+  /// If there are several gases, each of them with its initial state; the first is also in `gas`.
   std::vector<euler::Settings> mixture = {};
   std::vector<euler::Diffusion> diffusions = {};  ///< diffusion of each gas, if there are several
   std::vector<MassExchange> massExchanges = {};   ///< mass exchanges between gases
@@ -74,19 +75,19 @@ inline constexpr const char* pressureOnOneLevel =
 /// Advice if a run fails.
 inline constexpr const char* adviceForGas = "a smaller CFD/cfl, or CFD/ICE/advection of type FirstOrder";
 
-/// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> except its MPM, and the boundary conditions of the grid.
-/// Throughout the scene the gas is numbered after the `solids` materials of MPM. Every problem goes to the diagnostics.
+/// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> except its MPM, and the boundary conditions of the grid. In
+/// the scene, the `solids` materials of MPM come before the gas. Reports every problem to the diagnostics.
 GasScene readGas(const input::Element& root, int solids, input::Diagnostics& diagnostics);
 
 /// The forms of the sections that readGas reads or accepts, for a component without further sections.
 std::vector<simulation::SectionForm> gasForms();
-/// The names of these sections.
+/// The names of the sections in gasForms.
 std::vector<std::string> gasSections();
 /// The variables for which boundary conditions may be given.
 std::vector<grid::BoundaryVariable> gasBoundaryLabels();
 /// The types of boundary conditions; oscillating ones only if conditions may depend on time.
 simulation::ConditionWords gasConditionWords(bool mayDependOnTime);
-/// Writes the manual of the sections.
+/// Writes the manual of the sections in gasForms.
 void describeGas(std::ostream& out);
 
 }  // namespace tushar::ice

@@ -14,8 +14,8 @@ using input::Element;
 
 namespace {
 
-/// Notes that a given pressure differs from the one that follows from density and temperature; as in Uintah, it is
-/// ignored.
+/// Notes that a given pressure has no effect if it differs from the one that follows from density and temperature; it
+/// is ignored, as in Uintah.
 void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
   if (!body.pressure) return;
   if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;
@@ -28,7 +28,8 @@ void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element
         fmt::format("does nothing: the pressure follows from density and temperature, and is {:g} Pa", pressure));
 }
 
-/// The Dirichlet condition of a face that applies to the gas, if there is one; the pressure is shared with material 0.
+/// The Dirichlet condition of a face that applies to the gas, if there is one; for the pressure, this may be the
+/// condition of material 0.
 std::optional<Element> dirichletOf(const Element& face, const grid::BoundaryVariable& label, int gas) {
   const bool isShared = label.name == euler::boundary::pressure.name;
   for (const Element& condition : face.children("BCType")) {
@@ -40,7 +41,8 @@ std::optional<Element> dirichletOf(const Element& face, const grid::BoundaryVari
   return {};
 }
 
-/// Checks that density, pressure and temperature agree at faces where all three are given: two determine the third.
+/// Checks that density, pressure and temperature agree at faces where all three are given, since two determine the
+/// third.
 void checkInflows(const Element& root, const euler::Gas& gas, Diagnostics& diagnostics) {
   const auto sides = root.child("Grid") ? root.child("Grid")->child("BoundaryConditions") : std::nullopt;
   if (!sides) return;
@@ -78,9 +80,9 @@ bool isShareOf(const GasBody& body, double share) {
   return body.share && body.share->isConstant() && (*body.share)(Vec3::Zero()) == share;
 }
 
-/// Reads a gas and its initial state into the settings that it shares with other gases. `besideBodies`: a region with
-/// the volume fraction 0 of the only gas belongs to a body; any space that the body leaves contains the surrounding
-/// gas.
+/// Reads a gas and its initial state into the settings that it shares with other gases. With `besideBodies`, a region
+/// in which the only gas has the volume fraction 0 belongs to a body; if the body does not fill it, the surrounding gas
+/// does.
 void readMaterial(const GasMaterial& material, const Element& element, bool besideBodies, euler::Settings& settings,
                   Diagnostics& diagnostics) {
   settings.name = material.name;
@@ -107,7 +109,7 @@ void readMaterial(const GasMaterial& material, const Element& element, bool besi
   }
 }
 
-/// Checks that a single gas fills its regions, unless bodies fill the rest.
+/// Checks that a single gas fills its regions; beside bodies, it may also leave a region to them.
 void checkShares(const GasMaterial& material, bool besideBodies, Diagnostics& diagnostics) {
   for (const GasBody& body : material.bodies)
     if (body.share && !isShareOf(body, 1) && !(besideBodies && isShareOf(body, 0)))

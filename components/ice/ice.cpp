@@ -169,7 +169,8 @@ template class Ice<3>;
 
 namespace {
 
-/// The smallest number of cells of a block: the tasks for several gases need more ghosts than those for one.
+/// The smallest number of cells along an axis of a block; the tasks for several gases need more ghosts than those for
+/// one.
 int cellsOfBlocks(const input::Element& root) {
   const auto properties = root.child("MaterialProperties");
   const auto gases = properties ? properties->child("ICE") : std::nullopt;

@@ -44,19 +44,20 @@ class Ice : public euler::Euler<D> {
   void scheduleStepsOfScalars(TaskList& tasks) const;
   /// Adds viscosity, conduction and a driving force, after the step of the gas.
   void scheduleDiffusion(TaskList& tasks) const;
-  /// Adds the limit of the time step for a varying viscosity, together with the given fraction of the speed of sound.
+  /// Adds the task that limits the time step by a varying viscosity, together with the given fraction of the speed of
+  /// sound.
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
 
  private:
   CarriedScalars scalars_;
-  IceSettings acting_;  ///< settings with uniform diffusion only; without diffusion if it varies
+  IceSettings acting_;  ///< settings of the step; they contain the diffusion only if it is uniform
   euler::VaryingDiffusion varying_;
   Vec3 push_;  ///< driving force per volume [N/m³]
   Heating heating_;
 };
 
-/// A gas with implicit steps: the pressure at the end of a step solves a linear system, and determines the flow of
-/// mass, momentum and energy.
+/// A gas with implicit steps. The pressure at the end of a step solves a linear system; it determines the flow of mass,
+/// momentum and energy.
 template <int D>
 class ImplicitIce : public Ice<D> {
  public:

@@ -11,14 +11,15 @@
 
 namespace tushar::ice {
 
-/// A region of a scalar, with its initial value or its source.
+/// A region with the initial value of a scalar, or with its source.
 struct ScalarRegion {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
   input::Expression value;  ///< value of the scalar, or its increase in each step
   double most = 0;          ///< largest value after the increase
   bool isSine = false, isLinear = false;
-  /// Factor sin(2 pi waves_a d_a) along each axis, where d runs from 0 to 1 through the region.
+  /// Number of waves along each axis: the value has a factor sin(2 pi waves_a d_a), where d_a runs from 0 to 1 through
+  /// the region.
   Vec3 waves = Vec3::Zero();
   Vec3 slope = Vec3::Zero();  ///< slope in the term slope . d, which is added to the value
 
@@ -51,7 +52,7 @@ class CarriedScalar {
   const ReductionLabel<Sum>& total() const { return total_; }
   /// The label for boundary conditions.
   const BoundaryLabel<double>& atSides() const { return atSides_; }
-  /// Uintah's name of the variable, and the one in Tushar.
+  /// The name of the variable in Uintah, and its name in Tushar.
   std::pair<std::string, std::string> names() const { return {words_[0], words_[1]}; }
 
  private:

@@ -73,7 +73,7 @@ void setWindOfVortices(double amplitude, const Vec3& x, Vec3& velocity) {
   velocity[0] = 1 - amplitude * std::cos(x[0]) * std::sin(x[1]);
   velocity[1] = 1 + amplitude * std::sin(x[0]) * std::cos(x[1]);
 }
-/// Pressure [Pa] of the flow for a density of 1 kg/m³, as in Uintah.
+/// Pressure [Pa] of the flow mms_1 for a density of 1 kg/m³, as in Uintah.
 double pressureOfWind(double amplitude, const Vec3& x) {
   return 101325 - amplitude * amplitude / 4 * (std::cos(2 * x[0]) + std::cos(2 * x[1]));
 }

@@ -30,7 +30,7 @@ struct GaussianTemperature {
   double spreadX = 0, spreadY = 0;  ///< spread x and spread y [m]
 };
 
-/// The tag `<counterflow>`: v_x = -a (x - m_x), v_y = a (y - m_y), where m is half the lengths of the grid.
+/// The tag `<counterflow>`: v_x = -a (x - m_x), v_y = a (y - m_y), where m_x and m_y are half the lengths of the grid.
 /// Source: C. S. Yoo, Y. Wang, A. Trouvé & H. G. Im, Combust. Theory Model. 9 (2005) 617.
 struct Counterflow {
   double strainRate = 0;  ///< strain rate a [1/s]
@@ -45,7 +45,7 @@ struct Manufactured {
   double angle = 0;
 };
 
-/// The properties of the gas and the grid that initial states need.
+/// The properties of the gas and of the grid on which initial states depend.
 struct StartPlace {
   double density = 0;          ///< density [kg/m³]
   double gasConstant = 0;      ///< gas constant R [J/(kg K)]
@@ -59,7 +59,7 @@ struct CustomStart {
   std::optional<Counterflow> counterflow;
   std::optional<Manufactured> manufactured;
 
-  /// The reason why this initial state is not available for a number of gases; empty if it is.
+  /// The reason why this initial state is not available for `gases` gases; empty if it is available.
   std::string problem(std::size_t gases) const;
   /// Changes the velocity [m/s] and the temperature [K] at a point [m].
   void apply(const Vec3& point, const StartPlace& place, Vec3& velocity, double& temperatureThere) const;

@@ -24,7 +24,7 @@ struct Settings {
   solvers::LinearSettings solver;
 };
 
-/// div(k grad phi) = f in D dimensions, by finite volumes, solved in every step with f at its end.
+/// div(k grad phi) = f in D dimensions, by finite volumes; each step solves it with f at the end of the step.
 ///
 /// A face with a Dirichlet condition for `Phi` has the given value, one with a Neumann condition the given outward
 /// derivative; any other face has no flux. Without any Dirichlet condition, phi has mean 0, and a source that is not
@@ -45,7 +45,7 @@ class Poisson : public Component {
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> phi);
 
-/// References to the totals of the last solve.
+/// References to the totals that report on the solve of a step.
 struct SolveTotals {
   Maximum &iterations, &finalResidual, &assembly, &preconditioner, &solution;
 

@@ -88,10 +88,9 @@ TEST(EulerScene, LetsALaterObjectCountWhereTwoOverlap) {
 }
 
 TEST(EulerScene, NamesAFormulaWhoseDensityIsNotPositive) {
-  EXPECT_EQ(
-      problemOf(changedScene("<density>1</density>", "<density>x-0.005</density>")),
-      "density 0 kg/m^3, pressure 1 Pa and velocity (0, 0, 0) m/s at (0.005, 0.5, 0.5); expected a positive "
-      "density and pressure + p_infinity, and finite values");
+  EXPECT_EQ(problemOf(changedScene("<density>1</density>", "<density>x-0.005</density>")),
+            "density 0 kg/m^3, pressure 1 Pa and velocity (0, 0, 0) m/s at (0.005, 0.5, 0.5); expected a positive "
+            "density and pressure + p_infinity, and finite values");
 }
 
 TEST(EulerScene, RefusesStiffnessOfAnIdealGas) {

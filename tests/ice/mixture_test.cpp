@@ -123,7 +123,7 @@ TEST(IceMixture, RefusesGasesThatDoNotFillTheGrid) {
 
 TEST(IceMixture, RefusesASlowExchange) {
   EXPECT_EQ(problemOf(changedScene(tube, "<momentum>[1e15]", "<momentum>[100]")),
-            "100 between gases is not available: gases share one velocity, so the value must be 1e9 or more");
+            "100 between gases is not available: gases share one velocity, so the value is expected to be 1e9 or more");
   EXPECT_EQ(problemOf(changedScene(tube, "<heat>[0]", "<heat>[0,0]")),
             "found 2 numbers, expected 1: one for each pair of 2 gases");
 }

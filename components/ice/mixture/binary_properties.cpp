@@ -79,7 +79,7 @@ const Schema<BinarySection>& binarySchema() {
   return schema;
 }
 
-/// The gas in that part of a region of the scene that has a given mass fraction of B.
+/// One of the two gases in the part of `region` that belongs to an object of the scene; `part` is its mass fraction.
 euler::GasObject objectOf(const euler::GasObject& common, const FractionRegion& region, const BinaryProperties& of,
                           const BinaryGas& gas, double part) {
   const double f = region.fraction;

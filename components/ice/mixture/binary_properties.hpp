@@ -29,18 +29,18 @@ struct BinaryGas {
   double conductivity = 0;  ///< conductivity [W/(m K)]
 };
 
-/// `<Model type="BinaryProperties">`: two ideal gases A and B at one temperature. With the mass fraction f of B, c_v
-/// and R are 1 - f times those of A plus f times those of B, and the initial density is 1 / ((1 - f) / rho_A + f /
-/// rho_B).
+/// `<Model type="BinaryProperties">`: two ideal gases A and B at one temperature. With the mass fraction f of B, the
+/// values of c_v and R are 1 - f times those of A plus f times those of B; the initial density is 1 / ((1 - f) / rho_A
+/// + f / rho_B).
 struct BinaryProperties {
   Location where;        ///< in the scene
   std::string material;  ///< name of the gas that has these properties
   BinaryGas a, b;
-  /// Regions with gas B; where they overlap, the last one counts; outside them is only A.
+  /// Regions that contain gas B; where they overlap, the last one counts. Outside them, there is only A.
   std::vector<FractionRegion> regions;
 
-  /// Gases A and B as gases of a mixture; `common` is the gas of the scene, which has the initial velocity and
-  /// temperature.
+  /// A and B as two gases of a mixture. They have the initial velocity and temperature of `common`, the gas of the
+  /// scene.
   std::vector<euler::Settings> gases(const euler::Settings& common) const;
   std::vector<euler::Diffusion> diffusions() const {
     return {{a.viscosity, a.conductivity}, {b.viscosity, b.conductivity}};

@@ -9,12 +9,12 @@
 
 namespace tushar::ice {
 
-/// The smallest mass fraction of a gas in a cell at which it takes part in heat exchange; below it, its heat is
-/// negligible and its values are too small to divide by.
+/// The mass fraction of a gas in a cell below which the gas takes no part in the heat exchange: its heat is negligible,
+/// and its values are too small to divide by.
 inline constexpr double leastPartOfMass = 1e-30;
 
-/// The participants in the heat exchange of a cell, at most `Most` or any number: first the bodies in their order, then
-/// the gases. All quantities are per volume of the cell; absent participants have the capacity 0.
+/// The participants in the heat exchange of a cell: first the bodies in their order, then the gases. There are at most
+/// `Most` of them, or any number. All quantities are per cell volume; a participant that is absent has the capacity 0.
 template <int Most = Eigen::Dynamic>
 struct WarmThings {
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Most, 1>;
@@ -38,8 +38,8 @@ struct WarmThings {
         given(capacity) {}
 
   int present() const { return static_cast<int>((capacity.array() > 0).count()); }
-  /// Sets one of several gases at a common pressure [Pa]: its mass [kg/m³] and volume per volume of the cell. Without
-  /// either, or where the pressure is none that it can have, it is absent.
+  /// Sets one of several gases at a common pressure [Pa], given its mass [kg/m³] and its volume, both per cell volume.
+  /// A gas without mass or volume is absent, and so is a gas that cannot have this pressure.
   void setGas(Eigen::Index at, const euler::Gas& gas, double massOfIt, double share, double pressure) {
     if (!(massOfIt > 0) || !(share > 0) || !(pressure + gas.pInfinity > 0)) return;
     mass[at] = massOfIt;
@@ -51,8 +51,8 @@ struct WarmThings {
   }
 };
 
-/// The increase d of the common pressure with which the gases fill the same volume as before: the root of sum (a_k +
-/// b_k d) / (P_k + d) above the least -P_k. That is unique, as each term of the sum of volumes falls with the pressure.
+/// The increase d of the common pressure at which the gases still fill the same volume: the root of sum (a_k + b_k d) /
+/// (P_k + d) above the least -P_k. It is unique, because the volume of each gas falls with the pressure. It is found by
 /// Newton's method within bounds.
 template <class Vector>
 double pressureRise(const Vector& a, const Vector& b, const Vector& stiffPressure) {
@@ -92,7 +92,7 @@ struct HeatChanges {
 /// Computes the changes in a time dt from C_a dT_a/dt = sum_b H_ab theta_a theta_b (T_b - T_a), implicitly: the stiffer
 /// the exchange, the closer all participants are to one temperature at the end.
 ///
-/// Gases that share a volume expand at their common pressure p' at the end of the step: the heat that a gas receives is
+/// Gases that share a volume expand at their common pressure p' at the end of the step. The heat that a gas receives is
 /// m c_v dT + (p' + p_inf) dV, with V = m R T / (p' + p_inf). So the energy of all gases changes by the heat from the
 /// bodies, and the total volume is constant.
 template <int Most>
@@ -104,7 +104,8 @@ HeatChanges<Most> changesByHeat(const WarmThings<Most>& things, const HeatCoeffi
   std::size_t pair = 0;
   for (Eigen::Index a = 0; a < count; ++a)
     for (Eigen::Index b = a + 1; b < count; ++b, ++pair) {
-      // Beyond that all is one temperature except for 1e-8 of the difference, and round-off would show.
+      // With a stiffer exchange, temperatures would differ by less than 1e-8 of the difference, and round-off would
+      // show.
       constexpr double stiffest = 1e8;
       if (!(things.capacity[a] > 0) || !(things.capacity[b] > 0)) continue;
       const double perShares = coefficients.of(pair, things.mass[a], things.mass[b]) * dt;
@@ -145,7 +146,7 @@ void giveHeat(WarmThings<Most>& things, const Heating& heating, double time, dou
   }
 }
 
-/// The volume fractions of the gases after their volumes have changed.
+/// Updates the volume fractions of the gases after their volumes have changed.
 template <int Most, class Shares>
 void changeShares(const HeatChanges<Most>& changes, Eigen::Index first, double room, Shares&& shares) {
   double sum = 0;
@@ -169,8 +170,8 @@ struct WarmGas {
 };
 
 /// Exchanges heat between several gases in the cells that they share, with Uintah's coefficients, and adds heat from
-/// outside. Masses and momentum stay constant, the energy changes by the heat from outside, and volume fractions and
-/// the pressure change.
+/// outside. Masses and momentum stay constant, and the energy changes only by the heat from outside; the volume
+/// fractions and the pressure change.
 template <int D>
 void exchangeHeat(const Patch& patch, const Gases& gases, const HeatCoefficients& coefficients, const Heating& heating,
                   double time, double dt, CellView<const double> density, CellView<const Vec<D>> momentum,

@@ -14,9 +14,9 @@ struct Transfer {
   double startTime = 0;  ///< start time [s]
 };
 
-/// Moves the fraction rate dt of a gas, at most all of it, to another one, with its volume: Uintah's model "Test". As
-/// all have one velocity and the total energy stays, mass, momentum and energy are kept; the pressure changes where the
-/// gases' gammas differ.
+/// Converts the fraction rate dt of a gas, at most all of it, into another one, which takes over its volume: Uintah's
+/// model "Test". Mass, momentum and energy are conserved, since all gases have one velocity and the total energy does
+/// not change. The pressure changes if the gases have different gammas.
 template <int D>
 void transferMass(const Patch& patch, const Gases&, const Transfer& one, double time, double dt,
                   const std::vector<euler::ChangedGas>& held) {
@@ -39,9 +39,8 @@ struct BurningGas {
   ProgrammedBurn burn;
 };
 
-/// Converts the part of a gas that its programmed burn has reached into another one, with its volume, and adds its
-/// heat.
-/// Mass and momentum are kept, energy changes by the heat.
+/// Converts the part of a gas that its programmed burn has reached into another gas, which takes over its volume, and
+/// adds the heat of the reaction. Mass and momentum are conserved; the energy increases by this heat.
 template <int D>
 void burnByProgram(const Patch& patch, const Gases&, const BurningGas& one, double time, CellView<double> totalEnergy,
                    const std::vector<euler::ChangedGas>& held) {

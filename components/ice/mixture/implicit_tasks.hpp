@@ -5,27 +5,27 @@
 #include "components/ice/tasks/limit_implicit_step.hpp"
 #include "components/ice/tasks/solve_pressure.hpp"
 
-// Implicit steps of several gases: those of one, with the law of each cell.
+// Implicit steps of several gases: the steps of one gas, with the law of the mixture in each cell.
 
 namespace tushar::ice {
 
 namespace c {
 
-/// The law of the gases in a cell before a step, used by the solve.
+/// Labels of the law of the gases in a cell before a step, which the solve uses.
 inline constexpr CellLabel<double> softness{"c.softness", "1", "sum of z / (gamma - 1) of several gases"};
 inline constexpr CellLabel<double> stiffness{"c.stiffness", "J/m^3",
                                              "sum of z gamma p_inf / (gamma - 1) of several gases"};
 
 }  // namespace c
 
-/// The new share of a gas.
+/// A view of the new volume fraction of a gas.
 struct NewShare {
   CellView<const double> share;
 
   static NewShare from(auto& take) { return {.share = take(requiresNew(euler::c::gasShare))}; }
 };
 
-/// Computes the initial pressure for the first step [Pa]: that of the gases.
+/// Computes the pressure of the gases [Pa]; in the first step, it is used as the pressure of a previous step.
 template <int D>
 void initializeMixedPressure(const Patch& patch, const Gases& gases, CellView<const double> density,
                              CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
@@ -47,7 +47,7 @@ void computeLaw(const Patch& patch, const Gases& gases, const std::vector<euler:
   });
 }
 
-/// What the solve reads of several gases: their joint state, with two ghost layers, and their law.
+/// Views of what the solve reads of several gases: their joint state, with two ghost layers, and their law.
 template <int D>
 struct LawfulState : euler::OldState<D> {
   CellView<const double> softness, stiffness;
@@ -90,7 +90,7 @@ void withLaws(const Gases& gases, Use&& use) {
   use(euler::mixtureOf<3>(gases));
 }
 
-/// Like advanceImplicitly, for several gases: masses flow with u_f, and shares are carried by it.
+/// Like advanceImplicitly, for several gases: u_f carries the masses and the volume fractions.
 template <int D>
 void advanceMixtureImplicitly(const Patch& patch, const Gases& gases, const IceSettings& settings,
                               const euler::OldState<D>& before, const std::vector<euler::OldGas>& oldGases, double time,
@@ -112,7 +112,7 @@ void advanceMixtureImplicitly(const Patch& patch, const Gases& gases, const IceS
   refuseCrossing(most, dt);
 }
 
-/// Like limitImplicitStep, for several gases; diffusion has a limit of its own.
+/// Like limitImplicitStep, for several gases; a separate task limits the step by diffusion.
 template <int D>
 void limitImplicitMixture(const Patch& patch, const Gases& gases, double cfl, const IceSettings& settings,
                           const euler::OldState<D>& before, const std::vector<euler::OldGas>& held, double time,

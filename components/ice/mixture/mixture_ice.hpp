@@ -10,8 +10,8 @@
 
 namespace tushar::ice {
 
-/// Several gases with the input of Uintah's ICE, at one velocity and one pressure in each cell: the state of `euler`
-/// for all together, and the mass and the volume fraction of each gas. See components/euler/mixture.hpp.
+/// Several gases with the input of Uintah's ICE, at one velocity and one pressure in each cell. Their state is that of
+/// `euler` for all gases together, and the mass and the volume fraction of each gas. See components/euler/mixture.hpp.
 template <int D>
 class MixtureIce : public Component, public reference::GasSolution {
  public:
@@ -36,9 +36,10 @@ class MixtureIce : public Component, public reference::GasSolution {
  protected:
   double cfl() const { return cfl_; }
   const Gases& held() const { return gases_; }
-  /// Adds the changes of gases after their flow: conversion into another gas, viscosity, conduction, forces, heat.
+  /// Adds the tasks that change the gases after their flow: conversion into another gas, viscosity, conduction, forces,
+  /// heat.
   void scheduleSources(TaskList& tasks) const;
-  /// Adds the limit of diffusion on the time step, together with the given fraction of the speed of sound.
+  /// Adds the task that limits the time step by diffusion, together with the given fraction of the speed of sound.
   void scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const;
   /// Adds the heat exchange between gases, after all other tasks.
   void scheduleHeat(TaskList& tasks) const;

@@ -8,10 +8,10 @@
 
 namespace tushar::ice {
 
-/// Uintah's LightTime: a detonation that runs through an explosive at a given speed, from a point or a plane. A cell at
-/// the distance d begins to burn at the time d / D, and has burned after 1.5 h / D, h the cubic root of its volume; its
-/// last .04 burn at once. Source: M. L. Wilkins, Calculation of Elastic-Plastic Flow, Methods Comput. Phys. 3 (1964)
-/// 211, for the idea.
+/// Uintah's LightTime: a detonation that runs through an explosive at a given speed D, from a point or a plane. A cell
+/// at the distance d begins to burn at the time d / D. The burned fraction then rises to 1 in the time 1.5 h / D, where
+/// h is the cube root of the cell's volume; from .96 on, it is set to 1. Source: M. L. Wilkins, Calculation of
+/// Elastic-Plastic Flow, Methods Comput. Phys. 3 (1964) 211, for the idea.
 struct ProgrammedBurn {
   Location where;  ///< in the scene
   std::string from, to;
@@ -28,7 +28,7 @@ struct ProgrammedBurn {
     const double fraction = (time * speed - distance) / (1.5 * width);
     return fraction > 0.96 ? 1 : std::max(fraction, 0.0);
   }
-  /// Whether a cell may burn, given the part of it that both gases fill.
+  /// Whether a cell may burn, given the fraction of it that the explosive and its product fill together.
   bool takesCell(double share) const { return burnsInMixedCells || share > 0.99; }
 };
 

@@ -13,7 +13,7 @@ namespace tushar::ice {
 
 using Gases = std::vector<euler::Settings>;
 
-/// The initial state of several gases at a point: for each gas, that of its last object there, times its volume
+/// The initial state of several gases at a point. Each gas has the state of its last object there, times its volume
 /// fraction.
 template <int D>
 struct MixtureStart {
@@ -44,8 +44,8 @@ struct MixtureStart {
   }
 };
 
-/// Sets the initial state of all cells. Throws InputError where the volume fractions at a centre do not add up to 1,
-/// and as euler::initialize does.
+/// Sets the initial state of all cells. Throws InputError where euler::initialize does, and where the volume fractions
+/// at the centre of a cell do not add up to 1.
 template <int D>
 void initializeMixture(const Patch& patch, const Gases& gases, const euler::NewState<D>& fresh,
                        const std::vector<euler::NewGas>& held) {
@@ -66,7 +66,7 @@ void initializeMixture(const Patch& patch, const Gases& gases, const euler::NewS
   });
 }
 
-/// A cell with several gases: rho, internal energy per volume, and the law that applies there.
+/// A cell with several gases: rho, the internal energy per volume, and the law of the mixture in it.
 struct MixedCell {
   double density = 0, energy = 0;
   euler::MixedGas law;
@@ -123,7 +123,8 @@ void computeMixedTemperature(const Patch& patch, const Gases& gases, const euler
              [&](const Index<D>& cell) { temperature[cell] = temperatureAt<D>(gases, state, held, cell); });
 }
 
-/// Computes the mass of each gas per volume of that gas. A share below a millionth of the cell is round-off, or almost.
+/// Computes the mass of each gas per volume of that gas; 0 where it fills less than a millionth of the cell, which may
+/// be round-off.
 template <int D>
 void computeOwnDensity(const Patch& patch, const Gases&, const std::vector<euler::OldGas>& held,
                        const std::vector<CellView<double>>& density) {

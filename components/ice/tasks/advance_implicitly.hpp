@@ -34,14 +34,14 @@ class ImplicitStep {
       forEach<D>(level_.clipCells(block.grown(1, D)), [&](const Index<D>& cell) { goHalfway(cell); });
   }
 
-  /// Computes the fluxes through the lower faces of `faces` across an axis: u_f transports the values of the upwind
-  /// cell, half a step later; the pressure is the mean of p' plus, in compression, the viscosity of von Neumann and
-  /// Richtmyer for a strong shock, (gamma + 1) / 2 rho (dv)². Returns the largest fraction of a cell that flows through
-  /// a face.
+  /// Computes the fluxes through the lower faces of `faces` across an axis. u_f transports the values of the upwind
+  /// cell, half a step later. The pressure is the mean of p' on both sides; in compression, it also contains the
+  /// viscosity of von Neumann and Richtmyer for a strong shock, (gamma + 1) / 2 rho (dv)². Returns the largest fraction
+  /// of a cell that flows through a face.
   double computeFluxes(const Box& faces, int axis) {
     return computeFluxes(faces, axis, [](const Index<D>&) { return 1.0; });
   }
-  /// Like the function above, with the flow restricted to the open fraction `open(face)` of each face.
+  /// Like the function above, with flow only through the open fraction `open(face)` of each face.
   template <class Open>
   double computeFluxes(const Box& faces, int axis, Open&& open) {
     double most = 0;
@@ -68,8 +68,8 @@ class ImplicitStep {
   }
   euler::Rows<D, K>& flux() { return flux_; }
 
-  /// Adds gravity at both faces of each cell of a block across an axis, and its work on the flow through them, so that
-  /// stratified gas remains at rest.
+  /// Adds gravity to each cell of a block, in equal parts at both of its faces across an axis, and its work on the flow
+  /// through these faces. So stratified gas remains at rest.
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh) {
     addGravity(block, axis, fresh, [](const Index<D>&) { return true; });
   }
@@ -88,7 +88,7 @@ class ImplicitStep {
   }
 
  private:
-  /// (gamma + 1) / 2 at a face; for several gases, the mean of both sides.
+  /// (gamma + 1) / 2 at a face; for several gases, the mean of the values on both sides.
   double shockSlope(const Index<D>& face, int axis) const {
     if constexpr (K == 1) return flow_.gas().shockSlope();
     const auto of = [&](const Index<D>& cell) {
@@ -102,7 +102,7 @@ class ImplicitStep {
   }
   /// p' - p of a cell [Pa]; 0 beyond sides of the grid.
   double changeIn(const Index<D>& cell) const { return flow_.isOnGrid(cell) ? (*change_)[cell] : 0; }
-  /// p' in an open side [Pa].
+  /// p' on an open side [Pa].
   double openPressure(const Index<D>& face, int axis) const {
     return flow_.openPressure(face, axis, changeIn(face) + changeIn(face - Index<D>::unit(axis)));
   }
@@ -113,12 +113,13 @@ class ImplicitStep {
     const double together = flow_.old().number(below, v) - flow_.old().number(face, v);
     const double rho = flow_.density(face, axis);
     const double viscous = together > 0 ? shockSlope(face, axis) * rho * together * together : 0;
-    // Where a velocity is given without a pressure, as at a wall, p' is that of the cell, half a cell away.
+    // Where a velocity is given without a pressure, as at a wall, p' follows from the cell, whose centre is half a cell
+    // away.
     const double weight = flow_.isFree(face, axis) ? 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis] : 0;
     return 0.5 * (after_.number(below, p) + after_.number(face, p)) + viscous + (face[axis] == 0 ? -weight : weight);
   }
-  /// p' beyond a face of a cell [Pa]; beyond an open side, the value whose mean with the cell's value is p' at the
-  /// side.
+  /// p' beyond a face of a cell [Pa]. Beyond an open side, it is the value whose mean with the value of the cell is p'
+  /// on the side.
   double pressureBeyond(const Index<D>& cell, int axis, int side) const {
     const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(axis);
     const std::size_t p = euler::kPressure<D>;
@@ -126,7 +127,8 @@ class ImplicitStep {
     return after_.number(side == 0 ? cell - Index<D>::unit(axis) : face, p);
   }
   /// The state of a cell at the face above (1) or below it (-1), half a step later. For several gases, its density is
-  /// always the sum of the masses: a difference would grow where gas flows in with the state of the adjacent cell.
+  /// always the sum of the masses; otherwise, a difference would grow where gas flows in with the state of the adjacent
+  /// cell.
   euler::State<D, K> atFace(const Index<D>& cell, int axis, int side) const {
     euler::State<D, K> w = middle_.state(cell);
     const bool isSloped = flow_.hasSlopes() && flow_.isOnGrid(cell);
@@ -158,7 +160,7 @@ class ImplicitStep {
   euler::Rows<D, K> after_, middle_, flux_;
 };
 
-/// Advances the cells of a block by a step; returns the largest fraction of a cell that flows through a face.
+/// Advances the cells of a block by a step. Returns the largest fraction of a cell that flows through a face.
 template <int D, int K>
 double advanceBlockImplicitly(const Level& level, const Box& block, const euler::ViewsOf<D, K, const double>& before,
                               double dt, const CellView<const double>& change, ImplicitStep<D, K>& step,
@@ -187,10 +189,11 @@ inline void refuseCrossing(double most, double dt) {
 }
 
 /// Performs one step on a patch in which pressures change by `change`, p' - p [Pa]: U' = U - dt sum_d (F_{d,i+1/2} -
-/// F_{d,i-1/2}) / h_d with F = u_f (rho, rho v, E + p_f) + (0, p_f n, 0). Mass, momentum and total energy are conserved
-/// for any p'; a contact keeps a uniform pressure and velocity. Second order in space, first order in time. Throws
-/// NumericalError if a density or p + p_inf would not be positive, or if gas would cross more than a cell. Sources: as
-/// for FaceFlow; J. von Neumann & R. D. Richtmyer, J. Appl. Phys. 21 (1950) 232, for the shocks.
+/// F_{d,i-1/2}) / h_d, where F = u_f (rho, rho v, E + p_f) + (0, p_f n, 0). Mass, momentum and total energy are
+/// conserved for any p'; a contact keeps a uniform pressure and velocity. The step is of second order in space and of
+/// first order in time. Throws NumericalError if a density or p + p_inf would not be positive, or if gas would cross
+/// more than a cell. Sources: those of FaceFlow; for shocks, J. von Neumann & R. D. Richtmyer, J. Appl. Phys. 21 (1950)
+/// 232.
 template <int D>
 void advanceImplicitly(const Patch& patch, const euler::Settings& method, const IceSettings& settings,
                        const euler::OldState<D>& before, double time, double dt, CellView<const double> change,

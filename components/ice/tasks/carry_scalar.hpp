@@ -7,8 +7,8 @@
 
 namespace tushar::ice {
 
-/// Sets the initial scalar, times the density, from the last region that owns the centre of a cell. Throws InputError
-/// where none does.
+/// Sets the initial product of scalar and density, from the last region that contains the centre of a cell. Throws
+/// InputError for a centre that no region contains.
 template <int D>
 void initializeScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const double> density,
                       CellView<double> held) {
@@ -26,7 +26,7 @@ void initializeScalar(const Patch& patch, const CarriedScalar* scalar, CellView<
   });
 }
 
-/// Variables of a scalar f and of its carrier gas that a step reads.
+/// Views of the variables of a scalar f, and of the gas that carries it, that a step reads.
 template <int D>
 struct ScalarBefore {
   CellView<const double> density, held;
@@ -41,12 +41,12 @@ struct ScalarBefore {
   double value(const Index<D>& cell) const { return held[cell] / density[cell]; }
 };
 
-/// A scalar at the faces of cells.
+/// The values of a scalar f at the faces of cells.
 ///
-/// In a cell, f varies with van Leer's slopes, evaluated half a step later for the outflow through its faces. Then its
-/// differences from the mean are reduced until all outgoing values, and the remaining mean, lie between the values of
-/// the cell and its neighbours: so a step creates no new extrema. Source: X. Zhang & C.-W. Shu, J. Comput. Phys. 229
-/// (2010) 3091, for this limiter.
+/// In a cell, f varies with van Leer's slopes. The values that leave the cell through its faces are taken half a step
+/// later. Their differences from the mean are then reduced until these values, and the mean of what remains in the
+/// cell, lie between the values of the cell and its neighbours. So a step creates no new extrema. Source for this
+/// limiter: X. Zhang & C.-W. Shu, J. Comput. Phys. 229 (2010) 3091.
 template <int D>
 class ScalarAtFaces {
  public:
@@ -97,7 +97,7 @@ class ScalarAtFaces {
   double perMass(const Index<D>& cell, int axis) const {
     return dt_ * level_.inverseSpacing(axis) / before_.density[cell];
   }
-  /// The factor for the differences that keeps the rest of the cell within the limits.
+  /// The factor of the differences with which the mean of what remains in the cell is within the limits.
   double shrinkage(const Index<D>& cell, const Faces& change, double least, double most) const {
     double rest = 1, gone = 0;
     for (int d = 0; d < D; ++d)
@@ -130,7 +130,8 @@ class ScalarFlux {
              const ScalarAtFaces<D>& faces, double time)
       : level_(level), gas_(gas), scalar_(scalar), before_(before), faces_(faces), time_(time) {}
 
-  /// The flux through the lower (0) or upper (1) face of a cell: f of the gas that flows through it, and -rho D df/dx.
+  /// The flux through the lower (0) or upper (1) face of a cell: the mass flux times f of the gas in it, plus -rho D
+  /// df/dx.
   double operator()(const Index<D>& cell, int axis, int side) const {
     const double mass = side == 0 ? before_.below[cell][axis] : before_.above[cell][axis];
     const Index<D> next = side == 0 ? cell - Index<D>::unit(axis) : cell + Index<D>::unit(axis);
@@ -169,8 +170,8 @@ class ScalarFlux {
   double time_;
 };
 
-/// Advects a scalar f with the mass of the gas: (rho f)' = rho f - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, with F
-/// the mass fluxes of the step times f at the faces. So the total changes only by fluxes through sides of the grid, a
+/// Advects a scalar f with the mass of the gas: (rho f)' = rho f - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, where F
+/// is the mass flux of the step times f at the face. So the total changes only by fluxes through sides of the grid, a
 /// uniform f stays uniform, and no value leaves the range of the previous values, except for round-off.
 template <int D>
 void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::Gas& gas, bool hasSlopes,
@@ -195,7 +196,7 @@ void carryScalar(const Patch& patch, const CarriedScalar* scalar, const euler::G
   });
 }
 
-/// Applies the interior sources of a scalar: each raises the scalar by its value in every step, up to its limit.
+/// Applies the interior sources of a scalar: in every step, each raises the scalar by its value, up to its limit.
 template <int D>
 void raiseScalar(const Patch& patch, const CarriedScalar* scalar, CellView<const double> density,
                  CellView<double> held) {
