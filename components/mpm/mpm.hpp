@@ -10,7 +10,7 @@ enum class Method { gas, solid, implicitSolid };
 /// The method selected by the <MPM> section of a scene.
 Method methodOf(const input::Element& root);
 
-/// The description of a method: the part of a ComponentKind that depends on the method, with the same names of fields.
+/// The part of a ComponentKind that depends on the method. Its fields have the same names as those of ComponentKind.
 struct MethodKind {
   std::function<simulation::MakeComponent(const input::Element& root, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;
@@ -18,7 +18,7 @@ struct MethodKind {
   std::function<int(const input::Element& root)> nodesBeyond = {};
 };
 
-/// Registers a method; must be called by its module when the module is loaded.
+/// Registers a method. The module of the method calls this function when it is loaded.
 void define(Method method, MethodKind kind);
 
 /// Describes all methods as one component.

@@ -48,8 +48,8 @@ void refusePlacements(const GasProperties& properties, Diagnostics& diagnostics)
             "placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint, or <gas_dynamics>");
 }
 
-/// Refuses several gases in combination with settings that do not support them: they need boxes without remapping, and
-/// `apic`.
+/// Refuses several gases unless the settings support them: <conserving_gas_dynamics> with `apic`, without <remap>,
+/// <artificial_heat_conduction> and <relaxation>. Also refuses two gases of the same name.
 void refuseMixtures(const MpmSection& method, const GasProperties& properties, Diagnostics& diagnostics) {
   const std::vector<GasSection>& materials = properties.mpm.materials;
   if (materials.size() < 2) return;
@@ -70,7 +70,7 @@ void refuseMixtures(const MpmSection& method, const GasProperties& properties, D
   }
 }
 
-/// Refuses stiffened gases, because the paper's method is for ideal gases.
+/// Refuses stiffened gases, because <gas_dynamics> is a method for ideal gases.
 void refuseStiffness(const GasProperties& properties, Diagnostics& diagnostics) {
   for (const GasSection& material : properties.mpm.materials)
     if (material.model.type == GasType::stiffened)
@@ -113,7 +113,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   return [method, gases](const Level& level) { return makeComponent(level, method, gases); };
 }
 
-/// The sections of such a scene, for the schemas of editors: one list for each method.
+/// The sections of a scene with gases, for the schemas of editors: one list of sections for each method.
 std::vector<std::vector<simulation::SectionForm>> forms() {
   std::vector<std::vector<simulation::SectionForm>> forms;
   for (const char* method : {"gas_dynamics", "conserving_gas_dynamics"})

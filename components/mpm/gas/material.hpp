@@ -34,15 +34,16 @@ struct GasObject {
 /// A heat source, de/dt = -rate (e - internalEnergy), such as radiation or a wall at constant temperature.
 struct Relaxation {
   double rate = 0;            ///< rate [1/s]
-  double internalEnergy = 0;  ///< internal energy that is approached [J/kg]
+  double internalEnergy = 0;  ///< internal energy that the gas approaches [J/kg]
 };
 
 /// A stiffened gas: p = (gamma - 1) rho epsilon - p_inf; with p_inf = 0 an ideal gas, (3) of Tran, Kim & Berzins.
 ///
 /// epsilon is e - p_inf / rho, the part of the internal energy e that waves exchange. In terms of epsilon and P = p +
 /// p_inf, all laws are those of an ideal gas. Particles of a single gas store epsilon as p.internalEnergy; totals of
-/// energy then lack p_inf times the volume of the grid, which a stiffened gas fills. In a mixture, where gases exchange
-/// volume, particles store e itself. Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report LA-4700 (1971).
+/// energy then lack p_inf times the volume of the grid, because a stiffened gas fills the grid. In a mixture, where
+/// gases exchange volume, particles store e itself. Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report
+/// LA-4700 (1971).
 struct Gas {
   std::string name;
   double gamma = 1.4;    ///< ratio of specific heats
@@ -66,7 +67,7 @@ struct Gas {
   double soundSpeedSquared(double epsilon) const { return gamma * (gamma - 1) * epsilon; }
 };
 
-/// The laws of the gases for exact solutions; none if any gas has a heat source.
+/// The equations of state of the gases, for exact solutions; empty if any gas has a heat source.
 inline std::vector<reference::GasLaw> lawsOf(const std::vector<Gas>& gases) {
   std::vector<reference::GasLaw> laws;
   for (const Gas& gas : gases) {

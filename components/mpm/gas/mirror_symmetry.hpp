@@ -3,8 +3,8 @@
 #include "components/mpm/shapes/linear.hpp"
 
 // Mirror symmetry to the bit: the mirror image of a scene has the mirror image of its result. Floating-point sums
-// depend on their order, so sums over particles and nodes take both sides alike; and positions are measured from the
-// middle of a cell and of the grid, because distances from a lower corner round differently in the mirror image.
+// depend on their order, so sums over particles and nodes treat both sides in the same way. Positions are measured from
+// the middle of a cell or of the grid, because distances from a lower corner round differently in the mirror image.
 
 namespace tushar::mpm::gas {
 
@@ -17,8 +17,8 @@ inline double middleOf(const Level& level, int kernelAxis) {
                        : lower + 0.5 * level.cells().upper[kernelAxis] * level.spacing(kernelAxis);
 }
 
-/// The distance of a cell's centre from the middle of the grid, in cells; exactly opposite for the mirror image of the
-/// cell.
+/// The signed distance of a cell's centre from the middle of the grid, in cells. For the mirror image of the cell, it
+/// has exactly the opposite value.
 template <class Number>
 Number fromMiddle(const Level& level, int kernelAxis, const Number& cell) {
   return cell - 0.5 * (level.cells().upper[kernelAxis] - 1);

@@ -17,8 +17,8 @@ struct VectorOf {
 /// interpolation between the values of the tent function at its corners,
 ///   S_i = 1/2^D sum_c N_i(x_c),   grad S_i = 1/2^D sum_c R^(-T) sigma_c N_i(x_c),   x_c = x_p + R sigma_c,
 /// with sigma_c = (+-1, …) and the half edges R = F diag(size h) / 2; Sadeghirad, Brannon & Burghardt, Int. J. Numer.
-/// Meth. Engng 86 (2011) 1435. A domain that extends farther than a cell from its centre is shrunk to that size, as in
-/// Homel, Brannon & Guilkey, Int. J. Numer. Meth. Engng 107 (2016) 31.
+/// Meth. Engng 86 (2011) 1435. A domain that extends farther than one cell from its centre is shrunk until it extends
+/// one cell, as in Homel, Brannon & Guilkey, Int. J. Numer. Meth. Engng 107 (2016) 31.
 ///
 /// Where `Axisymmetric`, the first axis is the radius; the means are those of the plane and S_i / r is taken at the
 /// particle, as in Uintah.
@@ -131,7 +131,7 @@ struct ConvectedShape {
       for (int c = 0; c < corners; ++c) sign[c] = (c >> j) & 1 ? 1 : -1;
       return sign;
     }
-    /// The index of a node among those of the cell that contains a corner, or -1.
+    /// The index of a node among the nodes of the cell that contains corner c; -1 if it is none of them.
     int nodeOfCell(const Index<D>& node, int c) const {
       int k = 0;
       for (int d = 0; d < D; ++d) {

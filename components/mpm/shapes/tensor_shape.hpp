@@ -11,7 +11,7 @@ namespace tushar::mpm {
 template <int D>
 struct Extent {
   Vec<D> size = Vec<D>::Ones();  ///< initial size in cells
-  /// If `Shape::deforms`: half the edges in cells; column j is the edge initially along axis j, deformed by F.
+  /// If `Shape::deforms`: half the edges in cells; column j is the deformed edge that was initially along axis j.
   Eigen::Matrix<double, D, D> halfEdges;
 };
 
@@ -24,8 +24,8 @@ using RowFactors = std::array<double, D>;
 template <int D, class Axis, bool Axisymmetric = false>
 struct TensorShape {
   static constexpr int dimension = D;
-  /// Number of layers of nodes beyond those of a patch to which its particles contribute, and of layers of nodes
-  /// outside the grid.
+  /// Number of layers of nodes, beyond the nodes of a patch, to which the patch's particles contribute; also the number
+  /// of layers of nodes outside the grid.
   static constexpr int ghostNodes = Axis::ghostNodes;
   /// Number of layers of cells around a patch whose particles contribute to the nodes of the patch.
   static constexpr int reach = 1 + Axis::ghostNodes;
@@ -33,8 +33,8 @@ struct TensorShape {
   static constexpr bool deforms = false;
   static constexpr bool axisymmetric = Axisymmetric;
 
-  /// The extent of a particle's support along each axis, in cells; it does not contribute to nodes at this distance or
-  /// farther.
+  /// The extent of a particle's support along each axis, in cells; the particle does not contribute to nodes at this
+  /// distance or farther.
   static Vec<D> support(const Extent<D>& extent) {
     Vec<D> reaches;
     for (int d = 0; d < D; ++d) reaches[d] = Axis::support(extent.size[d]);
@@ -64,7 +64,7 @@ struct TensorShape {
       if constexpr (Axisymmetric) fillRadially(frame, cell, x, extent);
     }
 
-    // What the nodes of a row have, and rows j, k along the second and third axis.
+    // The factors of the nodes of a row, and of the rows j, k along the second and third axes.
     double valueAlongRow(std::size_t i) const { return s[i][0]; }
     double slopeAlongRow(std::size_t i) const { return ds[i][0]; }
     double hoopAlongRow(std::size_t i) const { return hoop[i]; }
@@ -77,7 +77,7 @@ struct TensorShape {
         return {s[j][1] * s[k][2], ds[j][1] * s[k][2], s[j][1] * ds[k][2]};
     }
 
-    /// Calls `visit(node, S, gradient)` in the same order of nodes for every particle.
+    /// Calls `visit(node, S, gradient)` for every node i, in the same order for every particle.
     template <class Visit>
     [[gnu::always_inline]] void forEachNode(Visit&& visit) const {
       constexpr int n = Axis::nodes;
@@ -165,7 +165,7 @@ struct TensorShape {
       multiplyRows();
     }
 
-    // Of all of them.
+    // The same factors, for all of these stencils.
     Lanes valueAlongRow(std::size_t i) const { return s_[0][i]; }
     Lanes slopeAlongRow(std::size_t i) const { return ds_[0][i]; }
     std::array<Lanes, D> rowFactors(std::size_t j, std::size_t k) const {

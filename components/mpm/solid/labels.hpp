@@ -132,7 +132,7 @@ inline constexpr std::array<ReductionLabel<Sum>, 7> work{{
     {"PlasticWork", "J", "energy dissipated by plastic flow since the start, in models with p.plasticStrain"},
     {"KineticEnergyAtStart", "J", "initial kinetic energy of the particles that have not left the grid"},
 }};
-/// Labels of the action of the body on a face of the grid.
+/// Labels of the force of the body on a face of the grid, and of the area of the body on this face.
 struct OnFace {
   ReductionLabel<VectorSum> force;
   ReductionLabel<Sum> area;

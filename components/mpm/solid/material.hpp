@@ -70,7 +70,8 @@ struct Material {
   std::vector<Body> bodies;
 
   MaterialConstants constants() const { return {density, specificHeat, meltTemperature, roomTemperature}; }
-  /// The density of a particle at F = I [kg/m^3]; bodies that start under pressure have `density` at the start.
+  /// The density of a particle at F = I [kg/m^3]; differs from `density`, the density at the start, in bodies with an
+  /// initial pressure.
   double undeformedDensity() const { return density * model->initialVolumeRatio(); }
   /// Whether particles may lose strength and then support less than the stress of the constitutive model.
   bool isDamageable() const { return erosion.acts() || !std::holds_alternative<NoDamage>(damage); }

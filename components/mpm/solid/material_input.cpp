@@ -92,7 +92,7 @@ template <class M>
 inline constexpr bool expands =
     std::is_same_v<M, CompNeoHook> || std::is_same_v<M, Ucnh> || std::is_same_v<M, CompNeoHookPlastic>;
 
-/// Adds thermal expansion to a model with this bulk modulus [Pa].
+/// Constructs a model, with thermal expansion if the material has any; `bulkModulus` is that of the model [Pa].
 template <class M>
 std::shared_ptr<const Model> expandingIfAsked(const M& model, double bulkModulus, const Material& material) {
   if (material.thermalExpansion > 0)

@@ -20,7 +20,8 @@ struct MaterialProperties {
   } mpm;
 };
 
-/// The schema of the section; `besideGas`: the section also describes a gas, which another schema reads.
+/// The schema of `MaterialProperties`; `besideGas`: whether the section also describes a gas, which another schema
+/// reads.
 const input::Schema<MaterialProperties>& propertiesSchema(bool besideGas = false);
 
 }  // namespace tushar::mpm::solid

@@ -24,7 +24,7 @@ struct Method {
   Vec3 gravity = Vec3::Zero();    ///< gravity [m/s^2]
   double damping = 0;             ///< artificial_damping_coeff [1/s]
   std::optional<ArtificialViscosity> viscosity;
-  double minimumMassForAcceleration = 1e-199;     ///< minimum mass for acceleration [kg]
+  double minimumMassForAcceleration = 1e-199;     ///< mass up to which nodes feel only gravity [kg]
   std::optional<double> maximumParticleVelocity;  ///< maximum particle velocity [m/s]
   /// Whether particles that are turned inside out or thrown out are removed; otherwise the run ends.
   bool removesLost = true;
@@ -33,11 +33,11 @@ struct Method {
   Vec3 commonSize = Vec3::Ones();  ///< initial size of all particles in cells, unless each particle stores its own size
   std::array<bool, 3> isThin{};    ///< which of the axes x, y, z the grid does not use
   bool keepsSizes = false;         ///< whether each particle stores its size
-  /// Whether sizes are stored as edges in any direction, where shape functions follow them.
+  /// Whether each particle stores its size as edges of any direction, for shape functions that follow them.
   bool keepsDomains = false;
   double meanWidth = 0;         ///< mean cell width over x, y, z [m]: the length in the artificial viscosity
   bool viscosityHeats = false;  ///< whether artificial viscosity heats particles (artificial_viscosity_heating)
-  /// Number of cells within the largest length of capability::Nonlocal; 0 if there is none.
+  /// Number of cells that the largest radius of capability::Nonlocal spans; 0 if no model averages.
   int nonlocalLayers = 0;
   /// keepPressBCNormalToSurface: whether pressures rotate with the bodies on which they act
   bool turnsPressures = false;

@@ -60,8 +60,8 @@ void fillGaps(const Level& level, const Body& body, const Index<D>& cell, int k,
   });
 }
 
-/// The particles of a cell, in `levels` sizes, each half the previous one; if `levels` is negative, without those that
-/// extend beyond the shape are replaced by smaller ones.
+/// The particles of a cell, in |`levels`| sizes, each half the previous one. If `levels` is negative, smaller particles
+/// replace those that extend beyond the shape.
 template <int D>
 std::vector<Filling> fill(const Level& level, const Body& body, const Index<D>& cell) {
   std::vector<Filling> particles;

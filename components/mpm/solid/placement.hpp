@@ -48,8 +48,8 @@ Vec<D> extentOf(const Level& level, const Seed& seed) {
   return isAlongAxes ? extent : Vec<D>(Vec<D>::Constant(std::pow(seed.volume, 1.0 / D)));
 }
 
-/// Finds the seeds of each body whose particles do not start in equal parts of cells: bodies that are filled in levels,
-/// transformed, or smooth cylinders. Throws InputError if a particle would start outside the grid.
+/// Finds the seeds of each body whose particles do not start in equal parts of cells: bodies with particles of several
+/// sizes, transformed bodies, and smooth cylinders. Throws InputError if a particle would start outside the grid.
 void placeParticles(const Level& level, std::vector<Body>& bodies);
 
 }  // namespace tushar::mpm::solid

@@ -24,7 +24,7 @@ struct Problem {
   std::vector<InputProblem> notes = {};                        ///< notes on bodies without particles
 };
 
-/// Solids with any shape functions, with explicit or implicit steps.
+/// The base class of components for solids, with any shape functions and with explicit or implicit steps.
 class Solids : public Component {
  public:
   /// Particles store at least `leastState` state variables for their model.

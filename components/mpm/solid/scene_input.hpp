@@ -10,7 +10,8 @@ namespace tushar::mpm::solid {
 struct PhysicalConstants {
   Vec3 gravity = Vec3::Zero();  ///< gravity [m/s^2]
 };
-/// The schema of the section; `besideGas`: the section also describes a gas, which another schema reads.
+/// The schema of `PhysicalConstants`; `besideGas`: whether the scene also has a gas, for which another schema reads the
+/// section.
 const input::Schema<PhysicalConstants>& constantsSchema(bool besideGas = false);
 
 /// The sections of a scene with solids, for the schemas of editors; `mpm` is the schema of <MPM>.

@@ -7,13 +7,13 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// The velocity modes of each particle of a batch, as in Modes.
+/// The velocity modes (see Modes) of the particles of a batch, one particle per lane.
 template <int D>
 using LanesModes = LanesMatrix<D, (1 << D) - 1>;
 
-/// Particles in lanes, at most one from each cell: lane k belongs to the k-th cell of a row that begins at `start`, so
-/// the values that the particles read from the grid or add to it are also consecutive. Lanes not in use repeat another
-/// particle.
+/// Particles in lanes, at most one from each cell: lane k belongs to the k-th cell of a row that begins at `start`. So
+/// the values that the particles read from the grid or add to it are consecutive in memory. Lanes not in use repeat
+/// another particle.
 template <int D>
 struct Batch {
   Index<D> start;                    ///< cell of the first lane
@@ -23,7 +23,7 @@ struct Batch {
   bool isFull;        ///< whether all lanes are in use
   bool isContiguous;  ///< whether the particles are consecutive in memory
 
-  /// Loads the particles at `places`; lanes where `takes` is 0 are empty.
+  /// Constructs a batch of the particles with the indices `places`; lanes where `takes` is 0 are not in use.
   Batch(const Index<D>& first, const LaneIntegers& places, const LaneIntegers& takes)
       : start(first), place(places), used(__builtin_convertvector(takes, Lanes::Mask)), isFull(all(used)) {
     for (std::size_t d = 0; d < D; ++d) cell[d] = LaneIntegers{} + first[static_cast<int>(d)];
@@ -75,8 +75,8 @@ template <int D, class T, class Visit>
   });
 }
 
-/// Loads the values of a variable of the batch's particles, `numbers` consecutive ones for each; `at(place)` points to
-/// the first.
+/// Loads a variable that has `numbers` consecutive numbers per particle, for the particles of a batch. `at(place)`
+/// points to the first number of a particle.
 template <int numbers, int D, class At>
 [[gnu::always_inline]] inline std::array<Lanes, numbers> loadColumns(const Batch<D>& batch, At&& at) {
   if constexpr (numbers <= Lanes::count)
@@ -94,7 +94,7 @@ template <int D, int Rows, int Columns>
   return matrixOf<Rows, Columns>(loadColumns<Rows * Columns>(batch, [&](int p) { return view[p].data(); }));
 }
 
-/// The inverse of loadColumns.
+/// Stores a variable of the particles of a batch: the inverse of loadColumns.
 template <int D, std::size_t numbers, class At>
 [[gnu::always_inline]] inline void storeColumns(const std::array<Lanes, numbers>& columns, const Batch<D>& batch,
                                                 At&& at) {

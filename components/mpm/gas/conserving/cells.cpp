@@ -17,8 +17,8 @@ Lanes sensor(Lanes difference, Lanes soundSpeed) {
   return select(soundSpeed > 0, clamp(10 * (difference / soundSpeed - 0.05), 0.0, 1.0), 1);
 }
 
-/// Computes the velocity differences over cells along each axis, and their sum Delta. Beyond the rim of the grid a cell
-/// counts as its own neighbour.
+/// Computes the velocity differences over cells along each axis, and their sum Delta. A cell at the rim of the grid
+/// counts as its own neighbour beyond the rim.
 template <int D>
 class Differences : public GridFields<D, D + 1> {
  public:

@@ -9,7 +9,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// Computes dv_j/dx_k in the centre of each cell from its nodes [1/s].
+/// Computes dv_j/dx_k at the centre of each cell from the velocities of its nodes [1/s].
 template <int D>
 void computeVelocityGradient(const Patch& patch, const Gas&, NodeView<const Vec<D>> velocity,
                              CellView<Tensor<D>> gradient) {
@@ -30,8 +30,8 @@ struct CellState {
   Lanes pressure = 0, viscosity = 0, shock = 1;
 };
 
-/// The compression of cells and their neighbours along the axes. The velocity difference over a cell along an axis is
-/// the derivative times the least cell width h; Delta is the sum of these differences over the axes [m/s].
+/// The compression of cells and of their neighbours along the axes. The velocity difference across a cell along an axis
+/// d is dv_d/dx_d times the smallest cell width h; Delta is the sum of these differences over the axes [m/s].
 struct Compression {
   Lanes difference = 0;  ///< Delta of the cell
   Lanes smooth = 0;      ///< J_0: Delta minus van Leer's harmonic means with the differences of neighbours
@@ -49,21 +49,22 @@ CellState smoothViscosity(Lanes pressure, Lanes density, Lanes soundSpeed, const
 
 /// Computes p = (gamma - 1) IE_c / V_c, q by shockViscosity (apic) or smoothViscosity (affineFlip), and the sensor of
 /// shocks.
-/// Beyond the rim of the grid a cell counts as its own neighbour.
+/// A cell at the rim of the grid counts as its own neighbour beyond the rim.
 template <int D, class Scheme>
 void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscosity, CellView<const double> mass,
                      CellView<const double> internalEnergy, CellView<const Tensor<D>> gradient,
                      CellView<double> pressure, CellView<double> artificial, CellView<double> shock);
 
-/// Computes the stress on the faces of a cell [Pa]. apic: p + q. affineFlip: P cof(I + dt/2 grad v), on the faces where
-/// they are half a step later, with P = p clamp(1 - gamma dt div v / 2, .3, 2) + q, the pressure half a step later.
+/// Computes the stress on the faces of a cell [Pa]. apic: p + q. affineFlip: P cof(I + dt/2 grad v), which refers to
+/// the positions of the faces half a step later. P = p clamp(1 - gamma dt div v / 2, .3, 2) + q is the pressure at that
+/// time.
 template <int D, class Scheme>
 void computeStress(const Patch& patch, const Gas& gas, CellView<const double> pressure,
                    CellView<const double> artificial, CellView<const Tensor<D>> gradient, double dt,
                    CellView<Tensor<D>> stress);
 
-/// Computes a_i = sum over the cells c around node i of V_c T_c grad S_i / m_i; 0 across symmetry planes and at nodes
-/// without mass.
+/// Computes a_i = sum over the cells c around node i of V_c T_c grad S_i / m_i; a_i is 0 at nodes without mass, and has
+/// no component normal to symmetry planes.
 template <int D>
 void computeAcceleration(const Patch& patch, const Gas&, CellView<const Tensor<D>> stress, NodeView<const double> mass,
                          NodeView<Vec<D>> acceleration) {

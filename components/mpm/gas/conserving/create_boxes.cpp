@@ -17,7 +17,7 @@ const GasObject& objectAt(const Gas& gas, const Vec3& point) {
   return gas.objects.front();
 }
 
-/// Integrals over a box.
+/// Integrals of the state of a body over a box.
 template <int D>
 struct BoxContents {
   double mass = 0, energy = 0;
@@ -66,7 +66,7 @@ BoxContents<D> sumOverPoints(const Vec<D>& edges, double volume, const Held& hel
   return sum;
 }
 
-/// Integrals over a box about `x`.
+/// Integrates the state of a body over the box with centre `x`.
 template <int D>
 BoxContents<D> integrate(const Level& level, const Gas& gas, const GasObject& object, const Vec<D>& x,
                          const Vec<D>& edges) {
@@ -75,9 +75,9 @@ BoxContents<D> integrate(const Level& level, const Gas& gas, const GasObject& ob
   });
 }
 
-/// Refuses a stiffened gas that does not fill the grid, because it exerts p + p_inf on its surroundings. Throws
-/// InputError where nothing balances it: on a grid with a free side, and, if it is the only gas, where `boxes` leave a
-/// part of the patch empty.
+/// Throws InputError if a stiffened gas does not fill the grid, because nothing would then balance the pressure p +
+/// p_inf that it exerts: if a side of the grid is free or, with only one gas, if `boxes` leave a part of the patch
+/// empty.
 template <int D>
 void refuseLooseness(const Patch& patch, const Gas& gas, const std::vector<Vec<D>>& boxes) {
   if (gas.pInfinity == 0) return;

@@ -55,7 +55,8 @@ double crossSection(const Level& level) {
   return area;
 }
 
-/// Computes V = the product of the edges and the cross-section of the grid, rho = m / V, and p of the gas.
+/// Computes the volume V of each particle, which is the product of its edges and of the grid's cross-section, the
+/// density m / V and the pressure.
 template <int D>
 void computeDensity(const Patch& patch, const Gas& gas, ParticleView<const double> mass,
                     ParticleView<const Vec<D>> edges, ParticleView<const double> internalEnergy,
@@ -68,7 +69,8 @@ void computeDensity(const Patch& patch, const Gas& gas, ParticleView<const doubl
   }
 }
 
-/// Computes momentum divided by mass for the parts of particles in each cell; 0 in empty cells.
+/// Computes the mean velocity in each cell: the momentum of the parts of particles in it, divided by their mass; 0 in
+/// empty cells.
 template <int D>
 void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,
                          ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,

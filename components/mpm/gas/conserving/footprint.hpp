@@ -60,8 +60,8 @@ struct Span {
   Lanes upperOf(int k) const { return min(upper, centre() + arm[k + 1]); }
   Lanes middle(int k) const { return 0.5 * (lowerOf(k) + upperOf(k)); }
 
-  /// Sum over the nodes; `add(k, sum)` adds the term of node k. The sides of the middle are summed separately, from the
-  /// inside out, so that the mirror image has the same sum.
+  /// Sum over the nodes; `add(k, sum)` adds the term of node k. The nodes on either side of the middle are summed
+  /// separately, from the inside out, so that the mirror image has the same sum.
   template <class Sum, class Add>
   [[gnu::always_inline]] Sum sumOverNodes(Add&& add) const {
     Sum lowerSide{}, upperSide{};
@@ -87,8 +87,8 @@ struct Span {
     const Lanes node = nearbyint(x - 0.5) + 0.5;
     return select(abs(x - node) < 1e-12, node, x);
   }
-  /// Computes parts and weights of the interval from `from` to `to`, measured in cells from the middle of the centre's
-  /// cell.
+  /// Computes parts and weights of the interval from `from` to `to`, measured in cells from the middle of the cell that
+  /// contains the interval's centre.
   void distribute(const Lanes& from, const Lanes& to) {
     const Lanes scale = 1 / (to - from);
     Lanes start = -0.5 - below, end = start, carried = 0;
@@ -125,8 +125,8 @@ struct Span {
 /// The cells and nodes that boxes overlap, one box per lane: the product of their spans along the axes.
 template <int D>
 struct Footprint {
-  /// Number of cells by which a box may extend beyond the cell of its centre: boxes are shorter than 2 h (in one
-  /// dimension, than 3 h).
+  /// Number of cells by which a box may extend beyond the cell of its centre: boxes are shorter than 2 h, or 3 h in one
+  /// dimension.
   static constexpr int overhang = D == 1 ? 2 : 1;
   /// Number of layers of cells around a patch whose particles may contribute to the nodes of the patch.
   static constexpr int reach = overhang + 1;
@@ -147,7 +147,8 @@ struct Footprint {
     return all;
   }
 
-  /// The first cell of the first lane, which has the index of the node below it. The cells of the other lanes follow.
+  /// Index of the lowest cell that the box of the first lane overlaps, and of the node below this cell. Each further
+  /// lane begins one cell later.
   Index<D> first() const {
     Index<D> first = start;
     for (std::size_t d = 0; d < D; ++d) first[static_cast<int>(d)] -= along[d].below;
@@ -166,8 +167,8 @@ struct Footprint {
     Index<D> k;
     parts<D - 1>(k, Lanes(1), visit);
   }
-  /// Coefficients of a multilinear field about the centre, sum of f_a phi_a; `Axis` is the last axis on which it
-  /// depends.
+  /// Coefficients f_a of a multilinear field about the centre of a box, the sum of f_a phi_a (see Modes). `Axis` is the
+  /// last axis on which the field depends.
   template <int Axis>
   using Field = std::array<LanesVec<D>, (1 << (Axis + 1))>;
 

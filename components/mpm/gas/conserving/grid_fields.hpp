@@ -29,7 +29,7 @@ class GridFields {
   Lanes readRow(std::size_t field, const Index<D>& index) const { return Lanes::at(&at(field, index)); }
 
  protected:
-  /// The memory of a field, for fields that are sums.
+  /// Pointer to the values of a field, for derived classes that add to them.
   double* values(std::size_t field) { return values_.data() + field * size_; }
   std::size_t size() const { return size_; }
   int stride(int axis) const { return stride_[axis]; }

@@ -12,11 +12,11 @@ using CellViews = std::vector<CellView<T>>;
 template <class T>
 using NodeViews = std::vector<NodeView<T>>;
 
-/// Several gases in a cell, each with its volume fraction alpha, with common pressure, velocity and compression. With G
-/// = sum of alpha / (gamma - 1) and S = sum of alpha gamma p_inf / (gamma - 1), their energy per volume is p G + S. So
-/// a contact, at rest or in motion, keeps its pressure, and rho c² = (p (1 + G) + S) / G. Sources: G. Allaire, S. Clerc
-/// & S. Kokh, J. Comput. Phys. 181 (2002) 577; for the use of G and S alone: R. Abgrall, J. Comput. Phys. 125 (1996)
-/// 150.
+/// Several gases in a cell, which share pressure, velocity and compression; each has a volume fraction alpha. With G =
+/// sum of alpha / (gamma - 1) and S = sum of alpha gamma p_inf / (gamma - 1), their energy per volume is p G + S. So
+/// the pressure stays uniform across a contact discontinuity, at rest or in motion, and rho c² = (p (1 + G) + S) / G.
+/// Sources: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; for the use of G and S alone: R. Abgrall,
+/// J. Comput. Phys. 125 (1996) 150.
 struct Mixture {
   double density = 0;    ///< density [kg/m³]
   double energy = 0;     ///< internal energy per volume [J/m³]
@@ -37,7 +37,7 @@ struct GasInCells {
   CellView<const double> internalEnergy;  ///< internal energy of the gas in each cell [J]
   CellView<const double> fill;            ///< fraction of each cell's volume that the gas occupies
 
-  /// Declares the accesses; `read` is requiresOld or requiresNew, as a function of a label.
+  /// Declares that a task reads these fields; `read` is requiresOld or requiresNew, as a function of a label.
   static GasInCells from(auto& take, const auto& read) {
     return {.mass = take(read(c::mass)), .internalEnergy = take(read(c::internalEnergy)), .fill = take(read(c::fill))};
   }
@@ -74,7 +74,7 @@ struct Cells {
   }
 };
 
-/// Computes epsilon = e - p_inf / rho of each particle, with rho = m / V of its box; negative at pressures below
+/// Computes epsilon = e - p_inf / rho of each particle, with rho = m / V of its box. It is negative at pressures below
 /// -p_inf, at which the gas ruptures.
 template <int D>
 void computeHeat(const Patch& patch, const Gas& gas, ParticleView<const double> mass, ParticleView<const Vec<D>> edges,
@@ -140,7 +140,7 @@ void computeMixturePressure(const Patch& patch, const std::vector<Gas>& gases, c
   });
 }
 
-/// Distributes the work `done` [J] on a cell over its gases: the relative change of the internal energy of each.
+/// Distributes the work done on a cell [J] over the gases in it, as the relative change of each gas's internal energy.
 template <class Index>
 class SharedWork {
  public:
@@ -174,9 +174,10 @@ class SharedWork {
   double equalised_ = 0;  ///< 0: distribution by volume; 1: at equal pressure
 };
 
-/// Computes f of each gas in a cell, for updateParticles. Several gases then have the pressure p' of the mixture:
-/// IE_k (1 + f_k) = alpha_k V (p' + gamma_k p_inf,k) / (gamma_k - 1), whose sum is IE + W. Where this would take more
-/// than half of the energy of one gas, they share the work by volume and approach p' only until half is taken.
+/// Computes f of each gas in a cell, for updateParticles. Several gases in a cell then have the pressure p' of the
+/// mixture:
+/// IE_k (1 + f_k) = alpha_k V (p' + gamma_k p_inf,k) / (gamma_k - 1), whose sum is IE + W. Where one gas would lose
+/// more than half of its energy, the gases share the work by volume, and approach p' only until one has lost half.
 template <int D>
 void computeMixtureWork(const Patch& patch, const std::vector<Gas>& gases, const CellViews<const Tensor<D>>& stress,
                         const std::vector<GasInCells>& held, const NodeViews<const Vec<D>>& velocity,
@@ -190,7 +191,8 @@ void computeMixtureWork(const Patch& patch, const std::vector<Gas>& gases, const
   });
 }
 
-/// Like measureSignals, for a mixture: |v| + c from the velocities of its nodes, and signals relative to the gas.
+/// Computes the largest speeds of signals in a mixture [m/s], as measureSignals does in one gas: |v| + c with the
+/// velocities of the nodes, and the speed relative to the gas.
 template <int D>
 void measureMixtureSignals(const Patch& patch, const std::vector<Gas>& gases, const std::vector<GasInCells>& held,
                            const CellViews<const Tensor<D>>& gradient, const NodeViews<const Vec<D>>& velocity,

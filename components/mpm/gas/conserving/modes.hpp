@@ -29,8 +29,9 @@ auto productsOver(const Values& values) {
   return products;
 }
 
-/// Kinetic energy per mass of the motion about the mean, K = 1/2 sum of I_a |u_a|², I_a the product of `inertia`
-/// over the axes of a: mean squares of x_d - centre_d [m²] over the box, or over the nodes that represent it.
+/// Kinetic energy per mass of the motion about the mean, K = 1/2 sum of I_a |u_a|², where I_a is the product of
+/// `inertia` over the axes of a. `inertia` contains the mean squares of x_d - centre_d [m²] over the box, or over the
+/// nodes that represent it.
 template <int D, class Real>
 Real modalEnergy(const Eigen::Matrix<Real, D, (1 << D) - 1, Eigen::DontAlign>& modes,
                  const Eigen::Matrix<Real, D, 1, Eigen::DontAlign>& inertia) {

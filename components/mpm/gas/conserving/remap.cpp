@@ -29,7 +29,7 @@ template <int D>
 using Contents = GridFields<D, 2>;
 
 /// Van Leer's limited slopes of a cell variable, relative to its value [1/m]; 0 at the sides of the grid. They are
-/// scaled so that in boxes of these edges the variable is at least a fifth of its mean everywhere.
+/// scaled so that the variable is at least a fifth of its mean everywhere in boxes with these edge lengths.
 template <int D>
 LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std::size_t field, const Batch<D>& batch,
                            const LanesVec<D>& edges) {
@@ -92,7 +92,7 @@ class Parts {
   std::array<Part<D>, Footprint<D>::places> parts_;
 };
 
-/// Sets the terms of a part in the sums of its cell.
+/// Sets the terms that a part adds to the sums of its cell.
 template <int D>
 void bring(typename CellSums<D>::Fields::Brought& brought, std::size_t place, const Part<D>& part,
            const LanesVec<D>& dx, const LanesVec<D>& u, const LanesTensor<D>& gradient, const LanesModes<D>& modes,
@@ -193,7 +193,7 @@ struct Contained {
 };
 
 /// The box of a new particle: its cell or, next to an empty cell, the part of the cell that the gas occupies, so that
-/// gas does not spread into a vacuum by one cell with every remap. At least a tenth of the cell wide.
+/// gas does not spread into a vacuum by one cell with every remap. It is at least a tenth of the cell wide.
 template <int D>
 struct NewBox {
   Vec<D> centre, edges;

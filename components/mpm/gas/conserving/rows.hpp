@@ -24,7 +24,7 @@ template <int Rows, int Columns>
   for (int k = 0; k < Rows * Columns; ++k) values(k % Rows, k / Rows) = columns[static_cast<std::size_t>(k)];
   return values;
 }
-/// The inverse of matrixOf.
+/// The coefficients of a matrix, in the order in which Eigen stores them: the inverse of matrixOf.
 template <int Rows, int Columns>
 [[gnu::always_inline]] inline std::array<Lanes, Rows * Columns> coefficientsOf(
     const LanesMatrix<Rows, Columns>& values) {
@@ -33,7 +33,7 @@ template <int Rows, int Columns>
   return columns;
 }
 
-/// Consecutive cells or nodes of a row, one per lane; lanes beyond `count` repeat the last.
+/// Consecutive cells or nodes of a row, one per lane; lanes beyond `count` repeat the last one.
 template <int D>
 struct RowPart {
   Index<D> first;

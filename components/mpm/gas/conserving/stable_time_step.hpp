@@ -8,9 +8,10 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// Limits dt to 0.4 divided by the rates at which cells are compressed, -div v, cool by expansion, (gamma - 1) div v,
-/// and are stretched along an axis, |dv_d/dx_d|: no box doubles its length, no cell loses half its volume or energy. In
-/// cells without gas the rates count half: a front moves by at most .8 of the width of an empty cell.
+/// Limits dt to 0.4 divided by each of three rates of every cell: of compression, -div v; of cooling by expansion,
+/// (gamma - 1) div v; and of stretching along an axis, |dv_d/dx_d|. So no box doubles its length, and no cell loses
+/// half its volume or energy. In cells without gas the rates count half: a front moves by at most .8 of the width of an
+/// empty cell.
 template <int D>
 void limitDeformation(const Patch& patch, const Gas& gas, CellView<const double> mass,
                       CellView<const Tensor<D>> gradient, Minimum& dt) {
@@ -44,13 +45,14 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, const ConservingG
 /// The largest speed of signals in cells relative to the gas [m/s], 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|,
 /// where Delta is the velocity difference across the cell: shocks are faster than sound. The form is that of D. J.
 /// Benson, Comput. Methods Appl. Mech. Eng. 99 (1992) 235. With these factors, the error for a moving gas is hardly
-/// larger than for a gas at rest, which in turn has the same error as with |v| + c.
+/// larger than for a gas at rest. For a gas at rest, the error is the same as with |v| + c.
 inline Lanes signalInCells(const Level& level, Lanes divergence, Lanes soundSpeedSquared) {
   const Lanes q = 1.4 * level.minSpacing() * abs(divergence);
   return 1.25 * (q + sqrt(q * q + soundSpeedSquared));
 }
 
-/// Computes the largest speeds of signals [m/s]: of particles relative to the grid, |v| + c; and signalInCells.
+/// Computes the largest speeds of signals [m/s]: relative to the grid, |v| + c over the particles; and relative to the
+/// gas, signalInCells over the cells.
 template <int D>
 void measureSignals(const Patch& patch, const Gas& gas, ParticleView<const Vec<D>> velocity,
                     ParticleView<const double> internalEnergy, CellView<const double> mass,

@@ -9,7 +9,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// Views of the particle velocities, as fields about the particle centres.
+/// The velocities in the boxes of particles, as multilinear fields about the centres of the boxes.
 template <int D>
 typename Footprint<D>::template Field<D - 1> fieldOf(const LanesVec<D>& velocity, const LanesModes<D>& modes) {
   typename Footprint<D>::template Field<D - 1> field;
@@ -109,7 +109,7 @@ void gatherOnGrid(const Patch& patch, const ParticlesToGrid<D>& t, Visit&& visit
   stopAtSymmetryPlanes<D>(patch, t.nodeVelocity);
 }
 
-/// The task that only calls gatherOnGrid.
+/// Gathers the particles on the grid: the task that only calls gatherOnGrid.
 template <int D>
 void interpolateParticlesToGrid(const Patch& patch, const Gas&, const ParticlesToGrid<D>& transfer) {
   gatherOnGrid<D, false>(patch, transfer, [](const Index<D>&, double) {});
@@ -171,8 +171,8 @@ struct Gathered {
   }
 };
 
-/// Grid fields with which particles are updated: v, v + dt a and v + faceTime dt a at nodes along each axis, 1 - beta
-/// and beta (2 - beta) / 2 at nodes, f in cells.
+/// Grid fields from which particles are updated: at nodes, the components of v, v + dt a and v + faceTime dt a, and 1 -
+/// beta and beta (2 - beta) / 2; in cells, f.
 template <int D>
 struct Motion : GridFields<D, 3 * D + 3> {
   static constexpr std::size_t accelerated = D, moving = 2 * D, kept = 3 * D, slip = kept + 1, work = kept + 2;
@@ -311,7 +311,7 @@ template <int D, class Scheme, int Axis>
   });
 }
 
-/// Computes the sum of o_c f_c.
+/// Computes the sum of o_c f_c over the cells of the footprint: the relative change of internal energy by work.
 template <int D>
 Lanes workOn(const Footprint<D>& footprint, const Reader<D>& read) {
   return footprint.sumOverParts([&](const Index<D>& k, const Lanes& part) { return part * read(Motion<D>::work, k); });

@@ -35,8 +35,8 @@ std::vector<PlacedDensity> particlesOf(int cell, int from, const Level& level, P
   return particles;
 }
 
-/// The density on a face between a particle inside and one outside; if there is none outside, the density of the
-/// particle inside.
+/// The density on a face of a cell, interpolated between a particle in the cell and one beyond the face; if there is
+/// none beyond, the density of the particle in the cell.
 double densityAt(double face, const std::optional<PlacedDensity>& beyond, const PlacedDensity& within) {
   if (!beyond || beyond->place == within.place) return within.density;
   const double part = (face - within.place) / (beyond->place - within.place);

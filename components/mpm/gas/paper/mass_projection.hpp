@@ -9,8 +9,9 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// `massProjection`: computes the difference between the nodal mass m_i and the integral of S_i rho, and its bound:
-/// (19)-(23) of Tran, Kim & Berzins. In one dimension, for `gas_dynamics` with `volume_model` cell_share.
+/// `massProjection`: computes the difference between the nodal mass m_i and the integral of S_i rho, and the bound of
+/// this difference: (19)-(23) of Tran, Kim & Berzins. In one dimension, for `gas_dynamics` with `volume_model`
+/// cell_share.
 ///
 /// rho(x) is taken to be piecewise linear between the particles, and constant beyond the last one before an empty cell:
 /// so rho(x_p) = rho_p, as (19) requires, at any time and without an exact solution. E_m^i therefore excludes the error

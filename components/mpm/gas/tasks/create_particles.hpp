@@ -21,8 +21,8 @@ void refuseImpossible(const GasObject& object, const Vec3& point, double density
 /// `place` numbers the particles that a cell could hold.
 double drawn(int seed, std::uint64_t cellNumber, int place, int axis);
 
-/// The coordinate of the particle in part k of `parts` along an axis of its cell: -1/2 is the lower face, 1/2 the
-/// upper. `draw()` returns a random number in (0, 1).
+/// The coordinate, along an axis, of a particle in the k-th of `parts` equal parts of its cell: -1/2 is the lower face
+/// of the cell, 1/2 the upper. `draw()` returns a random number in (0, 1).
 template <class Draw>
 double placeInCell(Placement placement, int k, int parts, const Draw& draw) {
   if (placement == Placement::random) return draw() - 0.5;
@@ -69,7 +69,7 @@ void checkBodies(const Level& level, const Gas& gas) {
 
 /// Fills each body with its particles: `particlesPerCell` along each axis, in the middle of equal parts of the cell,
 /// x_p = (c + (k + 1/2) / N) h, or as the `placement` of the body says. Only points that belong to the shape get a
-/// particle. They have the body's state at that point.
+/// particle, with the body's state at the point.
 ///
 /// The id of a particle is its cell's number and its place in the cell, so that it does not depend on the patches.
 /// Throws InputError where two bodies contain the same point, and for a body without a particle on the grid.

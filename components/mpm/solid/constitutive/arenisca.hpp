@@ -12,9 +12,9 @@ namespace tushar::mpm::solid {
 /// Arenisca, a model of rock and soil with pores that collapse under pressure and may contain a fluid: Homel, Guilkey &
 /// Brannon, Acta Mech. 227 (2016) 279. The return to the yield surface is from the same authors, Comput. Mech. 56
 /// (2015) 565; the relaxation to it is that of Duvaut & Lions as in Brannon, Shock Wave Science and Technology
-/// Reference Library 2 (2007) 225, eqs. 6.92-93. Hypoelastic in axes that rotate with the material. `version` 4 is
-/// Uintah's `Arenisca4`; 3 is `Arenisca3`, without Lode angle; 2 is `Arenisca`, the oldest, a cone with a tangent
-/// ellipse and constant moduli.
+/// Reference Library 2 (2007) 225, eqs. 6.92-93. The model is hypoelastic in axes that rotate with the material.
+/// `version` 4 is Uintah's `Arenisca4`; 3 is `Arenisca3`, without Lode angle; 2 is `Arenisca`, the oldest, a cone with
+/// a tangent ellipse and constant moduli.
 template <int version>
 struct Arenisca : arenisca::Constants {
   struct State {

@@ -49,7 +49,7 @@ struct FBar {
 };
 
 /// The model uses the position and mass of the particle, and the time, in explicit steps. Offer it if the state depends
-/// on something that runs through the body at a given speed.
+/// on a front that moves through the body at a given speed.
 struct PlaceAndTime {
   template <class M>
   static consteval bool check() {
@@ -59,8 +59,9 @@ struct PlaceAndTime {
 
 // Stress and its tangent.
 
-/// Computes J sigma [Pa] and the wave speed [m/s] of several particles at once, with the same arithmetic as for one:
-/// templates for a Real that is double or Lanes. Offer it where explicit steps spend their time in the stress.
+/// Computes J sigma [Pa] and the wave speed [m/s] of several particles in one call, with the same arithmetic as for
+/// one: the members are templates for a Real that is double or Lanes. Offer it where the stress takes most of the time
+/// of explicit steps.
 struct Vectorized {
   struct Name {
     int kirchhoffStress;
@@ -87,9 +88,9 @@ struct Vectorized {
   }
 };
 
-/// Computes dP/dF [Pa] of P = J sigma F^-T at the end of a step in which L dt = F F_old^-1 - I; row 3 i + J, column 3 k
-/// + L. It must be the derivative of the stress that updateStress computes from the state at the start of the step.
-/// Implicit steps need it.
+/// Computes dP/dF [Pa] of P = J sigma F^-T at the end of a step in which L dt = F F_old^-1 - I; dP_iJ/dF_kL is in row 3
+/// i + J and column 3 k + L. It must be the derivative of the stress that updateStress computes from the state at the
+/// start of the step. Implicit steps need it.
 struct NominalTangent {
   struct Name {
     int nominalTangent;
@@ -260,7 +261,8 @@ struct ViscousHeat {
   }
 };
 
-/// Whether a point with F, a stress [Pa] and a temperature [K] is molten: it then fails if the scene has an <erosion>.
+/// Whether a particle with given F, stress [Pa] and temperature [K] is molten: it then fails if the scene has an
+/// <erosion>.
 struct Melting {
   struct Name {
     int isMolten;
@@ -280,7 +282,8 @@ struct Melting {
 };
 
 /// Whether plastic flow in the step has become unstable; `stress` [Pa] and `state` are those at its end, before damage.
-/// The particle fails then where the scene has an <erosion>. `checksStability`: whether that is possible.
+/// The particle then fails if the scene has an <erosion>. `checksStability`: whether the model checks its stability at
+/// all.
 struct Stability {
   struct Name {
     int isUnstable;

@@ -4,7 +4,8 @@
 
 namespace tushar::mpm::solid {
 
-/// The optional capabilities of a type, as types of namespace capability. A type lists its own as `T::Capabilities`.
+/// A list of optional capabilities, which are types of namespace capability. A type T lists its own as
+/// `T::Capabilities`.
 ///
 /// A capability has a member template `check<T>()`, whose assertions compare the capabilities that T lists with the
 /// members that it has.

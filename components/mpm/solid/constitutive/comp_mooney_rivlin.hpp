@@ -55,8 +55,7 @@ struct CompMooneyRivlin {
       return Matrix3(2 * change);
     });
   }
-  /// The wave speed of the linear material, as in Uintah, with the modulus 2 mu (1 - nu) / (1 - 2 nu), mu = 2 (C1 +
-  /// C2).
+  /// The wave speed at small strains, as in Uintah, with the modulus 2 mu (1 - nu) / (1 - 2 nu), mu = 2 (C1 + C2).
   double initialWaveSpeed(double initialDensity) const {
     return std::sqrt(4 * (c1 + c2) * (1 - poissonRatio) / ((1 - 2 * poissonRatio) * initialDensity));
   }

@@ -69,7 +69,7 @@ struct ElasticPlastic {
   /// Yield condition; the model is GursonPlastic if it is GursonYield.
   std::variant<VonMisesYield, GursonYield> yieldCondition;
   StabilityCheck stability;  ///< which loss of stability makes particles fail
-  /// Whether porosity evolves; this and the following: only with GursonYield.
+  /// Whether porosity evolves. This member and the following ones are used only with GursonYield.
   bool poresEvolve = true;
   /// Mean and standard deviation of the initial porosity f [1].
   double initialPorosity = 0.002, porosityDeviation = 0.002;
@@ -284,7 +284,8 @@ struct ElasticPlastic {
     return state.temperature > state.meltTemperature || state.shearModulus <= 0;
   }
 
-  /// Returns the trial stress deviator to the yield surface; the result is the rate of the plastic strain [1/s].
+  /// Returns the trial stress deviator in `stress` to the yield surface; the result is the rate of the plastic strain
+  /// [1/s].
   double yield(const FlowState& start, double timeStep, Matrix3& stress, State& state) const {
     if (isFluid(start)) {
       stress.setZero();

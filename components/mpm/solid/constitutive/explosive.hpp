@@ -8,7 +8,8 @@
 
 namespace tushar::mpm::solid {
 
-/// An explosive before it burns, p = (J^-n - 1) / (n kappa): Murnaghan, Proc. Natl. Acad. Sci. 30 (1944) 244.
+/// The equation of state of an explosive before it burns, p = (J^-n - 1) / (n kappa): Murnaghan, Proc. Natl. Acad. Sci.
+/// 30 (1944) 244.
 struct Murnaghan {
   double compressibility = 0;  ///< kappa [1/Pa]
   double exponent = 0;         ///< exponent n [1]
@@ -21,8 +22,8 @@ struct Murnaghan {
   double relativeVolume(double p) const { return std::pow(1 + exponent * compressibility * p, -1 / exponent); }
 };
 
-/// The isentrope of the products, p = A exp(-R1 J) + B exp(-R2 J) + C J^-(1 + omega): Lee, Hornig & Kury, Adiabatic
-/// Expansion of High Explosive Detonation Products, UCRL-50422 (1968).
+/// The isentrope of the detonation products, p = A exp(-R1 J) + B exp(-R2 J) + C J^-(1 + omega): Lee, Hornig & Kury,
+/// Adiabatic Expansion of High Explosive Detonation Products, UCRL-50422 (1968).
 struct Jwl {
   double a = 0, b = 0, c = 0;  ///< A, B, C [Pa]
   double r1 = 0, r2 = 0;       ///< R1, R2 [1]

@@ -20,8 +20,8 @@ void addPressureForce(const Level& level, const Index<D>& cell, double pressureT
 /// p_p:
 /// (9) of Tran, Kim & Berzins, in any dimension. In one dimension F_i = P_below - P_above, times the cross-section.
 ///
-/// `pressure` is that of the state at the start of the step: (16) of the step before, artificial viscosity included.
-/// `force` [N] is complete on all nodes of the patch. A cell without particles has no pressure.
+/// `pressure` belongs to the state at the start of the step: the previous step computed it with (16), including
+/// artificial viscosity. `force` [N] is complete on all nodes of the patch. A cell without particles has no pressure.
 template <int D>
 void computeInternalForce(const Patch& patch, const Gas&, ParticleView<const double> pressure, NodeView<Vec<D>> force) {
   const Level& level = patch.level();
@@ -34,7 +34,7 @@ void computeInternalForce(const Patch& patch, const Gas&, ParticleView<const dou
   });
 }
 
-/// Computes (9) for particles that keep their mass: P_c is the mean of p_p weighted with the particles' volumes m_p /
+/// Computes (9) for particles that keep their mass: P_c is the mean of p_p, weighted by the particles' volumes m_p /
 /// rho_p.
 template <int D>
 void computeInternalForceOfVolumes(const Patch& patch, const Gas&, ParticleView<const double> pressure,

@@ -53,8 +53,8 @@ void shareCellVolume(const Patch& patch, const Gas&, ParticleView<const double> 
   });
 }
 
-/// Computes dt = cfl h / max_p(|v_p| + c_p), where h is the smallest cell width: keeps dt dv/dx small, (17) of Tran,
-/// Kim & Berzins.
+/// Computes dt = cfl h / max_p(|v_p| + c_p), where h is the smallest cell width. This keeps dt dv/dx small, as (17) of
+/// Tran, Kim & Berzins requires.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, ParticleView<const Vec<D>> velocity,
                            ParticleView<const double> internalEnergy, Minimum& dt) {

@@ -61,7 +61,7 @@ Piece<D> joined(const Piece<D>& a, const Piece<D>& b) {
 }
 
 /// Adds the cell's velocity slopes about the centre of mass, scaled down if they would increase the kinetic energy;
-/// what is left of the energy becomes heat.
+/// kinetic energy that is left over becomes heat.
 template <int D>
 void shearPieces(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Totals<D>& before) {
   Vec<D> centre = Vec<D>::Zero();

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// How particles are redistributed in cells with too few or too many.
+/// How particles are redistributed in cells that contain too few or too many of them.
 struct Redistribution {
   enum class Mode {
     splitMerge,  ///< halve large particles, merge close ones
@@ -57,14 +57,14 @@ struct CellShape {
   }
 };
 
-/// Halves pieces larger than V_c / (2 N_min), in the order of their ids, until there are N_min: equal mass and volume
-/// at x ± min(V, V_c) / V_c h / 4 along the longest axis of the cell (moved inside the cell where they would leave
-/// it), same velocity, energy and density.
+/// Halves pieces larger than V_c / (2 N_min), in the order of their ids, until there are N_min. The halves have equal
+/// mass and volume, and lie at x ± min(V, V_c) / V_c h / 4 along the longest axis of the cell (moved inside where they
+/// would leave it); velocity, energy and density stay the same.
 template <int D>
 void split(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, int minParticles);
 
-/// Merges the two closest pieces until there are N_max: positions and velocities are averaged with their masses as
-/// weights, volumes are added; the kinetic energy m1 m2 |v1 - v2|² / (2 (m1 + m2)) that this loses becomes heat.
+/// Merges the two closest pieces until there are N_max. Positions and velocities are averaged, weighted by mass, and
+/// volumes are added. The lost kinetic energy, m1 m2 |v1 - v2|² / (2 (m1 + m2)), becomes heat.
 template <int D>
 void merge(std::vector<Piece<D>>& pieces, int maxParticles);
 
@@ -74,7 +74,8 @@ void merge(std::vector<Piece<D>>& pieces, int maxParticles);
 template <int D>
 void reseed(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& gas, int alongAxis);
 
-/// Computes means over the particles of a cell and of its neighbours, limited by minmod: the slopes for `reseed`.
+/// Computes the slopes for `reseed` from the means over the particles of a cell and of its neighbours, limited by
+/// minmod.
 template <int D>
 void setSlopes(CellShape<D>& cell, const std::vector<Piece<D>>& here,
                const std::array<std::vector<Piece<D>>, 2 * D>& around, const Gas& gas);

@@ -90,8 +90,8 @@ void updateParticles(const Patch& patch, const Gas&, ParticleUpdate<D> u, double
   }
 }
 
-/// Computes (12), (13) and (15) for particles that keep their mass, with (14) such that total energy is conserved to
-/// round-off.
+/// Updates particles that keep their mass by (12), (13) and (15), and their energy, instead of by (14), such that total
+/// energy is conserved to round-off.
 ///
 /// The work of the pressure of a cell, -P_c V_c div(v_half) dt with v_half = v* - a dt/2, goes to its particles in
 /// proportion to p_p times their volume m_p / rho_p; the kinetic energy that (12) loses, dt²/2 (sum_i S_ip a_i² -
