@@ -26,7 +26,7 @@ struct FibreElasticity {
   double c1 = 0, c2 = 0, c3 = 0;         ///< constants of the matrix [Pa]; for VerondaWestmann, c2 is dimensionless
   double c4 = 0;                         ///< c4 [1]
   double c5 = 0;                         ///< c5 [Pa]
-  double straight = 1;                   ///< straight l* [1]
+  double straight = 1;                   ///< stretch l* at which fibres are straight [1]
   std::array<double, 3> fibre{1, 0, 0};  ///< a, along x, y, z
   Rubber rubber = Rubber::mooneyRivlin;
 
@@ -46,7 +46,7 @@ struct FibreElasticity {
     }
   };
 
-  /// Converts a pointer to a member into one of the Model that inherits this class.
+  /// Converts a pointer to a member of this class into a pointer to a member of `Model`, which inherits this class.
   template <class Model, class T>
   static T Model::*in(T FibreElasticity::*member) {
     return member;
@@ -73,7 +73,7 @@ struct FibreElasticity {
   }
 
   /// Computes tau = 2 dev((w1 + I1 w2) B' - w2 B'²) + g dev(a a) + K ln J I [Pa]; w1 and w2 are the derivatives of W_m
-  /// by I1 and I2, g = l dW_f/dl, a along the deformed fibre
+  /// by I1 and I2, g = l dW_f/dl, and a is the direction of the deformed fibre.
   Matrix3 elasticStress(const Point& at) const {
     const RubberSlopes w = rubberSlopes(at.first);
     const Matrix3 matrix = (w.byFirst + at.first * w.bySecond) * at.b - w.bySecond * at.b * at.b;
@@ -100,8 +100,8 @@ struct FibreElasticity {
     const RubberSlopes w = rubberSlopes(3);
     return bulkModulus + 8.0 / 3.0 * (w.byFirst + w.bySecond) + fibreSlope(1);
   }
-  /// An upper bound on the modulus [Pa]: of the matrix, 4/3 of twice w1 + w2 I1/3 times I1/3, and 16/9 I1² d²W_m/dI1²,
-  /// and of the fibres dg/dl l + |g|.
+  /// An upper bound on the P-wave modulus [Pa]: K, plus 8/9 I1 (w1 + w2 I1/3) + 16/9 I1² d²W_m/dI1² of the matrix, plus
+  /// l dg/dl + |g| of the fibres.
   double largestModulus(const Point& at) const {
     const RubberSlopes w = rubberSlopes(at.first);
     const double matrix = 8.0 / 3.0 * (w.byFirst + w.bySecond * at.first / 3) * at.first / 3;

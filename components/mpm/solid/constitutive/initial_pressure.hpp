@@ -12,7 +12,7 @@ inline double volumeRatioUnder(double pressure, double bulkModulus) {
   return std::sqrt(1 + q * q) - q;
 }
 
-/// Declares the tags of a body that is initially under pressure.
+/// Declares the tags for the initial pressure of a body.
 template <class M>
 void addInitialPressure(input::Schema<M>& tags) {
   tags.value("useInitialStress", &M::startsUnderPressure, false, "1",

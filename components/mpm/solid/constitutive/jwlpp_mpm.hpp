@@ -11,12 +11,12 @@
 namespace tushar::mpm::solid {
 
 /// An explosive that burns where it is compressed, dF/dt = G (1 - F) p^b, JWL++: Souers & al., Propellants,
-/// Explos., Pyrotech. 25 (2000) 54. A particle burns in steps that it starts above an ignition pressure. sigma = -p I,
-/// with the pressures of Murnaghan and of Jones, Wilkins and Lee in proportion.
+/// Explos., Pyrotech. 25 (2000) 54. A particle burns in steps at whose start its pressure exceeds an ignition pressure.
+/// sigma = -p I, where p combines the pressures of Murnaghan and of Jones, Wilkins and Lee (see mixedPressure).
 struct JwlppMpm {
   struct State {
     double burned;  ///< F, burned fraction [1]
-    double growth;  ///< growth of F in the last step [1]
+    double growth;  ///< growth of F in the latest step [1]
   };
   using Capabilities =
       CapabilityList<capability::IgnoresTemperature, capability::ConstantsOfMaterial, capability::InitialVolumeRatio,

@@ -16,7 +16,7 @@ namespace tushar::mpm::solid {
 /// Largest number of particles in one call of a constitutive model.
 inline constexpr int stressGroup = 64;
 
-/// Particles that are consecutive in memory, and pointers to the results at the end of a step that the caller requests.
+/// Particles that are consecutive in memory, and pointers to the requested results at the end of a step.
 struct StressPoints {
   int count = 0;
   double timeStep = 0;  ///< time step [s]
@@ -49,33 +49,33 @@ class Model {
   /// Number of doubles in the State of a particle.
   virtual int stateSize() const = 0;
   virtual std::vector<StateVariable> stateVariables() const = 0;
-  /// See capability::AbsentVariables.
+  /// Variables of Uintah's model that are always 0 in this model: see capability::AbsentVariables.
   virtual std::vector<StateVariable> absentVariables() const = 0;
   virtual void initialize(double* state, const Birth& birth) const = 0;
-  /// See capability::StateByParticle.
+  /// Whether the initial State depends on the particle: see capability::StateByParticle.
   virtual bool variesByParticle() const = 0;
   virtual bool usesTemperature() const = 0;
-  /// See capability::DependsOnDeformationOnly.
+  /// Whether the stress depends only on F: see capability::DependsOnDeformationOnly.
   virtual bool dependsOnDeformationOnly() const = 0;
-  /// See capability::FBar.
+  /// Whether the model supports F-bar: see capability::FBar.
   virtual bool supportsFBar() const = 0;
 
-  /// See capability::PlaceAndTime.
+  /// Whether the model uses the position and mass of the particle, and the time: see capability::PlaceAndTime.
   virtual bool usesPlaceAndTime() const = 0;
 
   /// Whether the work of a step changes the temperature.
   virtual bool changesTemperature() const = 0;
   /// Heat capacity [J/(kg K)] for F and a temperature [K]; `ofMaterial` is returned by models without HeatCapacity.
   virtual double heatCapacity(const Matrix3& deformation, double temperature, double ofMaterial) const = 0;
-  /// See capability::ViscousHeat.
+  /// Whether the State takes up the heat of the artificial viscosity: see capability::ViscousHeat.
   virtual bool hasViscousHeat() const = 0;
   /// Adds the heat of the artificial viscosity [J/kg] to the state of a particle; only if hasViscousHeat().
   virtual void addViscousHeat(double* state, double heat) const = 0;
-  /// See capability::Nonlocal.
+  /// Radius of the average of plastic strain [m]; 0 for no average: see capability::Nonlocal.
   virtual double nonlocalLength() const = 0;
-  /// Whether a point with F, a stress [Pa] and a temperature [K] is molten; false for models without Melting.
+  /// Whether a particle with given F, stress [Pa] and temperature [K] is molten; false for models without Melting.
   virtual bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const = 0;
-  /// See capability::Stability; false for models without it.
+  /// Whether plastic flow has become unstable in the step: see capability::Stability; false for models without it.
   virtual bool isUnstable(const Deformation& d, const Matrix3& stress, const double* state) const = 0;
   /// Whether isUnstable() can be true.
   virtual bool checksStability() const = 0;
@@ -84,12 +84,12 @@ class Model {
 
   /// Speed of the fastest wave at the start of the run [m/s].
   virtual double initialWaveSpeed(double initialDensity, double temperature) const = 0;
-  /// See capability::InitialVolumeRatio.
+  /// The initial det F: see capability::InitialVolumeRatio.
   virtual double initialVolumeRatio() const = 0;
-  /// See capability::InitialStress.
+  /// Stress at the start of the run [Pa]: see capability::InitialStress.
   virtual Matrix3 initialStress() const = 0;
   virtual void updateStress(double initialDensity, const StressPoints& points) const = 0;
-  /// See capability::NominalTangent.
+  /// Whether the model has a tangent: see capability::NominalTangent.
   virtual bool hasTangent() const = 0;
   /// Computes dP/dF of each point [Pa] from the state at the start of the step; only if hasTangent().
   virtual void nominalTangent(const StressPoints& points, Matrix9* tangent) const = 0;
@@ -107,7 +107,7 @@ inline int offsetOf(const Model& model, std::string_view label) {
   return -1;
 }
 
-/// A constitutive model as a Model, with its capabilities resolved at compile time.
+/// Makes a Model of the constitutive model M, whose capabilities are resolved at compile time.
 template <ConstitutiveModel M>
 class ModelOf : public Model {
  public:

@@ -15,9 +15,9 @@
 namespace tushar::mpm::solid {
 
 /// Linear elasticity with the yield surface of Mohr and Coulomb, (s1 - s3) + (s1 + s3) sin phi = 2 c cos phi with the
-/// principal stresses s1 >= s2 >= s3, tension positive; flow by the same function with the dilation angle psi. The
-/// stress returns to a face, an edge or the apex: de Souza Neto, Perić & Owen, Computational Methods for Plasticity
-/// (2008), section 8.2. The stress rotates with the material, unlike in Uintah.
+/// principal stresses s1 >= s2 >= s3, tension positive; plastic flow follows from the same function with the dilation
+/// angle psi instead of phi. The stress returns to a face, an edge or the apex: de Souza Neto, Perić & Owen,
+/// Computational Methods for Plasticity (2008), section 8.2. The stress rotates with the material, unlike in Uintah.
 ///
 /// With <Usetransition>, c = St A1 W^-B1 max(1, g/g_ref)^beta_rate for a water content W and a shear rate g: Boukpeti,
 /// White, Randolph & Low, Géotechnique 62 (2012) 483. With <UseWaterRetention>, a suction s adds s tan PhiB to c,
@@ -114,8 +114,8 @@ struct MohrCoulomb : IsotropicModuli {
   double saturation(double suction) const {
     return std::pow(1 + std::pow(retentionAlpha * suction, retentionN), -retentionM);
   }
-  /// Updates the suction after a dilatation [Pa]: a constant amount of water fills a larger fraction of smaller pores,
-  /// and all of pores that have closed or open again.
+  /// Updates the suction [Pa] after a dilatation. The amount of water is constant, so it fills a larger fraction of
+  /// smaller pores; pores that are closed before or after the step count as full.
   void squeeze(double dilatation, State& state) const {
     constexpr double full = 0.99999;
     const double before = state.specificVolume, now = before * (1 + dilatation);

@@ -77,7 +77,8 @@ struct NonlocalDruckerPrager {
   }
 
  private:
-  /// Returns a trial stress to the yield surface along C : M, or to its apex; the result is the plastic strain.
+  /// Returns a trial stress to the yield surface along C : M, or to the apex of the surface; the result is the plastic
+  /// strain.
   double yield(Matrix3& stress, State& state) const {
     const Matrix3 shear = deviator(stress);
     const double size = shear.norm() / std::sqrt(2.0), mean = stress.trace() / 3;
@@ -98,7 +99,7 @@ struct NonlocalDruckerPrager {
   }
   /// Returns a trial stress, with the root `size` of J2, to the apex of the surface that results from its plastic
   /// strain:
-  /// that strain has (size/(2^(1/2) G))² + (p - p_apex)²/(3 K²) as the square of its length, which is the result.
+  /// The result is the length of this strain, the square root of (size/(2^(1/2) G))² + (p - p_apex)²/(3 K²).
   double toApex(double start, double size, double toAxis, Matrix3& stress) const {
     const double mean = stress.trace() / 3, onAxis = mean - 3 * bulkModulus * dilation * toAxis / flowScale();
     const auto strainTo = [&](double apex) {
@@ -143,7 +144,8 @@ struct NonlocalDruckerPrager {
     tags.check(checkConstants);
     return tags;
   }
-  /// Reports softening that is faster than the decrease of the trial stress: no stress is then on the surface.
+  /// Reports softening that is faster than the decrease of the trial stress, because no stress would then lie on the
+  /// yield surface.
   static void checkConstants(const NonlocalDruckerPrager& read, const input::Element& element,
                              input::Diagnostics& diagnostics) {
     const double softest = read.localModulus + std::min(read.nonlocalModulus, 0.0), limit = -read.stiffness();

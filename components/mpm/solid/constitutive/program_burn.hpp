@@ -13,7 +13,7 @@ namespace tushar::mpm::solid {
 /// given velocity, independent of the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From t_b = T0 +
 /// |x - x_0| / D on, a particle of mass m burns during the time in which the detonation advances by 1.5 (m /
 /// rho_0)^(1/3). sigma = -p I, where p is the average of the pressures of Murnaghan and of Jones, Wilkins and Lee,
-/// weighted with the burnt fraction.
+/// weighted by the burned fraction.
 struct ProgramBurn {
   struct State {
     double burned;  ///< F, burned fraction [1]
@@ -49,8 +49,9 @@ struct ProgramBurn {
   }
   /// Wave speed of the unburned explosive [m/s].
   double initialWaveSpeed(double initialDensity) const { return speed(explosive(), density / initialDensity); }
-  /// The wave speed, c² = -J² dp/dJ / rho_0: that of the products once burning has started, and that of the explosive
-  /// as long as some is left, whichever is larger; at high compression the explosive is the stiffer one.
+  /// The wave speed, c² = -J² dp/dJ / rho_0. It is the larger of two speeds: that of the products, once burning has
+  /// started, and that of the explosive, as long as some is left. At high compression the explosive is stiffer than the
+  /// products.
   double waveSpeed(double, const Deformation& d, const Matrix3&, const State& state) const {
     const double j = volumeOf(d);
     if (state.burned <= 0) return speed(explosive(), j);

@@ -20,13 +20,13 @@ struct ThWater {
   static constexpr bool strainEnergyIsRate = true;
 
   MaterialConstants material;
-  double pressureShift = 0;           ///< pressure shift a [K/Pa]
-  double heatSlope = 0;               ///< heat slope b [J/(kg K²)]
-  double specificHeat = 0;            ///< specific heat c_0 [J/(kg K)]
+  double pressureShift = 0;           ///< a, decrease of T_0 with the pressure [K/Pa]
+  double heatSlope = 0;               ///< b, decrease of c_p with the temperature [J/(kg K²)]
+  double specificHeat = 0;            ///< specific heat c_0 at T_0 and p = 0 [J/(kg K)]
   double compressibility = 0;         ///< compressibility k [1/Pa]
-  double densestTemperature = 0;      ///< densest temperature T_0 [K]
-  double curvature = 0;               ///< curvature L [1/K²]
-  double densestVolume = 0;           ///< densest volume v_0 [m^3/kg]
+  double densestTemperature = 0;      ///< temperature T_0 of largest density at p = 0 [K]
+  double curvature = 0;               ///< curvature L of the volume around T_0 [1/K²]
+  double densestVolume = 0;           ///< specific volume v_0 at T_0 and p = 0 [m^3/kg]
   double referencePressure = 101325;  ///< pressure at which the stress is 0 [Pa]
 
   static const input::Schema<ThWater>& schema() {
@@ -75,12 +75,12 @@ struct ThWater {
     double pressure;       ///< pressure p [Pa]
     double byPressure;     ///< -(dv/dp)_T [m^3/(kg Pa)]
     double byTemperature;  ///< (dv/dT)_p [m^3/(kg K)]
-    double heat;           ///< heat c_p [J/(kg K)]
+    double heat;           ///< heat capacity c_p [J/(kg K)]
   };
-  /// Smallest fraction of c_p (for c_v), and of the compressibility, that is kept. The formula is valid up to about 1e8
-  /// Pa and, without pressure, about 90 K above T_0. Beyond, it would make c_v and then the compressibility vanish: at
-  /// .89 and .86 of the volume at 300 K. This share of the compressibility without pressure, and of c_p = c_v + T
-  /// (dp/dT)_v (dv/dT)_p for c_v, is left.
+  /// Lower limit of c_v, as a fraction of c_p = c_v + T (dp/dT)_v (dv/dT)_p, and of the compressibility, as a fraction
+  /// of that without pressure. The formula is valid up to about 1e8 Pa and, without pressure, up to about 90 K above
+  /// T_0. At higher compression it would make c_v and then the compressibility vanish: at .89 and .86 of the volume at
+  /// 300 K.
   static constexpr double least = 0.25;
 
   /// The heat capacity at constant volume c_v [J/(kg K)].

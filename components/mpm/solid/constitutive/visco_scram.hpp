@@ -48,7 +48,7 @@ struct ViscoScram {
   double toughness = 0;                                          ///< toughness K_0 [Pa m^(1/2)]
   double crackFriction = 0;                                      ///< crack friction mu [1]
   double initialCrackRadius = 0;                                 ///< initial crack radius [m]
-  double tensileSpeedUp = 0;                                     ///< factor for cracks in tension [1]
+  double tensileSpeedUp = 0;                                     ///< factor of the crack speed in tension [1]
   double g1 = 0, g2 = 0, g3 = 0, g4 = 0, g5 = 0;                 ///< G_n [Pa]
   double rate1 = 0, rate2 = 0, rate3 = 0, rate4 = 0, rate5 = 0;  ///< 1/tau_n [1/s]
   double gruneisen = 0;                                          ///< Grüneisen parameter [1]
@@ -68,7 +68,7 @@ struct ViscoScram {
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
     return updateStress(d, oldStress, state, 0);
   }
-  /// Like the function above, with a strain `free` along each axis that causes no stress [1].
+  /// Computes the stress at the end of the step, where the strain `free` along each axis causes no stress [1].
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state, double free) const {
     Corotated step(d, oldStress);
     step.strain.diagonal().array() -= free;
@@ -108,7 +108,7 @@ struct ViscoScram {
   /// The load in a step that opens the cracks.
   struct CrackLoad {
     double pressure;       ///< pressure on the faces of the cracks [Pa]; 0 in tension
-    double stress;         ///< (s:s)^(1/2) under pressure, (sigma:sigma)^(1/2) in tension [Pa]
+    double stress;         ///< (s:s)^(1/2) in compression, (sigma:sigma)^(1/2) in tension [Pa]
     double greatestSpeed;  ///< largest speed [m/s]
   };
 
@@ -138,8 +138,9 @@ struct ViscoScram {
     return {std::max(-mean, 0.0), mean > 0 ? step.stress.norm() : deviator(step.stress).norm(),
             std::min(speed, greatestCrackSpeed)};
   }
-  /// The crack speed dc/dt = v (K/K_1)^m below K', v (1 - (K_0'/K)²) above, eqs. 24-31: K = (3/2 pi c)^(1/2) sigma,
-  /// K_0' the toughness with friction on the faces of the crack, K' = K_0' (1 + 2/m)^(1/2), K_1 = K' (1 + m/2)^(1/m).
+  /// The crack speed dc/dt = v (K/K_1)^m for K < K', and v (1 - (K_0'/K)²) otherwise, eqs. 24-31: K = (3/2 pi c)^(1/2)
+  /// sigma, K_0' the toughness with friction on the faces of the crack, K' = K_0' (1 + 2/m)^(1/2), K_1 = K' (1 +
+  /// m/2)^(1/m).
   double crackSpeed(const CrackLoad& load, double radius) const {
     const double intensity = std::sqrt(1.5 * std::numbers::pi * radius) * load.stress;
     if (intensity <= 0) return 0;
@@ -254,12 +255,12 @@ struct ViscoScram {
 };
 static_assert(ConstitutiveModel<ViscoScram>);
 
-/// ViscoScram with thermal expansion: the strain rate that causes stress is D - alpha dT/dt I, as in Uintah with T at
-/// the start of this step and of the previous one.
+/// ViscoScram with thermal expansion: the strain rate that causes stress is D - alpha dT/dt I. As in Uintah, dT/dt
+/// follows from the temperatures at the start of this step and of the previous one.
 struct ExpandingViscoScram {
   struct State {
     ViscoScram::State scram;
-    double temperature;  ///< temperature at the start of the last step [K]; -1 before the first one
+    double temperature;  ///< temperature at the start of the previous step [K]; -1 in the first step
   };
   using Capabilities =
       CapabilityList<capability::BulkSpeed, capability::InitialWaveSpeed, capability::TemperatureChange>;

@@ -87,7 +87,7 @@ struct ViscoTransIsoHyper : FibreElasticity {
   double initialWaveSpeed(double initialDensity) const {
     return std::sqrt(fastStiffening() * initialModulus() / initialDensity);
   }
-  /// The wave speed of a fast wave, in which all Maxwell elements act as springs.
+  /// The speed of a fast wave, in which all Maxwell elements act as springs.
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     const Point at(*this, d.deformationGradient);
     return std::sqrt(fastStiffening() * largestModulus(at) * at.j / initialDensity);

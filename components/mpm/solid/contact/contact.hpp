@@ -23,7 +23,7 @@ struct Motion {
   Vec3 angularVelocity = Vec3::Zero();  ///< angular velocity [1/s]
 
   /// The velocity [m/s] that moves a point in dt to its prescribed position: along the chord of its circle if the axis
-  /// is nearly parallel to one of the grid's (cos > 0.99), otherwise omega x r, as in Uintah.
+  /// is nearly parallel to an axis of the grid (cos > 0.99), otherwise omega x r, as in Uintah.
   Vec3 at(const Vec3& point, double dt) const;
 };
 
@@ -80,7 +80,7 @@ struct Contact {
   std::optional<Vec3> prescribedVelocity(double time) const;
 };
 
-/// The stage of the step at which the velocity in the records is.
+/// The stage of the step to which the velocity in the records belongs.
 enum class Moment {
   start,  ///< the velocity interpolated from the particles
   end,    ///< the velocity v* after the forces
@@ -102,8 +102,8 @@ Vec<D> masterVelocity(const Patch& patch, const Contact& contact, const std::opt
 /// The fraction of the mass at a node below which a mass is considered a rounding error.
 inline constexpr double leastShare = 1e-14;
 
-/// Whether a material is present at a node: a particle at the very edge of its support may leave 1e-30 of its mass
-/// there by rounding, which must not affect other bodies.
+/// Whether a material is present at a node. By rounding, a particle may leave 1e-30 of its mass at a node at the very
+/// edge of its support, which must not affect other bodies.
 template <int D>
 bool isPresent(const Records& records, int material, const Index<D>& node) {
   double total = 0;
@@ -116,7 +116,7 @@ bool isExcluded(const Contact& contact, const Records& records, const Index<D>& 
   return contact.excluded >= 0 && records[contact.excluded][node][lane::mass] != 0;
 }
 
-/// The causes of velocity changes in a step other than stresses and loads.
+/// The causes, other than stresses and loads, of velocity changes in a step.
 struct Acceleration {
   Vec3 gravity = Vec3::Zero();  ///< gravity [m/s^2]
   double damping = 0;           ///< damping [1/s]

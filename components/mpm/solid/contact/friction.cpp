@@ -6,9 +6,9 @@ namespace tushar::mpm::solid {
 
 namespace {
 
-/// The traction below which a traction counts as round-off [Pa].
+/// The smallest traction that does not count as round-off [Pa].
 constexpr double leastTraction = 1e-12;
-/// The mass gradient below which a gradient is not normalised [kg/m].
+/// The smallest mass gradient that is normalised [kg/m].
 constexpr double leastGradient = 1e-15;
 
 /// All bodies that take part, at one node.
@@ -62,7 +62,8 @@ bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) 
   return traction < -leastTraction;
 }
 
-/// The normal out of a body at a node, which may be shared by the bodies there; 0 if the body's mass has no gradient.
+/// The unit normal that points out of a body at a node, from the mass gradient of the body and, if Contact::oneNormal,
+/// from those of the other bodies; not normalised if it is nearly 0.
 template <int D>
 Vec<D> normalOf(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
                 std::size_t m, const Index<D>& node) {
@@ -89,13 +90,14 @@ bool arePressed(const Level& level, const Contact& contact, const Records& recor
   return true;
 }
 
-/// The distance between the mass of the other bodies and the mass of this body at a node [m].
+/// The distance, at a node, between the centre of mass of this body and that of the other bodies [m].
 template <int D>
 double separation(const Gathering<D>& all, const Vec<D>& position, double mass) {
   return ((all.position - position) / (all.mass - mass) - position / mass).norm();
 }
 
-/// The factor for a change of velocity that limits the largest strain in a step, over all bodies at the node, to 1/2.
+/// The factor by which a change of velocity at a node is reduced, so that it strains no body there by more than 1/2 in
+/// a step.
 template <int D>
 double strainLimit(const Level& level, const Vec<D>& change, double dt, double massRatio) {
   double strain = 0;

@@ -51,10 +51,10 @@ using FrictionHeats = std::vector<std::optional<NodeView<double>>>;
 /// heat to `heat`.
 ///
 /// As in Uintah, the normal of a body is half the difference between its mass gradient and the mass-weighted mean of
-/// the gradients of all others (in axisymmetric scenes, of the gradients per cell), and its own stress determines
-/// whether it is under pressure. So the sum of momenta changes with three bodies, or with two of which only one is
-/// under pressure. In contacts that conserve momentum, all bodies have the normal of the body with the largest mass
-/// gradient, or its opposite, and are under pressure if the stresses of all are.
+/// the gradients of all others (in axisymmetric scenes, of the gradients per cell), and only its own stress determines
+/// whether it is in compression. So the sum of momenta changes with three bodies, or with two of which only one is in
+/// compression. In contacts that conserve momentum, all bodies have the normal of the body with the largest mass
+/// gradient, or its opposite, and count as in compression if the stresses of all are compressive.
 template <int D>
 void applyFriction(const Patch& patch, const Contact& contact, double dt, const Records& records,
                    const Surfaces<D>& surfaces, const FrictionHeats& heat);

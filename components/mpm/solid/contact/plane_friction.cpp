@@ -12,7 +12,7 @@ namespace {
 
 constexpr int mostSteps = 51;
 constexpr double tolerance = 1e-7;
-/// The mass of a body at a node below which it is ignored [kg], as in Uintah.
+/// A body with less mass at a node is ignored there, as in Uintah [kg].
 constexpr double leastMass = 1e-16;
 
 template <int N>
@@ -84,7 +84,7 @@ int foremost(const SeparatingPlanes<D>& planes, const Index<D>& node) {
   return -1;
 }
 
-/// Whether a body extends at a node across the plane into the body to which the plane belongs.
+/// Whether, at a node, a body extends across the plane into the body to which the plane belongs.
 template <int D>
 bool overlaps(const SeparatingPlanes<D>& planes, int first, std::size_t m, const Index<D>& node) {
   return (*planes[m].prominence)[node] <= (*planes[first].prominence)[node];
@@ -114,7 +114,7 @@ bool meetsMaster(const Contact& contact, const Records& records, const Separatin
          overlaps<D>(planes, first, m, node);
 }
 
-/// Calls `visit(node, m, touch)` for each body m that meets the master at a node, moving against it.
+/// Calls `visit(node, m, touch)` for each body m that meets the master at a node and moves against it.
 template <int D, class Visit>
 void forEachTouch(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
                   const SeparatingPlanes<D>& planes, Visit&& visit) {

@@ -10,7 +10,7 @@ namespace tushar::mpm::solid {
 
 /// The state of one particle at the end of a step that determines the growth of damage.
 struct DamageConditions {
-  const Matrix3& deformation;  ///< deformation F [1]
+  const Matrix3& deformation;  ///< deformation gradient F [1]
   double volume;               ///< volume [m^3]
   double plasticStrainRate;    ///< plastic strain rate [1/s]
   double temperature;          ///< temperature [K]
@@ -90,8 +90,8 @@ struct BrittleDamage {
   void grow(const MaterialConstants&, const DamageConditions& conditions, Matrix3& stress, DamageState& state) const;
 };
 
-/// A particle fails at once if its largest principal stress or strain, or its Mohr-Coulomb stress, exceeds a threshold,
-/// which may differ between particles.
+/// A particle fails immediately if its largest principal stress or strain, or its Mohr-Coulomb stress, exceeds a
+/// threshold, which may differ between particles.
 struct ThresholdDamage {
   enum class Criterion { principalStress, principalStrain, mohrCoulomb };
   enum class Distribution { constant, gauss, weibull, uniform };
@@ -116,7 +116,7 @@ struct ThresholdDamage {
   bool isBeyond(const DamageConditions& conditions, const Matrix3& stress, double threshold) const;
 };
 
-/// Like ThresholdDamage, with a mean and a standard deviation as functions of p.color.
+/// A ThresholdDamage whose mean and standard deviation are functions of p.color.
 struct ThresholdVarDamage : ThresholdDamage {
   static constexpr std::string_view name = "ThresholdVar";
   struct Entry {

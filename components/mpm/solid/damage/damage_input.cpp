@@ -75,7 +75,7 @@ const Schema<BrittleDamage>& BrittleDamage::schema() {
   return schema;
 }
 
-/// Converts a pointer to a member of the model that Self extends into one of Self.
+/// Converts a pointer to a member of ThresholdDamage into a pointer to a member of Self, which extends it.
 template <class Self, class T>
 T Self::*of(T ThresholdDamage::*member) {
   return member;
@@ -213,7 +213,7 @@ void connect(Material& material, const Element& parent, const Element& tag, Diag
   brittle->young = 9 * *bulk * *shear / (3 * *bulk + *shear);
 }
 
-/// Refuses stability checks of porous metals combined with erosion, by which particles fail in Uintah.
+/// Refuses erosion together with a stability check of porous metals; in Uintah, particles fail by this check.
 void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");
   const auto check = model ? model->child("stability_check") : std::nullopt;
@@ -226,7 +226,7 @@ void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagno
                                   erosion.where().line));
 }
 
-/// Notes that particles do not fail because of porosity, although metals do so in Uintah by default.
+/// Adds a note that porosity makes no particle fail; in Uintah, it makes particles of metals fail by default.
 void noteWhatDoesNotFail(const Material& material, const Element& parent, const Element& erosion,
                          Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");

@@ -9,7 +9,7 @@ using input::Element;
 
 namespace {
 
-/// Checks that pressures specify the faces of particles on which they act if use_CBDI_boundary_condition is set.
+/// If use_CBDI_boundary_condition is set, checks that pressures specify the faces of particles on which they act.
 void checkCorners(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const auto loads = root.child("PhysicalBC");
   if (!problem.method.loadsAtCorners || !loads) return;

@@ -22,7 +22,7 @@ struct TasksOfShapes {
 /// Constructs the method with these shape functions on a grid of a given dimension; loads their module.
 std::unique_ptr<Solids> makeSolids(Interpolator interpolator, int dimension, const Problem& problem);
 
-/// Registers shape functions; must be called by the module of an interpolator when it is loaded.
+/// Registers shape functions. The module of the interpolator calls this function when it is loaded.
 void defineShapes(Interpolator interpolator, const TasksOfShapes& shapes, const TasksOfShapes& axisymmetric = {});
 
 }  // namespace tushar::mpm::solid

@@ -100,7 +100,8 @@ void SolidMpm<D>::schedulePrescribedMotion(TaskList& tasks, const NodeLabel<Node
                       with(shapes_.ghostNodes), startTime(), requiresOld(p::x<D>, shapes_.reach), modifies(record));
 }
 
-/// Like scheduleStrainWork, runs only if work is saved or reported; `shaped` reads the F that shape functions follow.
+/// Adds the work of a step, except that of the stresses (see scheduleStrainWork). The tasks of both run only if work is
+/// saved or reported. `shaped` reads the F that shape functions follow.
 template <int D>
 void SolidMpm<D>::scheduleMeasureWork(TaskList& tasks, Reads shaped) const {
   scheduleNodalWork(tasks);
@@ -117,7 +118,8 @@ void SolidMpm<D>::scheduleUpdateParticles(TaskList& tasks) const {
   scheduleDamage(tasks);
 }
 
-/// Adds the motion without the stress, for particles of a cell that share their change of volume.
+/// Adds first the motion of particles, then the update of F and the stress, because the particles of a cell share one
+/// change of volume.
 template <int D>
 void SolidMpm<D>::scheduleUpdateInCells(TaskList& tasks) const {
   scheduleMoveParticles(tasks, readsOld);

@@ -46,7 +46,7 @@ class SolidMpm : public SolidsOf<D> {
   void scheduleUpdateParticles(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
 
-  /// The F with which shape functions deform, if they do; `reads` selects the old or the new one.
+  /// The access to the F that shape functions follow, if they do; `reads` selects the old or the new F.
   auto shapedBy(Reads reads, int ghost = 0) const { return when(shapes_.deform, reads(p::deformationMeasure, ghost)); }
 
   const ExplicitTasks<D>* bodies_;

@@ -12,9 +12,8 @@ namespace tushar::mpm::solid::implicit {
 ///
 ///     (C_i + dt K_ij) T'_j = C_i T_i,  C_i = sum_p S_i m_p c_p,  K_ij = sum_p V_p k_p grad S_i . grad S_j,
 ///
-/// where T_i is the mean of the particles' temperatures weighted with their heat capacities. All materials have the
-/// same temperature at a node. A side of the grid has the temperature that the scene specifies; otherwise it is
-/// insulated.
+/// where T_i is the mean of the particles' temperatures, weighted by their heat capacities. All materials have the same
+/// temperature at a node. A side of the grid has the temperature that the scene specifies; otherwise it is insulated.
 template <int D>
 class NodalHeat {
  public:

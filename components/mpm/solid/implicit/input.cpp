@@ -223,8 +223,8 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <time_integrator> explicit");
 }
 
-/// Notes that metals do not expand thermally, as they do in Uintah's implicit steps in addition to the equation of
-/// state.
+/// Adds a note that temperature affects metals only through the equation of state; in Uintah's implicit steps, it also
+/// strains them.
 void noteThermalStrain(const Element& root, Diagnostics& diagnostics) {
   for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material")) {
     const auto model = material.child("constitutive_model");

@@ -58,8 +58,8 @@ class PointStates {
 
   /// Whether F-bar applies to the points of a run: only for models that support it.
   bool sharesVolume(const PointRun& run) const { return shares_volume_ && run.group->material->model->supportsFBar(); }
-  /// Computes F = (I + gradient) F_old of a run. Returns false if a point would be turned inside out or crushed to a
-  /// tenth.
+  /// Computes F = (I + gradient) F_old of a run. Returns false if the step would turn a point inside out or compress it
+  /// to a tenth of its volume.
   bool deform(const PointRun& run) {
     for (int k = run.from; k < run.from + run.count; ++k) {
       const std::size_t at = run.group->first + k;
@@ -93,8 +93,9 @@ class PointStates {
   }
 
  private:
-  /// Applies F-bar: det(stretch F) is the volume of all points of the run over that at the start of the simulation, so
-  /// that each cell is compressed as a whole (de Souza Neto et al., Int. J. Solids Structures 33 (1996) 3277).
+  /// Applies F-bar: det(stretch F) is the ratio of the volume of all points of the run to their volume at the start of
+  /// the simulation, so that each cell is compressed as a whole (de Souza Neto et al., Int. J. Solids Structures 33
+  /// (1996) 3277).
   void shareVolume(const PointRun& run) {
     double start = 0, now = 0;
     const bool shares = sharesVolume(run);
@@ -109,8 +110,8 @@ class PointStates {
       f_bar_[at] = stretch[at] * deformation[at];
     }
   }
-  /// Calls `work(k, points)` for up to stressGroup points at once, with their state at the start of the step; k is the
-  /// index of the first.
+  /// Calls `work(k, points)` for groups of up to stressGroup points, with their state at the start of the step; k is
+  /// the index of the first point of the group.
   template <class Work>
   void forEachChunk(const PointRun& run, Work&& work) {
     const PointGroup& group = *run.group;

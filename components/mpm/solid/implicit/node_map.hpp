@@ -10,7 +10,8 @@
 namespace tushar::mpm::solid::implicit {
 
 /// Indices of grid nodes in a system of equations, which contains only the nodes near particles. A node beyond a
-/// symmetry plane moves as the mirror image of the one inside; a node on a periodic face is the one on the other side.
+/// symmetry plane moves as the mirror image of the one inside; a node on a periodic face is the same node as the one on
+/// the opposite face.
 ///
 /// The rank that owns the cell above a node owns the node. A rank numbers its own nodes first, then those of other
 /// ranks that its particles touch or that lie near its patches.

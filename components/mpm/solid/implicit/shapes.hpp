@@ -6,8 +6,8 @@
 #include "components/mpm/solid/implicit/method.hpp"
 #include "components/mpm/solid/tasks/shaped_tasks.hpp"
 
-// Shape functions as implicit steps use them: the solves see the nodes that a particle touches, and are compiled once
-// for each dimension.
+// Shape functions as implicit steps use them: the solves see only the nodes that a particle touches, so that they are
+// compiled only once for each dimension.
 
 namespace tushar::mpm::solid::implicit {
 

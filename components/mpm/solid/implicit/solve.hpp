@@ -114,7 +114,7 @@ RigidBodies<D> constrain(ImplicitSystem<D>& system, const RankPatches& patches, 
   return rigid;
 }
 
-/// The acceleration of the nodes with which Newmark's method starts: 0 if faces or rigid bodies hold them.
+/// Computes the accelerations of nodes with which Newmark's method starts; 0 at nodes that faces or rigid bodies hold.
 template <int D>
 void accelerateAtStart(const RankPatches& patches, const std::vector<Material>& materials,
                        const mpi::Communicator& ranks, const ImplicitSetup<D>& setup, double time,

@@ -28,7 +28,7 @@ auto ImplicitSystem<D>::strainOf(std::size_t point) const -> Strain {
 }
 
 /// Adds V0 Bᵀ a B / stretch, where B is strainOf and a_ijkl = sum_JL dP_iJ/dF_kL F_old_jJ F_old_lL. A column of B has
-/// at most D numbers, and one more of the hoop: only these are multiplied.
+/// at most D non-zero numbers, and one more for the hoop strain; only these are multiplied.
 template <int D>
 void ImplicitSystem<D>::addStiffnessOf(const PointGroup& group, int k, const Matrix9& tangent, Local& stiffness) const {
   const std::size_t at = group.first + k;
@@ -103,7 +103,8 @@ void ImplicitSystem<D>::addStiffness(std::span<const int> numbers, Local& stiffn
   matrix.add(numbers, numbers, {stiffness.data(), static_cast<std::size_t>(stiffness.size())});
 }
 
-/// Adds together consecutive points that touch the same nodes, such as those of a cell with linear shape functions.
+/// Adds the stiffness of the points of a run. Consecutive points that touch the same nodes are added together, such as
+/// those of a cell with linear shape functions.
 template <int D>
 void ImplicitSystem<D>::addRunStiffness(const PointRun& run, solvers::Matrix& matrix) {
   const PointGroup& group = *run.group;
@@ -166,7 +167,7 @@ void ImplicitSystem<D>::addSharedStiffness(const PointRun& run, const std::vecto
   }
 }
 
-/// Adds inertia, weak springs, and diagonal entries for prescribed displacements that are as stiff as the others.
+/// Adds inertia and weak springs and, for prescribed displacements, diagonal entries that are as stiff as the others.
 template <int D>
 void ImplicitSystem<D>::addDiagonals(solvers::Matrix& matrix) const {
   for (int k = 0; k < map_.owned(); ++k) {

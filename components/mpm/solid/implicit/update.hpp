@@ -126,7 +126,7 @@ struct NewmarkUpdate {
   }
 };
 
-/// Newmark's update: v_p += dt/2 (a_p + a'_p) with a'_p = sum_i S_i a_i.
+/// Computes Newmark's update, v_p += dt/2 (a_p + a'_p) with a'_p = sum_i S_i a_i.
 template <int D>
 void advanceVelocity(const Patch& patch, const Material&, const ImplicitSetup<D>& setup, double dt,
                      const NewmarkUpdate<D>& u) {
@@ -136,7 +136,8 @@ void advanceVelocity(const Patch& patch, const Material&, const ImplicitSetup<D>
   });
 }
 
-/// The update without inertia: v_p = (x'_p - x_p) / dt, with positions or displacements for x_p.
+/// Computes the update without inertia, v_p = (x'_p - x_p) / dt, where x_p and x'_p are positions or displacements
+/// before and after the step.
 template <int D>
 void meanVelocity(const Patch&, const Material&, double dt, ParticleView<const Vec<D>> before,
                   ParticleView<const Vec<D>> after, ParticleView<Vec<D>> velocity, ParticleView<Vec<D>> acceleration) {

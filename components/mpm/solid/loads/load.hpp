@@ -26,16 +26,18 @@ enum class LoadKind { pressure, torque, heatFlux };
 
 /// Area of a surface [m^2]; per radian for the side or end of an axisymmetric cylinder.
 double areaOf(const Surface& surface);
-/// Whether a particle at `point`, whose neighbours are `spacing` away, lies along a surface, with Uintah's distances.
-/// From a box: one spacing along its thin axis or, for heat, along all axes. From a cylinder: 1.2 times the smallest
-/// spacing, for a torque 0.9 times, and for heat from its side half the length of the spacing vector. From a sphere:
-/// the length of that vector.
+/// Whether a particle at `point`, whose neighbours are `spacing` away, lies along a surface. The largest distances are
+/// Uintah's. From a box: one spacing along its thin axis or, for heat, along all axes. From a cylinder: 1.2 times the
+/// smallest spacing, for a torque 0.9 times, and for heat from its side half the length of the spacing vector. From a
+/// sphere: the length of that vector.
 bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, LoadKind kind);
-/// The direction in which a positive load pushes: the thin axis of a box, outwards, or along a cylinder to its top.
+/// The direction in which a positive load pushes: along the thin axis of a box, outwards from a sphere or from the side
+/// of a cylinder, and, on the end of a cylinder, from its bottom to its top.
 Vec3 normalAt(const Surface& surface, const Vec3& point);
 
 /// A `PhysicalBC/MPM/pressure`, `torque` or `heat_flux`: the particles at the surface share the force or heat of the
-/// whole area, or the torque, evenly, or on the end of an axisymmetric cylinder by their radius.
+/// whole area, or the torque. The shares are equal or, on the end of an axisymmetric cylinder, proportional to the
+/// particles' radii.
 struct SurfaceLoad {
   using Kind = LoadKind;
 
@@ -49,8 +51,8 @@ struct SurfaceLoad {
       /// For pressure on faces of particles: whether it acts on the face towards normalAt or on the opposite face.
       true;
 
-  /// Whether the load acts on a particle of a body: the particle must be along the surface of the load and at that of
-  /// the body.
+  /// Whether the load acts on a particle of a body: it does if the particle lies along the surface of the load and at
+  /// the surface of the body.
   bool acts(const grid::Level& level, const Body& body, const Vec3& point) const;
   /// Force of a pressure on a particle [N]; for a torque T, its share T / (n r) along r x axis, as in Uintah: a
   /// positive one turns a right-handed screw from the top of the cylinder to its bottom.

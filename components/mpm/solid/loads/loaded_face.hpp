@@ -21,8 +21,8 @@ struct ParticleBox {
   Vec3 middle;
   Matrix3 startEdges, edges;
 
-  /// The face towards a normal: the one whose edge forms an angle with the normal with a cosine above 0.9, if there is
-  /// one.
+  /// The face towards a normal, if there is one: the face whose edge is so nearly parallel to the normal that the
+  /// cosine of their angle exceeds 0.9.
   std::optional<LoadedFace> face(const Vec3& normal) const;
 };
 

@@ -9,9 +9,9 @@
 
 namespace tushar::mpm::solid {
 
-/// A prescribed deformation, homogeneous in space: F(t) is linear between points in time, and the body rotates by an
-/// angle about an axis between each point and the previous one. It goes on straight beyond the first and the last
-/// point.
+/// A prescribed deformation, homogeneous in space: F(t) is linear between points in time, and from each point to the
+/// next the body also rotates by an angle about an axis. Beyond the first and the last point, the deformation is
+/// extrapolated linearly.
 class PrescribedDeformation {
  public:
   struct Point {

@@ -7,8 +7,8 @@
 
 namespace tushar::mpm::solid {
 
-/// Computes the force of loads on each particle at the start of the step. With `deformation` pressures turn with the
-/// body, by the rotation R of F = R U.
+/// Computes the force of loads on each particle at the start of the step. If `deformation` is given, pressures rotate
+/// with the body, by R of F = R U.
 template <int D>
 void applyExternalLoads(const Patch& patch, const Material&, const Loads& loads, double time,
                         ParticleView<const Vec<D>> x, ParticleView<const double> mass,

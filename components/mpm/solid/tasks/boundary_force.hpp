@@ -23,8 +23,8 @@ void measureBoundary(const Patch& patch, const Material&, int face, NodeView<con
   }
 }
 
-/// Measures force and area on a side of an axis that the grid does not use, across which the stress of every particle
-/// acts.
+/// Measures force and area on a side across an axis that the grid does not use; the stress of every particle acts on
+/// this side.
 inline void measureThinBoundary(const Patch& patch, const Material&, int face, ParticleView<const double> volume,
                                 ParticleView<const Matrix3> stress, VectorSum& total, Sum& area) {
   const double width = patch.level().cellWidth(face / 2), sign = face % 2 == 0 ? -1.0 : 1.0;

@@ -68,8 +68,8 @@ struct NewParticles {
             .loads = take(creates(p::loadCurves))};
   }
 
-  /// Adds a particle at `at` [m]. The seed's position is the same point rounded as in Uintah: loads act there or not.
-  /// Throws InputError where its mass is not above the scene's least.
+  /// Adds a particle at `at` [m]. The seed's position is the same point, rounded as in Uintah; it decides which loads
+  /// act on the particle. Throws InputError if the mass of the particle is not above `leastMass`.
   void add(const Level& level, const Start& start, const Material& material, const Body& body, const Vec<D>& at,
            const Seed& seed) const {
     const Vec3 point = level.expandPoint<D>(at);
@@ -176,8 +176,8 @@ void standIn(const Patch& patch, const Material& material, ParticleMaker& maker,
 }
 
 /// Fills each body with its particles: `particlesPerCell` along each axis, each in the centre of an equal part of a
-/// cell, if the shape contains that point. As in Uintah, bodies may overlap, and two bodies that share a face with such
-/// points both have particles there.
+/// cell, if the shape contains that point. As in Uintah, bodies may overlap; if such points lie on a face that two
+/// bodies share, both bodies have particles there.
 ///
 /// The id of a particle is composed of the index of its cell and its position in the cell, so it does not depend on the
 /// patches. Particles are on the finest level; see standIn for cells of coarser levels.

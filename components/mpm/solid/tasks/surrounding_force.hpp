@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Adds the force [N] that the surroundings of a body exert on its nodes.
+/// Adds the force [N] of a body's surroundings to the force in the records of the body's nodes.
 template <int D>
 void addSurroundingForce(const Patch&, const Material&, NodeView<const Vec<D>> force, NodeView<NodeRecord> record) {
   forEach<D>(record.box(), [&](const Index<D>& node) {

@@ -67,7 +67,7 @@ template <class T>
     __builtin_prefetch(from + at, std::is_const_v<T> ? 0 : 1);
 }
 
-/// Loads up to Lanes::count consecutive vectors, one vector per lane; missing ones repeat the last.
+/// Loads up to Lanes::count consecutive vectors, one vector per lane; missing ones repeat the last one.
 template <int D>
 [[gnu::always_inline]] inline std::array<Lanes, D> vectorsOf(const Vec<D>* vectors, int count) {
   if (count >= Lanes::count) return unpack<D>(vectors->data());
@@ -139,7 +139,7 @@ class Extents {
 };
 
 /// Calls `visit(k, stencil)` for each of `count` particles of a cell starting with `first`, with the k-th stencil for
-/// loops over rows of nodes. Those of tensor products are computed for several particles at once.
+/// loops over rows of nodes. Stencils of tensor products are computed for several particles together.
 template <class Shape, class Visit, int D = Shape::dimension>
 [[gnu::always_inline]] inline void forEachStencilOf(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>* x,
                                                     const Extents<Shape>& extents, int first, int count,

@@ -63,7 +63,7 @@ template <int D>
 }
 
 /// Gathers the values that up to Lanes::count particles of a cell, starting with `first`, interpolate from the nodes;
-/// missing lanes repeat one.
+/// missing lanes repeat one of these particles.
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline GatheredLanes<D> gatherLanes(const CellFrame<D>& frame, const Index<D>& cell,
                                                            const Vec<D>* x, const Extents<Shape>& extents, int first,

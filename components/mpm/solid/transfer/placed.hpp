@@ -27,7 +27,7 @@ struct Placed {
   static Placed from(auto& take, const ShapeTraits& shape, KeptSizes keepsSizes, int ghost = 0) {
     return from(take, keepsSizes, ghost, when(shape.deform, requiresOld(p::deformationMeasure, ghost)));
   }
-  /// Reads F by an access of the caller's, `when(on, access)`.
+  /// Reads F by the access `deformation`, of the form `when(on, access)`.
   static Placed from(auto& take, KeptSizes keepsSizes, int ghost, auto deformation) {
     return {.x = take(requiresOld(p::x<D>, ghost)),
             .size = Sizes<D>::from(take, keepsSizes, ghost),

@@ -86,7 +86,7 @@ class CellRecords {
   [[gnu::always_inline]] explicit CellRecords(const NodeWindow<NodeRecord, D>& nodes) : nodes_(nodes) {
     forEachNode([](Octet& sum, NodeRecord& record) { sum = Octet(record); });
   }
-  /// Does the same as scatter.
+  /// Adds a particle's contribution to the records in registers, as scatter does to records in memory.
   template <class Stencil>
   [[gnu::always_inline]] void add(const Stencil& stencil, const NodeRecord& value, const std::array<Quad, D>& slope,
                                   const Quad& hoop) {
@@ -117,8 +117,8 @@ class CellRecords {
   std::array<Octet, 2 * rows> sums_;
 };
 
-/// Calls `visit` for the numbers from `first` up to `end` that are smaller than n: written out, so that each is a
-/// constant.
+/// Calls `visit` for each number from `first` up to `end` that is smaller than n. The loop is unrolled, so that each
+/// number is a constant.
 template <int n, class Visit>
 [[gnu::always_inline]] inline void forEachOf(int first, int end, Visit&& visit) {
 #pragma GCC unroll 8
@@ -126,8 +126,8 @@ template <int n, class Visit>
     if (k >= first && k < end) visit(k);
 }
 
-/// Like scatter, to those nodes of a stencil that lie within a box; `origin` is where the record of the first node
-/// would stand, stored or not.
+/// Adds a particle's contribution, as scatter does, but only to nodes within a box; the origin of `nodes` is the place
+/// of the record of the stencil's first node, which need not be stored.
 template <class Stencil, int D = Stencil::dimension>
 inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<NodeRecord, D>& nodes,
                           const NodeRecord& value, const std::array<Quad, Stencil::dimension>& slope,
@@ -156,8 +156,8 @@ inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWind
   }
 }
 
-/// The values that a particle interpolates from the nodes: sum_i S_i record_i; of the low halves also the gradient and
-/// sum_i S_i / r record_i, too.
+/// The values that a particle interpolates from the nodes: sum_i S_i record_i and, for the low halves of the records,
+/// also the gradient and sum_i S_i / r record_i.
 template <int D>
 struct Gathered {
   NodeRecord value{};
@@ -165,8 +165,8 @@ struct Gathered {
   Quad hoop{};
 };
 
-/// Sets the value and the gradient of `sums`, and in axisymmetric scenes its hoop. Code that goes on with the
-/// sums in lanes has them written once, to where it loads them from.
+/// Sets the value and the gradient of `sums`, and in axisymmetric scenes its hoop. The results are written directly to
+/// `sums`, from where code that continues in lanes loads them.
 template <class Stencil, class Sums, int D = Stencil::dimension>
 [[gnu::always_inline]] inline void gatherInto(Sums& sums, const Stencil& stencil,
                                               const NodeWindow<const NodeRecord, D>& nodes) {

@@ -10,7 +10,7 @@ namespace tushar::mpm::solid::arenisca {
 
 /// A stress given by its invariants, in the axes of its deviator.
 struct Invariants {
-  double i1, rootJ2;  ///< i1 and root j2 [Pa]
+  double i1, rootJ2;  ///< I1 and sqrt J2 [Pa]
   LodeAngle theta;
 
   explicit Invariants(const Matrix3& stress) : i1(stress.trace()) {
@@ -61,15 +61,15 @@ double least(double low, double high, const F& f) {
 
 /// The point of a yield surface nearest to a stress outside it, in the space of z = I1 / sqrt 3 and
 /// r = beta sqrt(3/2 K/G) sqrt(2 J2): for beta = 1 the return of associated plasticity with the moduli K and G. Homel,
-/// Guilkey & Brannon, Comput. Mech. 56 (2015) 565. They search from within by bisection and rotation; here the distance
-/// to the sections across the axis, which is convex along it as the surface is, has its least value found by bisection
-/// of its derivative.
+/// Guilkey & Brannon, Comput. Mech. 56 (2015) 565. They search from within by bisection and rotation. Here, the
+/// distance to the sections of the surface across the axis is minimised by bisection of its derivative along the axis;
+/// the distance is convex because the surface is.
 class ClosestPoint {
  public:
   ClosestPoint(const Constants& c, const Moduli& moduli, const YieldSurface& surface)
       : surface_(surface), stretch_(c.flowFactor * std::sqrt(3 * moduli.bulk / moduli.shear)) {}
 
-  /// The point that is closest to the trial stress, which is given by its invariants.
+  /// The point of the surface that is closest to a trial stress; both are given by their invariants.
   Invariants operator()(const Invariants& trial) const {
     const double at = (trial.i1 - surface_.zeta()) / root3, radius = stretch_ * trial.rootJ2;
     if (surface_.capLength() > 0) return onCone(at, radius, trial.theta);
@@ -88,8 +88,8 @@ class ClosestPoint {
  private:
   static constexpr double root3 = std::numbers::sqrt3;
 
-  /// On a cone with a tangent cap: the closest point on the line r = B (z_vertex - z) in closed form, the vertex, or
-  /// the point of the ellipse.
+  /// The closest point on a cone with a tangent cap: a point of the line r = B (z_vertex - z), in closed form, the
+  /// vertex, or a point of the ellipse.
   Invariants onCone(double at, double radius, LodeAngle theta) const {
     const double vertex = surface_.vertex() / root3, steepness = -surface_.slope(surface_.vertex()) * root3 * stretch_;
     const double ahead = (vertex - at + steepness * radius) / (1 + steepness * steepness);  // of the foot
@@ -99,7 +99,8 @@ class ClosestPoint {
     if (!isOutside || root3 * z < surface_.branch()) return onEllipse(at, radius, theta);
     return {root3 * z + surface_.zeta(), steepness * ahead / stretch_, theta};
   }
-  /// On the cap (-a cos phi, b sin phi) about its centre, the point at which the distance stops decreasing with phi.
+  /// The closest point on the elliptic cap, which is (-a cos phi, b sin phi) relative to its centre: the point at which
+  /// the distance stops decreasing with phi.
   Invariants onEllipse(double at, double radius, LodeAngle theta) const {
     const double a = surface_.capLength() / root3, b = surface_.capHeight() * stretch_;
     const double middle = surface_.end() / root3 + a, away = at - middle;

@@ -46,7 +46,8 @@ struct Constants {
   double porosity() const { return 1 - std::exp(-p3); }
   /// C_1 = K_f (1 - phi_0) + K_m phi_0 [Pa]
   double mixedBulk() const { return fluidBulk * (1 - porosity()) + matrixBulk() * porosity(); }
-  /// Whether a fluid fills the pores at a volumetric strain; at larger strains it is under tension and ruptures.
+  /// Whether a fluid fills the pores at a volumetric strain. At larger strains, the fluid would be in tension, and
+  /// ruptures.
   bool isSaturated(double strain) const {
     return fluidBulk != 0 && strain <= mixedBulk() * fluidPressure / (fluidBulk * matrixBulk());
   }

@@ -38,7 +38,7 @@ inline double currentPorosity(const Constants& c, double plasticStrain) {
 
 /// Bulk modulus of the saturated material [Pa], from that of the dry material, K_d: Gassmann, Vierteljahrsschr.
 /// Naturforsch.
-/// Ges. Zürich 96 (1951) 1, but like Uintah's Arenisca with phi / K_m subtracted once more.
+/// Ges. Zürich 96 (1951) 1, but with phi / K_m subtracted once more, as in Uintah's Arenisca.
 inline double saturatedBulk(const Constants& c, double plasticStrain) {
   const double grains = c.matrixBulk(), dry = c.b0 - lossOfBulk(c, plasticStrain);
   const double phi = currentPorosity(c, plasticStrain), alpha = 1 - dry / grains;
@@ -66,7 +66,8 @@ inline Moduli moduli(const Constants& c, double i1, double plasticStrain) {
 }
 
 /// The largest shear modulus of moduli() [Pa]; with g1 and g2, it is reached at an intermediate pressure. With u = 1 +
-/// nu, which is linear in exp(b2 / I1), it is 3/2 (a + b u) (3 / u - 2), whose slope vanishes at u² = -3/2 a / b.
+/// nu, which is linear in exp(b2 / I1), the shear modulus is 3/2 (a + b u) (3 / u - 2), where a + b u is the bulk
+/// modulus. Its slope vanishes at u² = -3/2 a / b.
 inline double greatestShear(const Constants& c) {
   if (!c.hasPoissonRatio()) return c.g0;
   const auto shear = [&](double pressed) {

@@ -85,8 +85,8 @@ class Substep {
     return best;
   }
 
-  /// The result of `consistent`: by the Illinois variant of false position if both ends are known, and by bisection if
-  /// the surface at the upper end is beyond the return.
+  /// Finds the result of `consistent` by the Illinois variant of false position if both ends are known, and by
+  /// bisection if the surface at the upper end is beyond the return.
   Return falsePosition(const Return& atRest) const {
     const double whole = std::abs(atRest.plasticStrain.trace());
     Return best = atRest;
@@ -134,8 +134,9 @@ class Substep {
   double stiffness_;     ///< stiffness of the fluid [Pa]
 };
 
-/// Number of substeps for a step that leaves the yield surface with a tangent cap: `mostSubsteps` per 0.1 % of strain,
-/// or per stress increment as long as the surface, whichever is larger. A step that stays inside is not divided.
+/// Number of substeps for a step that leaves the yield surface with a tangent cap: `mostSubsteps` for every 0.1 % of
+/// strain, or for every stress increment of the length of the surface, whichever gives more substeps. A step that stays
+/// inside is not divided.
 inline int substepsOfTangentCap(const Constants& c, const Point& start, const Matrix3& strain) {
   const Matrix3 change = Moduli{c.b0, c.g0}.stress(strain);
   const Invariants trial(start.stress + change);

@@ -26,8 +26,8 @@ struct HypoelasticDeviator {
 };
 
 /// Parallel Maxwell elements, ds_j/dt = 2 mu_j (dev D - D_p) - s_j/tau_j, s = sum_j s_j, with the plastic strain rate
-/// D_p common to all. In a step s is that of an elastic body with the shear modulus sum_j gained_j mu_j and the
-/// deviator sum_j kept_j s_j at the start: see MaxwellStep. Uintah's steps are explicit and return with the
+/// D_p common to all. In a step, s is the deviator of an elastic body with the shear modulus sum_j gained_j mu_j and
+/// the deviator sum_j kept_j s_j at the start: see MaxwellStep. Uintah's steps are explicit and return with the
 /// <shear_modulus>, which should be sum_j mu_j.
 struct MaxwellDeviator {
   static constexpr std::string_view name = "hypoViscoElastic";

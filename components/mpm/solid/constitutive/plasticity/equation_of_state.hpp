@@ -46,8 +46,9 @@ struct HyperelasticVolume {
   double heating(const VolumeState&) const { return 0; }
 };
 
-/// p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta)² + Gamma_0 rho_0 c_v (T - T_0), eta = 1 - J: the shock
-/// velocity is U = C_0 + S_alpha u; Wilkins, Computer Simulation of Dynamic Phenomena (1999), chapter 3. Uintah has
+/// The pressure p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta)² + Gamma_0 rho_0 c_v (T - T_0), eta = 1 -
+/// J, of a material whose shock velocity is U = C_0 + S_alpha u; Wilkins, Computer Simulation of Dynamic Phenomena
+/// (1999), chapter 3. Uintah has
 /// no such model today.
 struct MieGruneisen {
   static constexpr std::string_view name = "mie_gruneisen_temperature";
@@ -75,8 +76,8 @@ struct MieGruneisen {
   double heating(const VolumeState&) const { return 0; }
 };
 
-/// p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta - S_2 eta² - S_3 eta³)² + Gamma_0 rho_0 e under
-/// pressure, rho_0 C_0² eta + Gamma_0 rho_0 e in tension, eta = 1 - J: Steinberg, UCRL-MA-106439 (1991). The
+/// The pressure p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta - S_2 eta² - S_3 eta³)² + Gamma_0 rho_0 e
+/// in compression, rho_0 C_0² eta + Gamma_0 rho_0 e in tension, eta = 1 - J: Steinberg, UCRL-MA-106439 (1991). The
 /// temperature changes by dT = -T Gamma_0 J tr D dt. Uintah's `mie_gruneisen`.
 struct MieGruneisenEnergy {
   static constexpr std::string_view name = "mie_gruneisen";

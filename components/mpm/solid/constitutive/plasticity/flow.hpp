@@ -197,7 +197,7 @@ class RadialReturn {
     state.plasticStrainRate = perStress() * q / time_step_;
     return state;
   }
-  /// The slope d sigma_y / d e_p [Pa], with the plastic strain rate of the step a function of e_p.
+  /// The slope d sigma_y / d e_p [Pa], where the plastic strain rate of the step is a function of e_p.
   double hardening(const FlowState& state) const {
     if constexpr (providesCapability<Flow, capability::Hardening>)
       if (!dependsOnPlasticRate()) return flow_.hardening(state);

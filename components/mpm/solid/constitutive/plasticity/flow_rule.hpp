@@ -41,7 +41,7 @@ struct Hardening {
 };
 
 /// Whether the yield stress depends on FlowState::plasticStrainRate, which then changes with the plastic strain of the
-/// step. Offer it beside Hardening where the constants of the model decide.
+/// step. Offer it in addition to Hardening if the constants of the model decide whether it does.
 struct PlasticRate {
   struct Name {
     int dependsOnPlasticRate;
@@ -64,7 +64,7 @@ using OfFlowModels = CapabilityList<Hardening, PlasticRate>;
 
 }  // namespace capability
 
-/// Is true; otherwise compilation stops with a message that says what is missing in Flow.
+/// Always true; otherwise compilation stops with a message that says what is missing in Flow.
 template <class Flow>
 consteval bool isFlowRule() {
   static_assert(
@@ -87,7 +87,7 @@ consteval bool isFlowRule() {
 }
 
 /// A yield stress as a function of the state: flowStress [Pa]. A flow model is one struct and one line in FlowModel of
-/// flow.hpp. Use the concept to assert: a type that is no flow model stops compilation with a sentence.
+/// flow.hpp. Use the concept in assertions: a type that is not a flow model stops compilation with a message.
 template <class Flow>
 concept FlowRule = isFlowRule<Flow>();
 

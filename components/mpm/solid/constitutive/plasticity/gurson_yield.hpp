@@ -48,8 +48,8 @@ struct GursonYield {
   double effective(double f) const {
     return std::min(f > criticalPorosity ? criticalPorosity + acceleration * (f - criticalPorosity) : f, greatest());
   }
-  /// The smallest root of 1 + q3 f*² = 2 q1 f*, at which no strength is left: 1/q1 if q3 = q1²; without a root, the
-  /// position of the minimum.
+  /// The largest f*, at which no strength is left: the smallest root of 1 + q3 f*² = 2 q1 f*, which is 1/q1 if q3 =
+  /// q1², or, if there is no root, the f* at which the strength is least.
   double greatest() const { return q3 > q1 * q1 ? q1 / q3 : 1 / (q1 + std::sqrt(q1 * q1 - q3)); }
   /// (q/sigma_y)² on the yield surface as a function of p / sigma_y; negative where the surface supports no q.
   double square(double p, double f) const {

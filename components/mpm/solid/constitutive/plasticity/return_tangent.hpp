@@ -7,8 +7,8 @@
 namespace tushar::mpm::solid {
 
 /// Derivative of the stress deviator after a radial return with respect to the strain of the step and the volume. With
-/// s the trial deviator, n = s/|s|, q what the return takes from |s|, and a = (2/3)^(1/2)/(2 G) the plastic strain per
-/// q:
+/// s the trial deviator, n = s/|s|, q the amount by which the return reduces |s|, and a = (2/3)^(1/2)/(2 G) the plastic
+/// strain per q:
 ///
 ///     d (s (1 - q/|s|)) = ds (1 - q/|s|) + (q/|s| n : ds - dq) n,   ds = 2 G dev de + 2 dG dev e,
 ///     dq (1 + (2/3)^(1/2) H a) = n : ds - (2/3)^(1/2) (d sigma_y - H a q dG/G),

@@ -7,7 +7,7 @@
 namespace tushar::mpm::solid {
 
 // The affine particle-in-cell method: a particle carries B_p = sum_i S_i v*_i (x_i - x_p)^T besides its velocity, so
-// that velocities that are linear in space go to the grid and back as they are, and angular momentum is kept; Jiang,
+// that velocities that are linear in space go to the grid and back unchanged, and angular momentum is conserved; Jiang,
 // Schroeder, Selle, Teran & Stomakhin, ACM Trans. Graph. 34 (2015) 51. Velocities are those of PIC.
 
 /// The factors S_i D^(-1) (x_i - x_p) along an axis [1/m], with D = sum_i S_i (x_i - x_p)^2; where D vanishes, the

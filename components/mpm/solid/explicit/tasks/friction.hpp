@@ -48,7 +48,8 @@ void mirrorSurface(const Patch& patch, const Material& material, NodeView<Vec<D>
 }
 
 /// Computes the surface of a body for friction (see ContactSurface) at every node of the patch. In axisymmetric scenes,
-/// the gradient is that of the density, as in Uintah: mass grows with the radius, and would tilt the normal.
+/// the gradient is that of the density, as in Uintah: the mass grows with the radius, so that its gradient would tilt
+/// the normal.
 template <class Shape, int D = Shape::dimension>
 void computeSurface(const Patch& patch, const Material& material, const Vec3& commonSize, const SurfaceSources<D>& u) {
   u.massGradient.fill(Vec<D>::Zero());

@@ -23,7 +23,7 @@ struct MomentumSources {
   ParticleView<const Vec<D>> velocity;
   OptionalView<const Matrix3> deformation;  ///< F, if shape functions or stresses depend on it
 
-  /// `velocity` and `deformation` are the accesses to these two variables.
+  /// `velocity` and `deformation` are the accesses to the variables of these names.
   static MomentumSources from(auto& take, int reach, KeptSizes keepsSizes, auto velocity, auto deformation) {
     return {.x = take(requiresOld(p::x<D>, reach)),
             .size = Sizes<D>::from(take, keepsSizes, reach),
@@ -50,8 +50,8 @@ struct ForceSources {
   }
 };
 
-/// Scatters the particles of a material to their nodes; `forces` is null if only mass and momentum are needed. Stores
-/// pointers, not views: its loops are those of every step.
+/// Scatters the particles of a material to their nodes; `forces` is null if only mass and momentum are needed. It
+/// stores pointers instead of views, because its loops run in every step.
 template <class Shape>
 class Scatter {
  public:
@@ -83,8 +83,8 @@ class Scatter {
       addParticles<false>(cell, range.first, range.size(), moments.data() + (range.first - cells.first()));
     });
   }
-  /// Adds those particles of a ghost cell that contribute to the patch's own nodes. The stresses of those between the
-  /// first and the last of a group come along, as several cost as much as one.
+  /// Adds those particles of a ghost cell that contribute to the patch's own nodes. Of each group of particles, the
+  /// stresses of all from the first to the last of these are computed, as several cost as much as one.
   void addGhostCell(const Index<D>& cell, const data::ParticleRange& range) const {
     if (hasOwnNode(cell)) {
       for (int at = range.first; at < range.last; at += stressGroup)
@@ -146,8 +146,8 @@ class Scatter {
     forceMoments(first, count, moments.data());
     addParticles<true>(cell, first, count, moments.data(), touching);
   }
-  /// Adds particles of a cell to the surrounding nodes: m v and m with S_i, -V sigma with its gradient. Where
-  /// `isWithin`, only those that have their bit in `touching`, to nodes of the view's box.
+  /// Adds particles of a cell to the surrounding nodes: m v and m with S_i, -V sigma with its gradient. If `isWithin`,
+  /// adds only particles whose bit in `touching` is set, and only to nodes in the view's box.
   template <bool isWithin>
   void addParticles(const Index<D>& cell, int first, int count, const Matrix3* moments, Touching touching = 0) const {
     prefetch(x_, first + count, count);
@@ -176,8 +176,8 @@ class Scatter {
     });
     records.store();
   }
-  /// The contribution of a particle: m v, m and its force, weighted with S_i; -V sigma, with the gradient of S_i and
-  /// S_i / r.
+  /// The contribution of a particle to a node: m v, m and its force, weighted by S_i; and -V sigma, weighted by the
+  /// gradient of S_i and by S_i / r.
   struct Share {
     NodeRecord value;
     std::array<Quad, D> slope;
@@ -223,8 +223,8 @@ Box cellsThatTouch(Box nodes, int ghostNodes) {
   return nodes;
 }
 
-/// Computes velocities, masses and forces on the patch's own nodes: complete on all touched nodes; untouched nodes are
-/// 0 if `clearsAll`, otherwise undefined.
+/// Computes velocities, masses and forces on the patch's own nodes. They are complete on nodes that particles touch; on
+/// other nodes they are 0 if `clearsAll`, otherwise undefined.
 template <class Shape, int D = Shape::dimension>
 void scatterParticles(const Patch& patch, const Material& material, bool clearsAll, ParticleView<const Vec<D>> x,
                       const Scatter<Shape>& scatter, NodeView<NodeRecord> record) {
@@ -257,13 +257,13 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
       if ((*node)[lane::mass] > 0)
         setLanes<D>(*node, lane::velocity, lanes<D>(*node, lane::velocity) / (*node)[lane::mass]);
   });
-  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, rows, record);  // sides do not act on what does
+  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, rows, record);  // sides do not act on others
 }
 
 /// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i,
 /// f_i = sum_p S_i f_p - V_p (sigma_p - q_p I) grad S_i; where axisymmetric, the hoop stress pulls inwards with S_i /
-/// r. Complete on all own nodes of the patch that are touched; what is not touched is 0 if `clearsAll`, else
-/// undefined.
+/// r. The values are complete on those of the patch's own nodes that particles touch; on other nodes they are 0 if
+/// `clearsAll`, otherwise undefined.
 template <class Shape, int D = Shape::dimension>
 void interpolateParticlesToGrid(const Patch& patch, const Material& material, const Vec3& commonSize, bool clearsAll,
                                 const MomentumSources<D>& from, const ForceSources<D>& forces,

@@ -10,18 +10,18 @@
 
 namespace tushar::mpm::solid {
 
-// The work on particles in a step: of forces with w = (v + v*)/2 of the nodes, of constraints that hold nodes at a
-// velocity with that velocity, and of the mean of the stresses before and after with the change of F. The rest of the
-// change of kinetic energy is dissipated by the method itself: by FLIP to first order in dt (Bardenhagen, J. Comput.
-// Phys. 180 (2002) 383); by APIC, PIC and XPIC through the viscosity of their transfer; by contact as two bodies come
-// to move as one.
+// The work on particles in a step. Forces act along w = (v + v*)/2 of the nodes; constraints that prescribe the
+// velocity of nodes act along this velocity; the mean of the stresses at the start and at the end of the step acts
+// along the change of F. The rest of the change of kinetic energy is dissipated by the method itself: by FLIP to first
+// order in dt (Bardenhagen, J. Comput. Phys. 180 (2002) 383); by APIC, PIC and XPIC through the viscosity of their
+// transfer; by contact, when two bodies come to move as one.
 
 /// Indices of the components of p.work, as in total::work.
 namespace works {
 inline constexpr int external = 0, boundary = 1, contact = 2, dissipated = 3, strain = 4, plastic = 5, start = 6;
 }
 
-/// Sets the initial work to 0.
+/// Sets the initial work to 0, and stores the initial kinetic energy.
 template <int D>
 void startWork(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                ParticleView<p::Works> work) {
@@ -65,7 +65,7 @@ struct ParticleWork {
   ParticleView<const p::Works> old;
   ParticleView<p::Works> work;
 
-  /// `deformation` is an access of F.
+  /// `deformation` is the access to F.
   static ParticleWork from(auto& take, const ShapeTraits& shape, const Keeps& keeps, auto deformation) {
     return {.particles = Placed<D>::from(take, keeps.sizes, 0, deformation),
             .mass = take(requiresOld(p::mass)),
@@ -115,7 +115,7 @@ struct StrainWork {
   OptionalView<const double> viscosity;
   ParticleView<p::Works> work;
 
-  /// `old` and `fresh` read a variable at the start of the step and as computed in the step.
+  /// `old` reads a variable at the start of the step, `fresh` as computed in the step.
   static StrainWork from(auto& take, const Keeps& keeps, auto old, auto fresh) {
     return {.mass = take(requiresOld(p::mass)),
             .before = Stressed::from(take, keeps.stress, old),

@@ -64,10 +64,11 @@ struct BetweenPlanes {
   }
 };
 
-/// In a cell in which a wave speed is undefined or a particle is behind a symmetry plane: removes the particles that
-/// the step turns inside out (det F <= 0), as explicit finite-element codes delete elements with a negative Jacobian,
-/// or throws through a symmetry plane. Returns the waves of the others; `none` has none. Throws NumericalError if
-/// particles cannot be removed, or if the wave speed of another is undefined.
+/// Removes the lost particles of a cell in which a wave speed is undefined or a particle is behind a symmetry plane:
+/// those that the step turns inside out (det F <= 0), as explicit finite-element codes delete elements with a negative
+/// Jacobian, and those that it throws through a symmetry plane. Returns the crossing rate of the other particles'
+/// waves; `none` is the rate without waves. Throws NumericalError if particles cannot be removed, or if the wave speed
+/// of one of the others is undefined.
 template <int D>
 CrossingRate<D> withoutLost(const Level& level, const StateUpdate<D>& u, const Index<D>& cell,
                             const data::ParticleRange& range, const CrossingRate<D>& none,

@@ -58,7 +58,8 @@ struct Precedence {
     }
   }
 
-  /// The material with the most mass of those that meet at a node, or the rigid one; -1 if fewer than two meet.
+  /// The index of the material with the most mass of those that meet at a node, or of the rigid one; -1 if fewer than
+  /// two meet.
   template <int D>
   int leader(const std::vector<NodeView<const NodeRecord>>& records, const Index<D>& node) const {
     double total = 0, most = 0, mostOfRigid = 1e-90;
@@ -102,7 +103,7 @@ struct MeetingNodes {
     });
     particles.resize(node.size());
   }
-  /// The index of a node in the lists, or -1.
+  /// The index of a node in the lists; -1 if no bodies meet there.
   int operator[](const Index<D>& at) const { return box.contains(at) ? number[place(at)] : -1; }
 
  private:
@@ -147,8 +148,8 @@ Vec<D> normalAt(const Patch& patch, const MeetingNodes<D>& nodes, std::size_t k)
   return length > 0 ? Vec<D>(normal / length) : normal;
 }
 
-/// Prominence of material m: the largest extent of its particles along the normal if it is the reference body,
-/// otherwise the smallest.
+/// Computes the prominence of material m: the largest extent of its particles along the normal if the plane belongs to
+/// it, otherwise the smallest.
 template <class Shape, int D = Shape::dimension>
 void measureProminence(const Patch& patch, const Vec3& commonSize, int m, const MeetingNodes<D>& nodes,
                        const std::vector<Vec<D>>& normals, const PlaneSources<D>& of) {

@@ -39,7 +39,7 @@ class CrossingRate {
   bool isKnown() const { return all(rates_ >= rates_); }
 
  private:
-  /// The larger number; NaN is preserved.
+  /// The larger number in each lane; NaN is preserved.
   static Lanes greater(const Lanes& so_far, const Lanes& other) {
     return select(so_far > other, so_far, select(isNaN(so_far), so_far, other));
   }

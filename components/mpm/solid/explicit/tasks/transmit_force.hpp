@@ -21,7 +21,7 @@ struct Pull {
   Vec3 acceleration() const { return Vec3(force.x.total(), force.y.total(), force.z.total()) / mass.total(); }
 };
 
-/// The sums over a patch with which a material is moved as a rigid body.
+/// The variables on a patch from which the motion of a material as a rigid body follows.
 template <int D>
 struct RigidMotion {
   ParticleView<const Vec<D>> x;
@@ -66,7 +66,7 @@ void accelerate(ParticleView<const Vec<D>> x, int ghostNodes, const Vec<D>& chan
 }
 
 /// Gives all nodes of a material that transmits force the acceleration (sum of its loads and of the transmitted forces)
-/// / mass, regardless of the conditions at the sides of the grid. `motions[patch][material]`.
+/// / mass, regardless of the conditions at the sides of the grid. The motions are indexed by patch, then by material.
 template <int D>
 void computeGridVelocityForFTM(const RankPatches& patches, const std::vector<Material>& materials,
                                const mpi::Communicator& ranks, int ghostNodes, double dt,

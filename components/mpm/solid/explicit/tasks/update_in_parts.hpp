@@ -16,7 +16,7 @@ struct MotionUpdate {
   ParticleView<const Vec<D>> velocity;
   ParticleView<Vec<D>> newX, newVelocity;
 
-  /// `deformation` is an access of F.
+  /// `deformation` is the access to F.
   static MotionUpdate from(auto& take, int ghostNodes, KeptSizes keepsSizes, auto deformation) {
     return {.record = take(requiresNew(g::record, ghostNodes)),
             .particles = Placed<D>::from(take, keepsSizes, 0, deformation),

@@ -34,7 +34,7 @@ inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt,
   rows.copyTo(result);
 }
 
-/// Computes (I + L dt) F of `count` consecutive particles, with the same bits.
+/// Computes (I + L dt) F of `count` consecutive particles, with the same bits as for single particles.
 [[gnu::always_inline]] inline void deform(const Matrix3* f, const TensorOf<Lanes>& velocityGradient, double dt,
                                           int count, Matrix3* result) {
   const TensorOf<Lanes> before = lanesOf(f, count);
@@ -69,7 +69,7 @@ template <int D>
                                              const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
   moveParticle<D>(dt, sums, *x, *velocity, *newX, *newVelocity);
 }
-/// Does the same for `count` consecutive particles.
+/// Moves `count` consecutive particles, as moveParticle moves one.
 template <int D>
 [[gnu::always_inline]] inline void moveGroup(double dt, const GatheredLanes<D>& sums, int count, const Vec<D>* x,
                                              const Vec<D>* velocity, Vec<D>* newX, Vec<D>* newVelocity) {
@@ -105,8 +105,8 @@ template <int D>
   if (u.velocityGradient) (*u.velocityGradient)[p] = velocityGradient;
 }
 
-/// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p, in
-/// substeps, or with the terms of its series that the scene requests.
+/// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric), F_p = (I + L_p dt) F_p, in substeps
+/// or, if the scene requests it, by terms of the series of exp(L_p dt).
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt,
                                                   const Gathered<D>& sums, const Erosion& erosion,
@@ -124,8 +124,8 @@ template <class Shape, int D = Shape::dimension>
   finishDeformation(erosion, u, p, velocityGradient);
 }
 
-/// Does the same in three dimensions for `count` particles starting with `first`, one per lane; `velocityGradient` is
-/// that of the first.
+/// Deforms `count` particles in three dimensions, starting with `first`, one per lane, as deformParticle deforms one;
+/// `velocityGradient` points to L of the first particle.
 [[gnu::always_inline]] inline void deformParticles(const Method& method, double dt, const GatheredLanes<3>& sums,
                                                    const Erosion& erosion, const StateUpdate<3>& u, int first,
                                                    int count, Matrix3* velocityGradient) {
@@ -163,7 +163,8 @@ void placePoints(const Level& level, const StateUpdate<D>& u, double time, int f
   points.time = time;
 }
 
-/// The particles starting with `first`, in the form for a constitutive model. `velocityGradient` is that of the first.
+/// The particles starting with `first`, in the form for a constitutive model. `velocityGradient` points to L of the
+/// first particle.
 template <int D>
 StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* velocityGradient, int first, int count,
                           double* waveSpeed, StressResults& results) {
@@ -184,7 +185,7 @@ StressPoints stressPoints(const StateUpdate<D>& u, double dt, const Matrix3* vel
           .strainEnergyDensity = u.strainEnergy ? results.energyDensity.data() : nullptr};
 }
 
-/// The work of the artificial viscosity when the volume per mass grows by `growth` [m^3/kg].
+/// Heats a particle by the work of the artificial viscosity while its volume per mass grows by `growth` [m^3/kg].
 template <int D>
 void heatByViscosity(const Material& material, double growth, const StateUpdate<D>& u, int p) {
   const double heat = -(*u.viscosity)[p] * growth;
@@ -247,7 +248,7 @@ void updateStress(const Level& level, const Material& material, const Method& me
   if (u.strainEnergy) updateStrainEnergy(material, u, results.energyDensity.data(), first, count);
 }
 
-/// Whether several particles are updated at once: only in three dimensions do cells contain enough of them.
+/// Whether several particles are updated together: only in three dimensions do cells contain enough of them.
 template <class Shape>
 inline constexpr bool updatesTogether = Shape::dimension == 3;
 
@@ -298,8 +299,8 @@ struct MovedParticles {
   }
 };
 
-/// Updates the stress of particles that have moved, and the stable time step of their cells. Removes those that the
-/// step turns inside out or throws out of `space`, or throws NumericalError. No particle is left in `moved`.
+/// Updates the stress of particles that have moved, and the stable time step of their cells. Removes particles that the
+/// step turns inside out or throws out of `space`, or throws NumericalError. Empties `moved`.
 template <int D>
 void updateStresses(const Level& level, const Material& material, const Method& method, double time, double dt,
                     const StateUpdate<D>& u, const CrossingRate<D>& none, const BetweenPlanes<D>& space,
