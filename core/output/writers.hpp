@@ -18,7 +18,7 @@ class Writers {
   /// value of `count` on rank 0 applies to all ranks. Collective.
   static Writers spread(const mpi::Communicator& ranks, int count);
 
-  /// Returns a selection whose writers are those ranks that pass `true`, and rank 0. Collective.
+  /// Returns a selection in which only those writers remain that pass `true`, and rank 0. Collective.
   Writers only(bool mine) const;
 
   const mpi::Communicator& ranks() const { return *ranks_; }

@@ -7,8 +7,8 @@
 
 namespace tushar::report {
 
-/// The change of a total from `before` to `after` in `unit`; it has one component, or one for each axis of the grid.
-/// For a vector, start, end and change are magnitudes. The change is relative to the start, unless the start is
+/// The change of a total from `before` to `after` in `unit`. The total has one component, or one for each axis of the
+/// grid. For a vector, start, end and change are magnitudes. The change is relative to the start, unless the start is
 /// round-off: less than 1e-12 of the change or of `scale`, the size of the terms that add up to the total. Less than
 /// 1e-45 of `scale` counts as no change: sums have 48 digits, and if terms cancel beyond that, the rest depends on
 /// their order.

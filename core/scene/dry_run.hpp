@@ -8,8 +8,8 @@
 
 namespace tushar::scene {
 
-/// The work of one of many ranks in a step, and the cost of this estimate: graph and messages are compiled as in a run,
-/// but without the other ranks and without memory for variables.
+/// An estimate of the work of one of many ranks in a step, and the cost of this estimate. Task graphs and messages are
+/// compiled as in a run, but the other ranks do not exist, and variables get no memory.
 struct DryRun {
   int rank = 0, ranks = 1;
   int patches = 0, patchesOfAll = 0;  ///< number of patches of this rank, and of the whole grid
@@ -27,7 +27,7 @@ struct DryRun {
   double megabytes = 0;  ///< memory used for this estimate [MB]
 };
 
-/// Reads a scene as if this rank were the one of `workers.ranks` that owns the centre of the grid. Throws the
+/// Reads a scene as if there were `workers.ranks` ranks and this rank owned the centre of the grid. Throws the
 /// exceptions of readScene.
 DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides,
               const simulation::Catalogue& catalogue, const grid::Workers& workers);

@@ -13,22 +13,22 @@ namespace tushar::scene {
 
 /// Reads a scene, applies the overrides of the command line (`PATH=VALUE`), checks everything, and builds the grid, the
 /// component and the analysis modules. If the scene does not specify patches, the grid gets as many as `workers` need.
-/// Throws InputError with all problems of the scene at once. Writes no files.
+/// Throws one InputError with all problems of the scene. Writes no files.
 simulation::Problem readScene(const std::string& path, const std::vector<std::string>& overrides,
                               const simulation::Catalogue& catalogue, const grid::Workers& workers = {},
                               grid::Share share = {});
 
-/// The manual of the sections that all components share: Time, DataArchiver, Grid, AMR; the last includes the sections
-/// of all components.
+/// Writes the manual of the sections that all components share: Time, DataArchiver, Grid and AMR. That of AMR includes
+/// the parts that belong to individual components.
 void describeSharedSections(std::ostream& out, const simulation::Catalogue& catalogue);
 
-/// The `Time` section.
+/// Reads the `Time` section.
 simulation::TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnostics);
-/// Refuses an interval [s] at `element` that is too short for the times of the run to resolve; `what` precedes the
-/// message.
+/// Reports an error at `element` if `interval` [s] is too short to be resolved at the times of the run; `what` precedes
+/// the message.
 void checkInterval(double interval, const simulation::TimeSettings& time, const input::Element& element,
                    const std::string& what, input::Diagnostics& diagnostics);
-/// The `DataArchiver` section.
+/// Reads the `DataArchiver` section.
 simulation::ArchiveSettings readArchive(const input::Element& section, input::Diagnostics& diagnostics);
 /// The `AMR` section, read before the grid is known.
 struct AmrSettings {
@@ -40,14 +40,14 @@ struct AmrSettings {
   std::optional<input::Element> tag;          ///< the tag `AMR`, if given; used in messages
   std::optional<Location> smallerSteps;       ///< the tag that makes finer levels take smaller steps
 };
-/// `kind` is the component of the scene; null if it is unknown.
+/// Reads the `AMR` section. `kind` is the component of the scene; null if it is unknown.
 AmrSettings readAmr(const input::Element& section, const simulation::ComponentKind* kind,
                     input::Diagnostics& diagnostics);
-/// Determines when and where to refine the grid of a component: by its own criteria if the scene has none. Reports
-/// variables that the component lacks.
+/// Determines when and where to refine the grid: by the criteria of the scene or, if it has none, by those of the
+/// component. Reports criteria for variables that the component lacks.
 simulation::RegridSettings settled(AmrSettings amr, const simulation::Component& component,
                                    input::Diagnostics& diagnostics);
-/// Removes node variables from the saved ones, with a note: they are not defined between levels.
+/// Removes node variables from `saves`, with a note, because they are not defined between levels.
 void dropSavedNodes(std::vector<simulation::SaveRequest>& saves, input::Diagnostics& diagnostics);
 /// What a component supports as boundary conditions.
 struct SideWords {
@@ -65,8 +65,8 @@ void describeArchive(std::ostream& out);
 void describeGrid(std::ostream& out);
 void describeAmr(std::ostream& out, const simulation::Catalogue& catalogue);
 
-/// The schemas of the shared sections, for editors; Grid with the boundary labels and words of a component, AMR with
-/// its name.
+/// The schemas of the shared sections, for editors. That of Grid contains the boundary labels and words of a component,
+/// and that of AMR its name.
 const input::SchemaBase& metaForm();
 const input::SchemaBase& timeForm();
 const input::SchemaBase& archiveForm();

@@ -31,7 +31,7 @@ struct LevelSection {
 
 const input::Schema<LevelSection>& levelSchema();
 
-/// The cells of a box along x, y and z; `element` is its tag.
+/// The number of cells of a box along x, y and z; `element` is the tag of the box.
 Index3 resolutionOf(const GridBox& box, const LevelSection& level, const input::Element& element,
                     input::Diagnostics& diagnostics);
 

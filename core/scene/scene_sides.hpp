@@ -20,15 +20,15 @@ struct ConditionSection {
   std::optional<std::string> value;
 };
 
-/// The tag `Face`: a side of the grid, given by its index in sideNames, or a part of one. Points are texts as in the
-/// scene.
+/// The tag `Face`: a side of the grid, given by its index in sideNames, or a part of a side. Points are stored as
+/// texts, as written in the scene.
 struct FaceSection {
   std::optional<int> side, circle, annulus, ellipse, rectangle, rectangulus;
   std::optional<double> radius, innerRadius, outerRadius, minorRadius, majorRadius, angle;
   std::optional<std::string> origin, lower, upper, innerLower, innerUpper, outerLower, outerUpper;
   std::vector<ConditionSection> conditions;
 
-  /// Index of the side that the face is, or to which the part belongs.
+  /// Index of the side that the tag describes, or to which its part belongs.
   int face() const {
     for (const auto& given : {side, circle, annulus, ellipse, rectangle, rectangulus})
       if (given) return *given;
@@ -55,7 +55,7 @@ struct GivenPart {
   std::size_t part = 0;  ///< index of the part on this side
 };
 
-/// Whether a tag is one side or one part of a side, with the right attributes.
+/// Whether a tag `Face` describes one side or one part of a side with the right attributes; reports an error if not.
 bool checkFaceWords(const input::Element& tag, input::Diagnostics& diagnostics);
 /// The shape of a face that is a part of a side; none, with an error, if its values are invalid.
 std::optional<grid::SidePart> readShape(const FaceSection& face, const input::Element& tag,
@@ -67,7 +67,7 @@ std::vector<GivenPart> readFaces(const input::Element& section, const FacesSecti
                                  grid::BoundaryConditions& boundaries, input::Diagnostics& diagnostics);
 /// Reports conditions at sides of periodic axes, which have no effect, as in Uintah.
 void checkPeriodic(const input::Element& section, const grid::Domain& domain, input::Diagnostics& diagnostics);
-/// Checks that parts of sides lie in their sides, do not overlap, and contain faces.
+/// Checks that parts of sides lie on their sides, do not overlap, and contain faces of cells.
 void checkParts(const std::vector<GivenPart>& parts, const grid::Domain& domain, input::Diagnostics& diagnostics);
 
 }  // namespace tushar::scene

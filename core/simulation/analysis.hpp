@@ -18,7 +18,7 @@ using report::EnergyTerm;
 using report::MeasuredError;
 
 /// A cell or node variable that a module samples, of one material or of none. When the scene is read, Uintah's names of
-/// variable and material by those used here.
+/// the variable and the material are replaced by Tushar's.
 struct SampledVariable {
   SaveRequest request;
   std::string called;  ///< name of the variable in the scene
@@ -36,7 +36,7 @@ struct OwnFile {
 class Analysis {
  public:
   virtual ~Analysis() = default;
-  /// Adds diagnostic tasks. For these tasks, the current state is the old one.
+  /// Adds diagnostic tasks. They read the current state as the old one.
   virtual void schedule(tasks::TaskList& tasks) const = 0;
   /// Sets the time of the state [s] and the time since the start [s]. Called before the tasks run.
   virtual void setTime(double time, double sinceStart) = 0;
@@ -48,8 +48,8 @@ class Analysis {
   virtual std::string whyUnmeasured() const { return {}; }
   /// Variables that sample() needs, and their locations in the scene.
   virtual std::vector<SaveRequest> samples() const { return {}; }
-  /// The variables among samples() in which the scene replaces Uintah's names, and from which it removes those that no
-  /// task computes. Null if there are none.
+  /// The list of those samples() whose names may be Uintah's. When the scene is read, these names are replaced by
+  /// Tushar's, and variables that no task computes are removed from the list. Null if there is no such list.
   virtual std::vector<SampledVariable>* variables() { return nullptr; }
   /// Pairs of names, Uintah's and Tushar's, for variables of this module that have another name in Uintah.
   virtual OtherNames otherNames() const { return {}; }
@@ -62,9 +62,8 @@ class Analysis {
   virtual std::optional<collect::SummaryOver> summary() const { return {}; }
   /// Whether sample() is to be called after this step, at the current time.
   virtual bool isSampleDue(int /*step*/) const { return false; }
-  /// Processes the variables of samples(): values in the layers(), in the windows(), or on the whole grid, or a
-  /// summary().
-  /// Files of its own go to the folder of the archive.
+  /// Processes the variables of samples(): their values in the layers(), in the windows() or on the whole grid, or
+  /// their summary(). Writes the module's own files to the given folder of the archive.
   virtual void sample(const std::vector<output::Snapshot>&, const std::filesystem::path&) {}
   /// The files that sample() writes. Each belongs to one module. Called once the names of variables() are settled.
   virtual std::vector<OwnFile> files() const { return {}; }

@@ -13,8 +13,8 @@ using report::Rebalancing;
 /// Decides when patches move between ranks.
 ///
 /// At the start the decision is based on cells and particles; later, on the measured time of tasks on each patch,
-/// evaluated after 8, 16, 32 and then every 64 steps: patches move if, over the measured steps, other shares would have
-/// saved more time than the last move took.
+/// evaluated after 8, 16, 32 and then every 64 steps: patches move if another distribution would have saved more time
+/// over the measured steps than the previous move took.
 class Balance {
  public:
   explicit Balance(int ranks) : ranks_(ranks) {}
@@ -26,8 +26,8 @@ class Balance {
 
   /// Counts a step. Returns whether the costs are to be measured now.
   bool isDue() { return ranks_ > 1 && ++steps_ >= next_; }
-  /// A new distribution if it pays off. According to `costs` (of each patch of the grid), the load of the busiest rank
-  /// must fall by at least a tenth, and this must save more time than the change takes.
+  /// Returns a new distribution if it pays off: according to `costs`, which has an entry for each patch of the grid, it
+  /// must reduce the load of the busiest rank by at least a tenth, and this must save more time than the change takes.
   std::optional<grid::RankOffsets> better(const std::vector<double>& costs, const grid::RankOffsets& now, int step);
   /// Records how long the change took on the slowest rank [s].
   void noteChange(double seconds) { change_ = seconds; }

@@ -5,8 +5,8 @@
 
 namespace tushar::simulation {
 
-/// Adds checkpoints every `interval` [s] of wall time, if the scene has checkpoints: they replace the scene's own
-/// interval of wall time, and are in addition to intervals of steps or simulated time.
+/// If the scene has checkpoints, adds a checkpoint every `interval` [s] of wall time. This replaces the scene's own
+/// interval of wall time; its intervals of steps or simulated time remain.
 void addWallTimeInterval(std::optional<CheckpointSettings>& settings, double interval);
 
 /// Decides when checkpoints are due. Checkpoints never change a run: no time step is shortened for them.

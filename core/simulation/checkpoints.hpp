@@ -25,7 +25,7 @@ class Checkpoints {
   void writeFirst();
   /// Writes a checkpoint at the end, if the scene has checkpoints, or if the run has an archive and was cut short.
   void writeLast();
-  /// Whether a checkpoint is due after the last step.
+  /// Whether a checkpoint is due after the step that has just ended.
   bool isDue() const;
   /// Writes a checkpoint, unless one has been written for this step.
   void write();

@@ -10,8 +10,9 @@ namespace tushar::simulation {
 
 /// A simulation method for some physics: it declares tasks, and the framework runs them.
 ///
-/// A component does not change after construction: all that changes lives in the warehouse, so restart and threads are
-/// right by construction. Construct it from a checked scene; it keeps a copy of everything that it needs later.
+/// A component does not change after construction: all that changes is in the warehouse. Therefore restarts and threads
+/// need no special care. A component is constructed from a checked scene, and keeps a copy of everything that it needs
+/// later.
 class Component {
  public:
   virtual ~Component() = default;
@@ -23,7 +24,7 @@ class Component {
   virtual void scheduleComputeStableTimeStep(tasks::TaskList&) const {}
   /// Adds the tasks of one step, from the old state to a new one.
   virtual void scheduleTimeAdvance(tasks::TaskList& tasks) const = 0;
-  /// Advice for the user when a value violates its bound; continues the word `try`.
+  /// Advice for the user when a value violates its bound; continues a sentence after the word `try`.
   virtual std::string advice() const { return "a smaller time step (timestep_multiplier in <Time>)"; }
   /// Whether a step with an invalid value is repeated with half the time step even if the scene does not request this.
   virtual bool mayRepeatStep() const { return false; }
@@ -36,17 +37,16 @@ class Component {
   /// The names of the gases, if their variables do not belong to materials. In the scene they are the last materials,
   /// in this order.
   virtual std::vector<std::string> gasNames() const { return {}; }
-  /// The reason why it cannot run on several levels in this scene, although its kind can; empty if it can. Continues
-  /// `needs a grid of one level:
-  /// `.
+  /// The reason why this component cannot run on several levels in this scene, although its kind can; empty if it can.
+  /// Messages put `needs a grid of one level:` in front of it.
   virtual std::string whyOneLevel() const { return ""; }
   /// Criteria for refinement, used if the scene refines the grid without giving criteria.
   virtual std::vector<Criterion> criteria() const { return {}; }
   /// Adds tasks that mark cells to be refined, from the old state and diagnostics: `perPatch` tasks with `marks()`.
-  /// They run beside the criteria of the scene before each regridding of an adaptive grid.
+  /// They run in addition to the criteria of the scene, before each regridding of an adaptive grid.
   virtual void scheduleErrorEstimate(tasks::TaskList&) const {}
   /// Adds tasks that correct the interpolated values of newly refined cells: they modify cell variables on all patches;
-  /// `newCells()` are the cells of the patch that were coarser before. At the start of a run cells of all levels are
+  /// `newCells()` are the cells of the patch that were coarser before. At the start of a run, cells of all levels are
   /// initialised instead.
   virtual void scheduleRefine(tasks::TaskList&) const {}
   /// Adds tasks that compute diagnostics of the old state: totals, derived fields. Tasks whose results are not needed

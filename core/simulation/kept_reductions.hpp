@@ -9,7 +9,7 @@
 
 namespace tushar::simulation {
 
-/// Copies of reduction values from before a step that may fail; a step overwrites them.
+/// Copies of the values of reductions, made before a step that overwrites the originals and may fail.
 class KeptReductions {
  public:
   KeptReductions(data::Warehouse& warehouse, const std::vector<int>& numbers) : warehouse_(&warehouse) {
@@ -18,7 +18,7 @@ class KeptReductions {
       kept_.emplace_back(number, std::vector<std::byte>(bytes.begin(), bytes.end()));
     }
   }
-  /// Restores these values; reductions without a value become empty.
+  /// Restores these values; reductions that had no value become empty.
   void restore() const {
     for (const auto& [number, bytes] : kept_)
       bytes.empty() ? warehouse_->resetReduction(number) : warehouse_->restoreReduction(number, bytes);

@@ -14,9 +14,10 @@ namespace tushar::simulation {
 /// - ghost nodes, which have no values between levels; tasks of materials may read them near their particles, which are
 /// on the finest level and remain some cells away from coarser cells;
 /// - node variables from the previous step, which regridding and checkpoints do not include;
-/// - tasks that see all patches of a rank and all materials at once, whose bodies are written for one level;
-/// - fluxes of materials, because refluxing supports only variables without material. `where` is the tag that makes the
-/// levels.
+/// - tasks that receive all patches of a rank and all materials together, because their bodies are written for one
+/// level;
+/// - fluxes of materials, because refluxing supports only variables without material. `where` is the tag that requests
+/// the levels.
 std::vector<InputProblem> problemsOnLevels(const std::vector<tasks::Task>& tasks, const grid::Grid& grid,
                                            const Location& where);
 

@@ -21,8 +21,8 @@ class LevelSteps {
  public:
   explicit LevelSteps(RunState& run) : run_(run) {}
 
-  /// The longest step of the coarsest level [s] for which two steps of each level per step of the next coarser one are
-  /// stable, and the limit that determines it.
+  /// The longest step of the coarsest level [s] such that each finer level is stable with two steps per step of the
+  /// next coarser level, and the limit that determines this step.
   data::Minimum stable();
   /// Advances the old state of all levels by the step of the coarsest level, `whole.delT`; the new state then has
   /// stable time steps. If a task requests a smaller step, returns its factor and reason; in this case, and if a
@@ -39,8 +39,8 @@ class LevelSteps {
   /// Computes the stable step for the state of a level, unless it is already known.
   std::optional<data::Minimum> findStable(const tasks::StepInfo& at);
   std::optional<data::Minimum> findStableOfAll(tasks::StepInfo at);
-  /// The longest step of a level [s] with the scene's multiplier. Throws NumericalError if it is far shorter than the
-  /// rest of the coarser one.
+  /// The longest step of a level [s] with the scene's multiplier. Throws NumericalError if it is far shorter than
+  /// `rest` [s], the remaining time of the coarser step.
   double longestStep(double rest, const tasks::StepInfo& next) const;
   int levelsWithCells() const;
   int number(const data::Label& label) { return run_.table.number(label, -1); }
@@ -52,10 +52,10 @@ class LevelSteps {
   std::vector<int> steps_;
 };
 
-/// The number of equal steps that fill `rest` [s] if `stable` [s] is the longest step: for a rest that begins with the
-/// coarser step (`isFirst`), one if it is stable, and two if they are at most an eighth longer than stable; for a later
-/// rest, also one if it is at most an eighth longer, because signals may have become faster since the coarser step was
-/// chosen.
+/// The number of equal steps that fill `rest` [s], the remaining time of a coarser step, if `stable` [s] is the longest
+/// stable step. Steps may be up to an eighth longer than `stable`, because signals may have become faster since the
+/// coarser step was chosen. If `isFirst`, the rest is the whole coarser step; a single step that fills it must not be
+/// longer than `stable`.
 int stepsThatFill(double rest, double stable, bool isFirst);
 
 }  // namespace tushar::simulation

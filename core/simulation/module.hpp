@@ -10,7 +10,7 @@ std::string misfitOf(const ModuleAbi& module);
 
 /// A catalogue of all modules of this program and of the user, each loaded when it is first needed. Those of the user
 /// are the given files, and the files in the folders of TUSHAR_PLUGINS, which are separated by `:`. Throws
-/// std::runtime_error with a sentence for each that cannot be loaded.
+/// std::runtime_error with a sentence for each file that cannot be loaded.
 Catalogue openModules(const std::vector<std::string>& files);
 
 /// Loads a module of this program, which then registers itself. Does nothing in a program without openModules(),

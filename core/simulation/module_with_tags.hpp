@@ -11,8 +11,8 @@
 
 namespace tushar::simulation {
 
-/// Describes the analysis module `name` with its own tags, which `schema` reads; the schema must outlive the module. It
-/// is made by `make(settings, its tag, component, grid)`.
+/// Describes the analysis module `name` with its own tags, which `schema` reads; the schema must outlive the module.
+/// `make(settings, tag of the module, component, grid)` constructs it.
 template <class Settings, class Make>
 AnalysisKind moduleMadeBy(std::string name, std::string sentence, const input::Schema<Settings>& schema, Make make) {
   const auto read = [&schema, make](const input::Element& module, input::Diagnostics& diagnostics) -> MakeAnalysis {

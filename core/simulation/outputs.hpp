@@ -15,10 +15,10 @@
 namespace tushar::simulation {
 
 /// The archive of a run and the contents of its folder: outputs, globals, and the samples of analysis modules. All
-/// ranks make the same calls; rank 0 writes, with the writers of the run for outputs.
+/// ranks make the same calls. Rank 0 writes the files; the writers of the run write outputs together with it.
 class Outputs {
  public:
-  /// A new archive will be made in folder `parent`; if it is empty, in the current folder.
+  /// `parent` is the folder in which a new archive will be made; if it is empty, the current folder is used.
   Outputs(RunState& run, std::filesystem::path parent);
   /// If a run ends by an exception, finishes the output in progress, provided that rank 0 can do so alone or that all
   /// ranks reach this destructor.

@@ -14,7 +14,7 @@
 
 namespace tushar::simulation {
 
-/// A scene that has been checked, ready to run.
+/// A scene that has been checked and is ready to run.
 struct Problem {
   std::string scenePath, title, componentName;
   std::string inputXml;             ///< the scene with its overrides as XML, for the archive

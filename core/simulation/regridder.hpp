@@ -69,7 +69,7 @@ class Regridder {
   double seconds() const { return seconds_; }
 
  private:
-  /// Number of steps between regriddings; and the same number in steps of the finest level.
+  /// Number of steps between regriddings; `finestStepsBetween`: the same period in steps of the finest level.
   int stepsBetween() const;
   int finestStepsBetween() const;
   grid::BlockTree wantedTree();

@@ -28,12 +28,13 @@ struct Restart {
   std::filesystem::path state() const { return output::CheckpointStore(archive, 1).folder(step) / stateFile; }
 };
 
-// All ranks call these, with the same.
+// All ranks call these functions, with the same arguments.
 
 /// Adds a note that the checkpoint is damaged.
 void noteDamage(Restart& restart, const std::string& damage);
-/// Selects the next checkpoint that is intact, as far as can be checked now, and notes the damage to those skipped.
-/// False if none is. If a newer version wrote one, throws InputError on rank 0, and FailedElsewhere on the others.
+/// Selects the next checkpoint that is intact, as far as can be checked now, and notes the damage to the checkpoints
+/// that it skips. Returns false if none is intact. If a checkpoint was written by a newer version, throws InputError on
+/// rank 0, and FailedElsewhere on the others.
 bool takeNext(Restart& restart, const mpi::Communicator& ranks);
 /// Throws InputError on the first rank, with all notes, and FailedElsewhere on the others.
 [[noreturn]] void refuseDamaged(const Restart& restart, const mpi::Communicator& ranks);

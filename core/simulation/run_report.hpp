@@ -20,8 +20,8 @@ class RunReport {
   void noteStep(const std::vector<int>& stepsOfLevels = {});
   void endLoop(double outputSeconds);
 
-  /// The report, except how the run ended, its outputs, and the patches that changed ranks. `fileMemory` is by how much
-  /// outputs and checkpoints have raised the peak of this rank's memory [bytes].
+  /// Makes the report, except for the end of the run, its outputs, and the patches that changed ranks. `fileMemory` is
+  /// the increase of this rank's peak memory caused by outputs and checkpoints [bytes].
   report::Report make(double fileMemory = 0);
 
  private:

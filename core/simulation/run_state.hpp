@@ -16,7 +16,8 @@
 
 namespace tushar::simulation {
 
-/// Mass, momentum and energy over the whole grid: the components of each, in the order of Phases::totals().
+/// The totals of mass, momentum and energy over the whole grid, in the order of Phases::totals(), each with its
+/// components.
 using Totals = std::vector<std::vector<double>>;
 
 /// The state that the parts of a run share: the problem, its compiled tasks and variables, and its progress.
@@ -47,7 +48,7 @@ struct RunState {
   const mpi::Communicator& ranks;
   /// Communicator of the same ranks, for messages about files, separate from messages of tasks.
   mpi::Communicator files;
-  output::Writers writers;  ///< those of the ranks that write files
+  output::Writers writers;  ///< the ranks that write files
   std::optional<std::size_t>
       mostBehind;  ///< largest size of an output that a writer may keep in memory [bytes]; by default a suitable amount
   data::VariableTable table;

@@ -40,7 +40,7 @@ class Simulation {
   void setWarning(std::function<void(const std::string&)> warn) { checkpoints_.setWarning(std::move(warn)); }
   /// Runs until the end of the scene, an interrupt, a file `stop_now` in the archive, or an invalid value. The report
   /// then names the invalid value, and the last complete step is saved. Throws TaskError, FileError, and NumericalError
-  /// for such a value at the start.
+  /// for an invalid value at the start.
   report::Report run();
 
  private:

@@ -10,8 +10,8 @@
 namespace tushar::solvers {
 
 /// Indices of the cells that a rank uses in a global system, as required by Unknowns: its own cells come first,
-/// followed by those of other ranks. The order is lexicographic on one rank, and follows the blocks along the curve on
-/// several levels, so that it does not depend on the patches.
+/// followed by those of other ranks. On a single rank, the order does not depend on the patches: it is lexicographic on
+/// one level, and follows the blocks along Morton's curve on several levels.
 class CellNumbering {
  public:
   /// On one level, cells of other ranks that share a face with the rank's own cells are included from the start.
@@ -64,7 +64,7 @@ class CellNumbering {
   void numberOwnPatches();
   void numberGhosts(const grid::Patch& patch, const std::vector<int>& firstOf);
   /// The global index of a cell on several levels: block by block on one rank, otherwise patch by patch. Throws
-  /// data::AccessError for one that is refined or part of a coarser one.
+  /// data::AccessError for a cell that is refined or part of a coarser cell.
   std::uint64_t numberAmongAll(int level, const Index3& cell) const;
   Run runAround(int level, const Index3& cell) const;
 

@@ -41,8 +41,8 @@ using OwnedSnes = Owned<SNES, SNESDestroy>;
 using OwnedNumbering = Owned<ISLocalToGlobalMapping, ISLocalToGlobalMappingDestroy>;
 using OwnedNullSpace = Owned<MatNullSpace, MatNullSpaceDestroy>;
 
-/// The options of one solve, while this object exists: those of its settings, then those of PETSC_OPTIONS,
-/// which take precedence. Other solves do not see them.
+/// Sets the PETSc options of one solve while this object exists: the options in the settings of the solve, and those in
+/// PETSC_OPTIONS, which take precedence. Other solves do not see them.
 class PetscOptionsOfSolve {
  public:
   /// Initialises PETSc, if necessary.
@@ -76,7 +76,7 @@ class PetscMatrix : public Matrix {
     check(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
   }
-  /// Scales A to S A S with the diagonal S, and the near-null space for multigrid accordingly.
+  /// Scales the matrix A to S A S, where S is diagonal, and scales the near-null space for multigrid accordingly.
   void scale(Vec s);
   operator Mat() const { return matrix_; }
 

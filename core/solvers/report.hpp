@@ -30,8 +30,8 @@ inline double remainderOf(const Outcome& outcome) {
   return greatest > 0 ? outcome.residuals.back() / greatest : 0;
 }
 
-/// The position of the largest residual, as the end of a sentence, on all ranks; `mine` [m] is the position on the rank
-/// that has it.
+/// Returns the position of the largest residual, as the end of a sentence, on all ranks. `mine` [m] is this position on
+/// the rank that owns the residual, and empty on the others.
 std::string worstPlace(const mpi::Communicator& ranks, const std::optional<Vec3>& mine, const std::string& what);
 
 }  // namespace tushar::solvers

@@ -17,9 +17,8 @@ struct Unknowns {
   int owned = 0;                                                 ///< number of blocks that this rank owns
   std::vector<int> ghosts;   ///< global indices of the blocks of other ranks; blocks are numbered rank by rank
   std::vector<int> entries;  ///< for each owned block row, the largest number of nonzero blocks
-  /// The positions of the owned blocks, `block` numbers each [m]; they provide the rigid-body modes of a solid for
-  /// multigrid.
-  /// Empty: none.
+  /// The positions of the owned blocks, `block` numbers each [m], from which multigrid derives the rigid-body modes of
+  /// a solid. If empty, there are no such modes.
   std::vector<double> coordinates;
   /// Whether adding a constant to a solution gives another solution; then the one with mean 0 is chosen.
   bool constantIsFree = false;
@@ -62,7 +61,7 @@ struct Outcome {
 struct LinearProblem {
   std::function<void(Matrix&)> assemble;  ///< fills A; may also fill b
   std::span<const double> rightHandSide;  ///< b for the owned unknowns; read after A has been filled
-  /// If greater than 0: the tolerance is relative to this value where |b| is larger.
+  /// If this value is greater than 0 and less than |b|, the tolerance is relative to it.
   double scale = 0;
 };
 
@@ -82,7 +81,7 @@ class NonlinearProblem {
 /// Convergence criteria of Newton's method, as in Uintah's implicit MPM.
 struct NewtonSettings {
   LinearSettings linear{"gmres", "gamg", 1e-8, 1000, ""};
-  /// Tolerance for the square of the last change of u, relative to that of the largest change.
+  /// Tolerance for the square of the last change of u, relative to the square of the largest change.
   double displacement = 1e-10;
   /// Tolerance for the last change of u times the residual before it, relative to the first such product.
   double energy = 4e-10;

@@ -63,8 +63,7 @@ struct PlainArgument {
   const T& bind(const TaskContext&) const { return value; }
 };
 
-/// For a task that runs once per rank: passes the communicator of the ranks that run it together, which are those with
-/// patches.
+/// For a task that runs once per rank: passes the communicator of all ranks with patches, which run the task together.
 struct RanksArgument {
   void declare(std::vector<Access>&) {}
   const mpi::Communicator& bind(const TaskContext& context) const { return context.ranks(); }
@@ -93,7 +92,7 @@ FieldAccess<data::FieldLabel<C, T>, AccessKind::requiresOld> requiresNew(const d
                                                                          int ghost = 0) {
   return {&label, ghost, false, false, AccessKind::requiresNew};
 }
-/// Writes every value of the patch: a view of T. Its values are undefined before (NaN in the dev preset).
+/// Writes every value of the patch: a view of T. The values are undefined before the task (NaN in the dev preset).
 template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::computes> computes(const data::FieldLabel<C, T>& label) {
   return {&label};
@@ -172,9 +171,9 @@ struct FluxAccess {
 };
 /// Stores the fluxes of a variable at faces where the level of the patch ends, so that the framework can make the
 /// fluxes of both levels equal. The body receives a RimFlux<T> and adds to it the amount of the variable that passes
-/// through each face, along the axis, per unit area and time. With a single level it is empty. It is for `computes` or
-/// `modifies` tasks of scheduleTimeAdvance in which the change of a cell is dt times the difference of such fluxes over
-/// h.
+/// through each face, along the axis, per unit area and time. On a single level, the RimFlux is empty. Use this access
+/// in tasks of scheduleTimeAdvance that compute or modify the variable, and that change a cell by dt / h times the
+/// difference of such fluxes.
 template <class T>
 FluxAccess<T> keepsFlux(const data::CellLabel<T>& label) {
   static_assert(data::Stored<T>::number == data::Number::real, "keepsFlux(...) accepts only labels of real numbers");

@@ -123,8 +123,8 @@ GroupArgument<Group, Settings...> all(Settings... settings) {
   return {{std::move(settings)...}};
 }
 
-/// Reducers that the body receives as one `Group` of references. Totals belong to no patch and no material: the body
-/// gets one group whichever of them its task sees.
+/// Reducers that the body receives as one `Group` of references. Totals belong to no patch and no material, so the body
+/// gets only one group, even in a task for several materials or patches.
 template <class Group, class... Settings>
 TotalsArgument<Group, Settings...> totals(Settings... settings) {
   static_assert(!(std::is_base_of_v<data::Label, Settings> || ...), "pass a label to totals<Group>(...) by pointer");

@@ -40,7 +40,7 @@ class TaskContext {
   /// For a task that runs once per rank: the contexts of its patches, sorted by id.
   std::span<const TaskContext> ofPatches() const { return of_patches_; }
   void setPatches(std::span<const TaskContext> contexts) { of_patches_ = contexts; }
-  /// The ranks that run a task for the whole rank together.
+  /// For a task that runs once per rank: the ranks that run it together.
   const mpi::Communicator& ranks() const { return *ranks_; }
   void setRanks(const mpi::Communicator& ranks) { ranks_ = &ranks; }
 

@@ -17,29 +17,33 @@ GhostReach reachOf(const data::VariableTable& table, const BoundGhostFill& fill)
 
 /// Fills the ghosts of every patch from the patches that own them, on this rank or another.
 ///
-/// For a task one message goes to each neighbouring rank, with all that it needs for that task, as soon as the last of
-/// that has been computed; other tasks run meanwhile. Before the task patches fill their ghosts from one another, and
-/// those that need nothing of other ranks may be worked on while messages are still on their way.
+/// Before a task that needs ghosts, each rank sends one message to each neighbouring rank, with all values that this
+/// neighbour needs for the task. The messages are sent as soon as the last of these values has been computed; other
+/// tasks run meanwhile. Just before the task, the patches of a rank fill their ghosts from one another. Patches that
+/// need nothing from other ranks may then run while messages are still on their way.
 class Exchange {
  public:
   Exchange(data::Warehouse& warehouse, Threads& threads)
       : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()), near_(warehouse, threads) {}
 
-  /// Fills the ghosts of variables in three parts; the set of ghost particles is determined on its first use. All ranks
-  /// run them for the same fills in the same order, all three of one before the next.
+  /// An exchange has three parts: send(), begin() and finish(). All ranks call them for the same fills in the same
+  /// order, and complete one exchange before they begin the next. The first fill that needs ghost particles determines
+  /// which particles are ghosts.
   ///
-  /// From now on only patches of a level get ghosts, from coarser cells as they are at a part of their step; -1: those
-  /// of all levels, from old values.
+  /// Restricts later exchanges to ghosts of the patches of `level`; values in coarser cells are interpolated in time to
+  /// the fraction `part` of the coarser step. -1: patches of all levels get ghosts, from old values.
   void setLevel(int level, double part) {
     level_ = level;
     part_ = part;
   }
-  /// Posts messages. A rank on which a task has failed sends a notice of this instead of its values (`hasStopped`).
+  /// Sends this rank's messages. If a task has failed on this rank (`hasStopped`), they contain a notice of this
+  /// instead of values.
   void send(std::span<const BoundGhostFill> fills, bool hasStopped);
-  /// Sends messages, and fills the ghosts that need no messages from other ranks, unless a task has failed.
+  /// Determines from which ranks messages are awaited and, unless a task has failed, fills the ghosts that need no
+  /// messages.
   void begin(bool hasStopped);
-  /// Waits for the messages of other ranks, and fills the remaining ghosts. False if another rank has stopped; then
-  /// nothing more is filled, and this rank must stop too, before it reads values that are missing.
+  /// Waits for the messages of other ranks, and fills the remaining ghosts. Returns false if another rank has stopped;
+  /// then nothing more is filled, and this rank must stop too, before it reads missing values.
   bool finish();
   /// Whether no patch has ghosts at all, so that there is nothing to exchange.
   bool movesNothing() const;
@@ -50,9 +54,10 @@ class Exchange {
   /// Copies the new values of a node variable between patches of this rank, from owners to patches that share the node;
   /// `set` contains the particles near which the values are defined, if this matters.
   void shareFaces(int variable, data::Generation set);
-  /// Must be called when a task list begins, and after tasks that change particles.
+  /// Forgets which nodes are near particles. Must be called when a task list begins, and after tasks that change
+  /// particles.
   void forgetParticles() { near_.forget(); }
-  /// Must be called when the distribution of patches has changed.
+  /// Forgets all plans. Must be called when the distribution of patches has changed.
   void forgetLayout() {
     plans_.forget();
     faces_.clear();
@@ -61,7 +66,7 @@ class Exchange {
 
  private:
   void post(bool hasStopped);
-  /// The copies between patches of this rank.
+  /// Makes the copies between patches of this rank.
   void fillFromHere();
   void fillFromElsewhere(const BoundGhostFill& fill, bool resolves, ReceivedMessages& messages);
   void copyGrid(const BoundGhostFill& fill, const GhostCopy& copy);

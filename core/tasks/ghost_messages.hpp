@@ -33,9 +33,10 @@ std::byte* valueAt(const Values& values, const Index3& place, std::size_t bytes)
   return values.values + values.stored.offset(place) * bytes;
 }
 
-/// Computes the values of a copy, one after the other, unless they are simply those of `copy.from`: means of finer
-/// cells, or values of coarser cells within their step, old + part (new - old), which lie between old and new. Returns
-/// whether it has computed them.
+/// Computes the values of a copy if they differ from those of `copy.from`: means of finer cells, or values of coarser
+/// cells at a time within their step, old + part (new - old), limited to the range between old and new. Writes them to
+/// `values` one after the other. Returns false, and computes nothing, if the values of `copy.from` are to be copied
+/// unchanged.
 bool computeValues(data::Warehouse& warehouse, const BoundGhostFill& fill, const GhostCopy& copy, double part,
                    mpi::Bytes& values);
 

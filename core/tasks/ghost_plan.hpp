@@ -32,7 +32,7 @@ struct CoarseGhosts {
 /// The copies and messages between patches that fill ghosts, planned once for a layout. Every rank computes its part
 /// from the geometry: a receiver and a sender list the copies between them in the same order, without a message.
 ///
-/// All of it comes from cells that patches own, so that one round does for all levels.
+/// All values come from cells that patches own, so that one round of messages is enough for all levels.
 struct GhostPlan {
   std::vector<std::vector<GhostCopy>> into;       ///< copies into each patch of this rank
   std::vector<std::vector<CoarseGhosts>> coarse;  ///< interpolated ghosts of each patch of this rank
@@ -51,9 +51,9 @@ struct GhostReach {
   friend auto operator<=>(const GhostReach&, const GhostReach&) = default;
 };
 
-/// The number of cells that a block needs along each axis on several levels, so that ghosts of a width lie in blocks of
-/// the next levels: ghosts in finer cells within half a block of this level; ghosts in coarser cells, and the cells for
-/// their slopes, within half a block of the coarser level.
+/// The smallest number of cells of a block along each axis, on several levels, with which `width` layers of ghosts lie
+/// in adjacent blocks of the next finer or coarser level. Ghosts in finer cells must lie within half a block of this
+/// level; ghosts in coarser cells, and the cells for their slopes, must lie within half a block of the coarser level.
 constexpr int fewestCellsOfBlock(int width) { return 2 * std::max(width, (width + 1) / 2 + 1); }
 
 /// Plans ghosts: each comes from one patch, or is interpolated from the coarser cells around it.
@@ -66,7 +66,7 @@ std::vector<std::vector<GhostCopy>> planFaces(const grid::Grid& grid);
 class GhostPlans {
  public:
   const GhostPlan& of(const grid::Grid& grid, GhostReach reach);
-  /// Must be called when the distribution of patches has changed.
+  /// Discards all plans. Must be called when the distribution of patches has changed.
   void forget() { plans_.clear(); }
 
  private:

@@ -10,11 +10,11 @@
 
 namespace tushar::tasks {
 
-/// The nodes of this rank's patches that are near particles; used for variables that are defined only there
-/// (data::Counts::nearParticles), patches exchange no other nodes.
+/// Finds the nodes of this rank's patches that are near particles. Variables with data::Counts::nearParticles are
+/// defined only on these nodes, and patches exchange no others.
 ///
-/// A patch that computes a node sees all particles that touch it, so it alone can decide whether any does. Where ghosts
-/// of particles are not settled, all nodes count as near.
+/// A patch that computes a node sees all particles that touch the node, so it can decide by itself whether there are
+/// any. If the ghost particles of a patch have not been determined, all its nodes count as near.
 class NearRows {
  public:
   NearRows(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}
@@ -30,14 +30,15 @@ class NearRows {
   const data::TouchedRows& of(data::Generation set, int material, int patch) const {
     return *rows_.at({set, material})[patch - warehouse_->grid().firstPatch()];
   }
-  /// Must be called when particles have been replaced or have moved.
+  /// Forgets all rows. Must be called when particles have been replaced or have moved.
   void forget() {
     rows_.clear();
     whole_.clear();
   }
 
  private:
-  /// The rows near the particle set, or `whole`.
+  /// The rows near the particles of a patch or, if its ghosts have not been determined, `whole`, which is set to all
+  /// rows.
   const data::TouchedRows& rowsOf(data::Generation set, int material, const grid::Patch& patch,
                                   data::TouchedRows& whole) const;
 

@@ -13,11 +13,12 @@ namespace tushar::tasks {
 /// Describes how and where the run of a graph stopped early: the first failing task in the order of the graph, over all
 /// ranks. It is sent in messages byte by byte.
 ///
-/// A task that shortens the time step takes precedence over one that violates a bound, since its results are not used.
+/// A task that shortens the time step takes precedence over one that violates a bound, because the results of a
+/// shortened step are not used.
 struct Outcome {
-  /// If a task fails in several ways, the first in this order is reported, so that the report does not depend on
-  /// patches and ranks: exceptions of bodies, by cell, then violated bounds, by the position of the variable in the
-  /// task.
+  /// The ways in which a task can stop a run. If there are several, the first in this order is reported, so that the
+  /// report does not depend on patches and ranks. Among exceptions of bodies, the lowest cell comes first; among
+  /// violated bounds, the first variable of the task.
   enum class Kind { shortensStep, throws, breaks };
   static constexpr int none = std::numeric_limits<int>::max();
 

@@ -23,8 +23,8 @@ struct MigratingParticle {
 
 /// Migrates particles between ranks with all their values, in one message to each neighbour.
 ///
-/// A particle may go to any cell of the grid. Ranks expect messages from their neighbours only; where some particle
-/// goes farther, which all ranks agree on before, they expect one from every rank.
+/// A particle may go to any cell of the grid. Ranks usually expect messages from their neighbours only. If any particle
+/// goes farther, about which all ranks agree first, they expect a message from every rank.
 class ParticleMigration {
  public:
   /// Ranks with patches within this number of cells are neighbours; few particles travel farther in a step.
@@ -32,7 +32,8 @@ class ParticleMigration {
 
   explicit ParticleMigration(data::Warehouse& warehouse) : warehouse_(&warehouse), outbox_(warehouse.ranks()) {}
 
-  /// Must be called when the distribution of patches, and hence the set of neighbours, has changed.
+  /// Forgets the neighbours. Must be called when the distribution of patches, and hence the set of neighbours, has
+  /// changed.
   void forgetLayout();
   /// Starts a relocation, with no migrating particles yet.
   void start();

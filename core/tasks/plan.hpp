@@ -22,7 +22,8 @@ struct GhostFill {
 /// The ghost exchanges before a task. They need only one message per pair of ranks.
 struct Stage {
   std::vector<GhostFill> fills;
-  /// Index of the task after which it may be sent: all values exist, and earlier stages are read; -1: at once.
+  /// Index of the task after which the messages may be sent, because all values exist and earlier stages have been
+  /// received; -1: from the start.
   int ready = -1;
 };
 

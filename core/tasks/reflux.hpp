@@ -6,8 +6,9 @@
 
 namespace tushar::tasks {
 
-/// Adds to the list a task for each variable whose fluxes are kept, after the last task that stores them. In a coarse
-/// cell next to finer ones, it replaces the flux through the face between them by the mean of the finer fluxes,
+/// Returns the list with an additional task for each variable whose fluxes are kept, placed after the last task that
+/// stores its fluxes. In a coarse cell next to finer ones, this task replaces the flux through the face between them by
+/// the mean of the finer fluxes,
 ///
 ///     U += ± dt / h (F - mean of the finer F),  + at upper faces,
 ///

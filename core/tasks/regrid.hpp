@@ -12,9 +12,9 @@ struct PatchCosts {
 
 /// Changes the tree of a grid of several levels, and transfers the old values of cell variables to its new patches:
 /// copied on the same level, averaged where cells become coarser, and interpolated (see prolong) where they become
-/// finer. At least one layer of ghosts must be valid. No cell may become more than one level finer, or k levels coarser
-/// except in blocks of a multiple of 2^k cells; all other values of patches are lost. The costs of ranks are as equal
-/// as whole patches allow. All ranks of the grid call it, between two steps.
+/// finer. At least one layer of ghosts must be valid. No cell may become more than one level finer. A cell may become k
+/// levels coarser only if the cells of a block along each axis are a multiple of 2^k. All other values of patches are
+/// lost. The costs of ranks are as equal as whole patches allow. All ranks of the grid call it, between two steps.
 void regrid(grid::Grid& grid, grid::BlockTree tree, data::Warehouse& warehouse, const MigratedVariables& variables,
             const PatchCosts& costs = {});
 

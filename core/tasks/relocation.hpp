@@ -40,14 +40,14 @@ class Relocation {
   ///
   /// All ranks call it together. Returns false if a rank has stopped before; then nothing is done on any rank.
   /// Particles at `data::vanished` are dropped, too, without being counted; those at `data::removed` are counted.
-  /// Throws NumericalError, on all ranks, for a position that is not finite, or lies behind a symmetry plane, or is in
-  /// or too near to coarser cells.
+  /// Throws NumericalError, on all ranks, for a position that is not finite, lies behind a symmetry plane, or is inside
+  /// coarser cells or too close to them.
   bool find(int material, int position, bool hasStopped);
   /// Builds the new particle set of a material from the old one and the moves found, and moves every carried variable
   /// to it, in generation `to`. Values that are already in that generation move within their memory. Collective.
   void apply(int material, const std::vector<Carried>& carried, data::Generation to);
 
-  /// Must be called when the distribution of patches has changed.
+  /// Forgets the neighbours of this rank. Must be called when the distribution of patches has changed.
   void forgetLayout();
 
   /// Starts a step, or starts it again.
@@ -166,7 +166,8 @@ class Relocation {
   /// Records the destination of the particle with index `departed` among those that leave their cells.
   template <int D>
   void move(const grid::Patch& from, const Index<D>& cell, Vec<D>& x, ParticleId id, int departed, PatchMoves& moves);
-  /// Sorts the particles that left their patch: at an invalid position, outside the grid, or migrating to another rank.
+  /// Sorts the particles that left their patch into those at an invalid position, those outside the grid, and those
+  /// that migrate to another rank.
   Verdict gather(Moves& moves, bool hasStopped);
   [[noreturn]] void refuseEscape(int position, const Verdict& verdict) const;
   /// The error for a particle at an invalid position.

@@ -10,7 +10,7 @@
 
 namespace tushar::tasks {
 
-/// The position in a run at which a graph is executed; used in error messages.
+/// The step in which a graph is run, and the level on which it runs.
 struct StepInfo {
   int step = 0;
   double time = 0;         ///< time at the start of the step [s]
@@ -26,15 +26,16 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 
 /// Runs compiled task graphs with the warehouse of this rank.
 ///
-/// All threads work on the patches of a task at once; no result depends on their number.
+/// All threads work on the patches of one task at the same time; no result depends on the number of threads.
 ///
-/// All ranks run the same graph, each on its own patches. They wait for one another only if one needs values of
-/// another: for ghosts, in a relocation, and at the end of the graph, where reductions are merged and all ranks agree
-/// on the outcome. A rank on which a task fails runs no further task, and neither does a rank that would read its
-/// values. A task for all patches at once is run by all ranks that have patches, or by none.
+/// All ranks run the same graph, each on its own patches. A rank waits for others only if it needs their values: for
+/// ghosts, in a relocation, and at the end of the graph, where reductions are merged and all ranks agree on the
+/// outcome. A rank on which a task fails runs no further task, and neither does a rank that would read its values. A
+/// task for all patches at once is run by all ranks that have patches, or by none.
 ///
 /// A graph whose tasks use only cells of their own level may be run on one level after the other, each with its own
-/// step: the results remain on all levels until forgetNew(), and commitLevel() makes them the old state of one level.
+/// step: the results remain on all levels until forgetNew(), and commitLevel() copies those of one level to its old
+/// state.
 class Scheduler {
  public:
   /// Uses up to `threads` threads, but at most one per patch of this rank and one per `cellsPerThread` cells of a rank
@@ -48,10 +49,10 @@ class Scheduler {
         relocation_(warehouse, threads_) {}
 
   /// Runs every task on every patch, and checks the bounds of the values written. The old generation is never changed.
-  /// A body that throws, or a violated bound, ends the run of the graph: a NumericalError is rethrown with task, patch,
-  /// material, step and time added, the same on all ranks; any other exception becomes a TaskError on the rank where it
-  /// occurred. A failing task still runs on all patches; of several errors, that of the first cell, or patch, is
-  /// thrown.
+  /// A body that throws, or a violated bound, ends the run of the graph: a NumericalError is rethrown on all ranks,
+  /// with task, patch, material, step and time added; any other exception becomes a TaskError on the rank where it
+  /// occurred. A failing task still runs on all patches; if there are several errors, that of the first cell, or patch,
+  /// is thrown.
   ///
   /// If a task requests a smaller time step by recomputeTimeStep, the graph ends after this task, and its factor and
   /// reason are returned; running the graph again repeats the step. Otherwise returns nothing.
@@ -65,10 +66,10 @@ class Scheduler {
   /// Discards the results of a graph that was run level by level.
   void forgetNew(const TaskGraph& graph);
 
-  /// Cost of each patch of this rank since the last call, in seconds of wall time with all threads busy; zeros on a
+  /// Cost of each patch of this rank since the previous call, in seconds of wall time with all threads busy; zeros on a
   /// single rank.
   std::vector<double> takeCosts();
-  /// Must be called when the distribution of patches has changed.
+  /// Forgets everything that depends on the distribution of patches. Must be called when it has changed.
   void forgetLayout();
 
   Relocation& relocation() { return relocation_; }
@@ -120,7 +121,7 @@ class Scheduler {
   void runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at);
   void allocateOutputs(const MaterialBinding& binding);
   void free(const CompiledTask& task);
-  /// Carries out the moves found by the last task of a graph, if that is a relocation.
+  /// Carries out the moves found by the last task of a graph, if this task is a relocation.
   void apply(CompiledTask& last);
 
   std::optional<data::Minimum> factorOf(const CompiledTask& task);

@@ -83,7 +83,7 @@ class TaskList {
   }
 
   /// Adds a task that runs `body(patch, material, maker, arguments...)`: the new particles replace those of the patch.
-  /// Particle variables that are needed afterwards must be among what it `creates`; node and cell variables stay.
+  /// The task must create all particle variables that are needed afterwards; node and cell variables stay.
   template <class Material, class Body, class... Arguments>
   void newParticles(std::string_view name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
     check<true, false, Arguments...>();
