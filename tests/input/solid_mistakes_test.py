@@ -142,7 +142,7 @@ REFUSED = {
     "a metal without a heat capacity in implicit steps":
         (BEAM, (RUBBER, METAL + HARDENS), "missing tag <specific_heat>: elastic_plastic is heated by plastic work"),
     "obstacles without an energy":
-        (BEAM, (RUBBER, METAL + MTS), "g_0i, edot_0i and q_i must be greater than 0 if p_i is"),
+        (BEAM, (RUBBER, METAL + MTS), "p_i is greater than 0, but g_0i, edot_0i and q_i are not"),
     "friction in implicit steps":
         (BILLET, ("<type>rigid</type>", "<type>friction</type><mu>.1</mu>"),
          "contact: friction needs <time_integrator> "

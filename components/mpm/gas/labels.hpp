@@ -13,7 +13,7 @@ inline constexpr ParticleLabel<double> internalEnergy{"p.internalEnergy", "J/kg"
                                                       Bound::nonNegative};
 inline constexpr ParticleLabel<double> pressure{"p.pressure", "Pa", "pressure, artificial viscosity included"};
 inline constexpr ParticleLabel<double> velocityDivergence{
-    "p.velocityDivergence", "1/s", "divergence of the velocity in the particle's cell in the last step"};
+    "p.velocityDivergence", "1/s", "divergence of the velocity in the particle's cell in the latest step"};
 }  // namespace p
 
 /// Labels of node variables.

@@ -87,7 +87,7 @@ const Schema<GasSection>& materialSchema() {
           .section("relaxation", &GasSection::relaxation, relaxationSchema())
           .ours()
           .value("thermal_conductivity", &GasSection::thermalConductivity, 0, "W/(m K)",
-                 "must be 0: the gas method conducts no heat", input::between(0, 0))
+                 "the gas method conducts no heat", input::between(0, 0))
           .value("specific_heat", &GasSection::specificHeat, 0, "J/(kg K)",
                  "accepted for compatibility with Uintah: the constitutive model has its own", input::nonNegative())
           .list("geom_object", &GasSection::objects, objectSchema(), "a body of material at the start", 1)

@@ -11,7 +11,7 @@ namespace p {
 using namespace mpm::p;
 inline constexpr ParticleLabel<Matrix3> stress{"p.stress", "Pa", "Cauchy stress"};
 inline constexpr ParticleLabel<Matrix3> deformationMeasure{"p.deformationMeasure", "1", "deformation gradient"};
-inline constexpr ParticleLabel<Matrix3> velocityGradient{"p.velGrad", "1/s", "velocity gradient of the last step"};
+inline constexpr ParticleLabel<Matrix3> velocityGradient{"p.velGrad", "1/s", "velocity gradient of the latest step"};
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> displacement{"p.displacement", "m", "displacement since the start"};
 template <int D>
@@ -119,7 +119,8 @@ inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
     "RigidReactionForce", "N",
     "force by which the master of a contact of type rigid or specified resists the stresses of the others"};
 inline constexpr ReductionLabel<Sum> strainEnergy{
-    "StrainEnergy", "J", "strain energy of elastic materials; for others, its increase in the last step, as in Uintah"};
+    "StrainEnergy", "J",
+    "strain energy of elastic materials; for others, its increase in the latest step, as in Uintah"};
 /// Labels of the sums of the components of p.work, in the same order.
 inline constexpr std::array<ReductionLabel<Sum>, 7> work{{
     {"ExternalWork", "J", "work of loads and gravity since the start"},

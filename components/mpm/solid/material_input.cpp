@@ -158,7 +158,7 @@ void describeModels(std::ostream& out, int indent) {
 
 void checkAffine(const Body& body, const Element& element, Diagnostics& diagnostics) {
   if (!(body.affineMatrix().determinant() > 0))
-    diagnostics.error(element, "affineTransformation_A0, …_A1 and …_A2: the determinant of A must be positive");
+    diagnostics.error(element, "affineTransformation_A0, …_A1 and …_A2: the determinant of A is not positive");
 }
 
 Schema<Body> bodyTags() {
@@ -279,7 +279,7 @@ void checkContacts(const MaterialProperties::List& list, const Element& element,
 
 const Schema<MaterialProperties>& propertiesSchema(bool besideGas) {
   static const Schema<MaterialProperties::ThermalContact> thermalContact(
-      "thermal_contact", "If this is given, materials that share a node have the same temperature there.");
+      "thermal_contact", "With this tag, materials that share a node have the same temperature at the node.");
   static const Schema<MaterialProperties::List> list =
       Schema<MaterialProperties::List>("MPM", "The materials of the Material Point Method, and their contact.")
           .list("material", &MaterialProperties::List::materials, materialSchema(), "a material", 1)

@@ -41,8 +41,8 @@ struct ElasticPlastic {
                                       capability::Melting, capability::Stability, capability::PartialState>;
   static constexpr std::array<StateVariable, 9> stateVariables{
       {{"p.plasticStrain", "1", "equivalent plastic strain"},
-       {"p.plasticStrainRate", "1/s", "equivalent plastic strain rate in the last step"},
-       {"p.strainRate", "1/s", "equivalent strain rate in the last step"},
+       {"p.plasticStrainRate", "1/s", "equivalent plastic strain rate in the latest step"},
+       {"p.strainRate", "1/s", "equivalent strain rate in the latest step"},
        {"p.energy", "J/kg", "work of the stresses since the start"},
        {"p.sigmaDev0", "Pa", "stress deviator of the Maxwell element 1", 9},
        {"p.sigmaDev1", "Pa", "stress deviator of the Maxwell element 2", 9},

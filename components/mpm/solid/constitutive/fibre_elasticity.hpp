@@ -136,7 +136,7 @@ struct FibreElasticity {
     if (!given) return diagnostics.error(element, "missing tag <direction_of_symm> (along the fibres at the start)");
     const auto value = input::parse<Vec3>(given->text());
     if (!value.problem.empty()) return diagnostics.error(*given, value.problem);
-    if (value.value->norm() == 0) return diagnostics.error(*given, "must not be 0");
+    if (value.value->norm() == 0) return diagnostics.error(*given, "is 0, which is not a direction");
     read.fibre = {(*value.value)[0], (*value.value)[1], (*value.value)[2]};
   }
 

@@ -33,7 +33,7 @@ struct GursonPlastic {
        Base::stateVariables[3],
        {"p.porosity", "1", "porosity"},
        {"p.plasticDilatation", "1", "relative plastic change of volume"},
-       {"p.plasticWork", "J/m^3", "plastic work in the last step"}}};
+       {"p.plasticWork", "J/m^3", "plastic work in the latest step"}}};
 
   Base base;  ///< model of the metal without pores
 

@@ -31,8 +31,8 @@ struct NonlocalDruckerPrager {
       {{"p.plasticStrain", "1", "accumulated plastic strain"},
        {"p.eta", "Pa", "strength gained from the plastic strain at the point"},
        {"p.eta_nl", "Pa", "strength gained from the plastic strain around the point"},
-       {"p.plasticIncrement", "1", "plastic strain of the last step"},
-       {"p.meanPlasticIncrement", "1", "mean of the plastic strain of the last step within l_nonlocal"}}};
+       {"p.plasticIncrement", "1", "plastic strain of the latest step"},
+       {"p.meanPlasticIncrement", "1", "mean of the plastic strain of the latest step within l_nonlocal"}}};
   static constexpr std::string_view name = "nonlocal_drucker_prager";
   static constexpr bool strainEnergyIsRate = true;
 
@@ -151,7 +151,7 @@ struct NonlocalDruckerPrager {
     const double softest = read.localModulus + std::min(read.nonlocalModulus, 0.0), limit = -read.stiffness();
     if (softest <= limit)
       diagnostics.error(element, fmt::format("<h_local>, or its sum with <h_nonlocal>, is {:g} Pa: the strength would "
-                                             "fall faster than the stress; it must be greater than {:g} Pa",
+                                             "fall faster than the stress; expected more than {:g} Pa",
                                              softest, limit));
   }
 };

@@ -69,7 +69,7 @@ struct NeoHookPlastic {
             if (read.isPlastic && !(read.yieldStress && read.hardeningModulus))
               diagnostics.error(element, "a material that yields needs <yield_stress> and <hardening_modulus>");
             if (read.yieldSpreads && read.yieldStress && read.yieldRange >= *read.yieldStress)
-              diagnostics.error(element, "<yield_range> must be less than <yield_stress>");
+              diagnostics.error(element, "<yield_range> is not less than <yield_stress>");
           });
       addInitialPressure(tags);
       refuseSwitch(tags, "reinitializeCMData", "bodies keep their state from the start");

@@ -33,7 +33,7 @@ struct ViscoPlastic {
                                       capability::InitialWaveSpeed, capability::TemperatureChange>;
   static constexpr std::array<StateVariable, 7> stateVariables{
       {{"p.plasticStrain", "1", "equivalent inelastic strain"},
-       {"p.plasticStrainRate", "1/s", "equivalent inelastic strain rate in the last step"},
+       {"p.plasticStrainRate", "1/s", "equivalent inelastic strain rate in the latest step"},
        {"p.yield", "Pa", "yield stress"},
        {"p.drag", "Pa", "drag stress"},
        {"p.localized", "1", "1 if the particle has failed"},

@@ -249,7 +249,7 @@ struct ViscoScram {
       tags.required("RTau" + number, members[n].second, "1/s", "relaxation rate of this element", input::nonNegative());
     }
     tags.check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
-      if (read.shearModulus() <= 0) diagnostics.error(element, "one of <G1> to <G5> must be positive");
+      if (read.shearModulus() <= 0) diagnostics.error(element, "none of <G1> to <G5> is positive");
     });
   }
 };

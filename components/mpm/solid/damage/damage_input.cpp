@@ -125,7 +125,7 @@ void checkScaling(const ThresholdDamage& read, const Element& element, Diagnosti
 const Schema<ThresholdDamage>& ThresholdDamage::schema() {
   using Self = ThresholdDamage;
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("damage_model", "A particle fails at once above a threshold.");
+    Schema<Self> tags("damage_model", "A particle fails immediately above a threshold.");
     declareThreshold(tags);
     tags.required("failure_mean", &Self::mean, "Pa or 1", "mean of the threshold; for MohrCoulomb, of the cohesion",
                   input::positive())
@@ -154,12 +154,12 @@ const Schema<ThresholdVarDamage>& ThresholdVarDamage::schema() {
       Schema<Table>("variable_properties", "Thresholds as a function of p.color, linear between the entries.")
           .list("entry", &Table::entries, entry, "the threshold for one color, in order of increasing color", 1);
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("damage_model", "A particle fails at once above a threshold that depends on its color.");
+    Schema<Self> tags("damage_model", "A particle fails immediately above a threshold that depends on its color.");
     declareThreshold(tags);
     tags.requiredSection("variable_properties", &Self::table, byColor)
         .check([](const Self& read, const Element& element, Diagnostics& diagnostics) {
           if (!growsInColor(read.table.entries))
-            diagnostics.error(element, "variable_properties: <color> must increase from one entry to the next");
+            diagnostics.error(element, "variable_properties: <color> does not increase from each entry to the next");
           for (const Entry& one : read.table.entries)
             if (read.distribution == Distribution::weibull && one.deviation <= 0)
               diagnostics.error(element, "failure_distrib weibull needs a <std>, its modulus, in every entry");
@@ -195,7 +195,7 @@ void connect(Material& material, const Element& parent, const Element& tag, Diag
   const bool isJohnsonCook = std::holds_alternative<JohnsonCookDamage>(material.damage);
   const bool needsRate = isJohnsonCook || std::holds_alternative<HancockMackenzieDamage>(material.damage);
   if (isJohnsonCook && material.meltTemperature <= material.roomTemperature)
-    diagnostics.error(tag, "johnson_cook: <melt_temp> of the material must be greater than its <room_temp>");
+    diagnostics.error(tag, "johnson_cook: <melt_temp> of the material is not greater than its <room_temp>");
   if (needsRate && material.model && offsetOf(*material.model, "p.plasticStrainRate") < 0)
     diagnostics.error(tag, tag.attribute("type").value_or("") +
                                " needs the plastic strain of a constitutive model elastic_plastic_hp, found " +

@@ -46,11 +46,11 @@ inline constexpr NodeLabel<Vec<D>> newAcceleration{"g.newAcceleration", "m/s^2",
 namespace total {
 using namespace solid::total;
 inline constexpr ReductionLabel<Maximum> newtonIterations{"NewtonIterations", "1",
-                                                          "Newton iterations of the last step"};
+                                                          "Newton iterations of the latest step"};
 inline constexpr ReductionLabel<Maximum> newtonResidual{
-    "NewtonResidual", "1", "residual at the end of the last step, relative to the largest in that step"};
+    "NewtonResidual", "1", "residual at the end of the latest step, relative to the largest in that step"};
 inline constexpr ReductionLabel<Maximum> krylovIterations{"KrylovIterations", "1",
-                                                          "iterations of all linear solves in the last step"};
+                                                          "iterations of all linear solves in the latest step"};
 inline constexpr ReductionLabel<Minimum> nextTimeStep{"nextTimeStep", "s",
                                                       "next time step, by the number of Newton iterations"};
 }  // namespace total

@@ -71,7 +71,7 @@ TEST(MaterialInput, PicksTheModelThatTheTagsAskFor) {
   EXPECT_EQ(nameOf("comp_neo_hook", yields), "UCNH");
   EXPECT_EQ(nameOf("comp_neo_hook", yields + spread), "UCNHVar");
   expectProblem(sceneOf("UCNH", yields + "<yield_distrib>uniform</yield_distrib><yield_range>2</yield_range>"),
-                "<yield_range> must be less than <yield_stress>");
+                "<yield_range> is not less than <yield_stress>");
 }
 
 TEST(MaterialInput, StartsUnderPressureAlsoWhereTheYieldStressDiffers) {
@@ -256,7 +256,7 @@ TEST(MaterialInput, RefusesAStrengthThatFallsFasterThanTheStress) {
   EXPECT_EQ(sentencesOf(soil(fmt::format("<h_local>{:g}</h_local>", -0.99 * limit))), "");
   expectProblem(soil(fmt::format("<h_local>{:g}</h_local>", -1.01 * limit)), "the strength would fall faster than");
   expectProblem(soil(fmt::format("<h_local>1</h_local><h_nonlocal>{:g}</h_nonlocal>", -1.01 * limit - 1)),
-                "the strength would fall faster than the stress; it must be greater than");
+                "the strength would fall faster than the stress; expected more than");
   expectProblem(soil(fmt::format("<h_local>{:g}</h_local><h_nonlocal>9</h_nonlocal>", -1.01 * limit)),
                 "must be greater");
 }

@@ -70,7 +70,7 @@ void check(const M& c, const input::Element& element, input::Diagnostics& diagno
                       "PEAKI1, FSLOPE, STREN and YSLOPE define no limit surface; allowed: FSLOPE > 0, STREN and YSLOPE "
                       "0 (a cone); STREN > 0 alone (a cylinder); FSLOPE and STREN > 0, the other two 0; FSLOPE > "
                       "YSLOPE > 0 and STREN > YSLOPE PEAKI1");
-  if (c.p0 >= 0) diagnostics.error(element, "p0_crush_curve: must be below 0, as pores collapse under compression");
+  if (c.p0 >= 0) diagnostics.error(element, "p0_crush_curve: is not below 0, but pores collapse in compression");
   if (c.p1 == 0) diagnostics.error(element, "p1_crush_curve: is 0, so pores would not collapse at any pressure");
   if (c.hasPoissonRatio())
     for (const double ratio : {c.g1, c.g1 + c.g2})
@@ -79,9 +79,9 @@ void check(const M& c, const input::Element& element, input::Diagnostics& diagno
                                                "not be positive; keep it between -1 and 0.5",
                                                ratio));
   if ((c.t1 > 0) != (c.t2 > 0))
-    diagnostics.error(element, "T1_rate_dependence and T2_rate_dependence: must both be 0 or both be positive");
+    diagnostics.error(element, "T1_rate_dependence and T2_rate_dependence: one is 0, the other is positive");
   if (c.lodeType != 0 && c.lodeType != 1 && c.lodeType != 3)
-    diagnostics.error(element, "J3_type: must be 0, 1 (Gudehus) or 3 (Mohr-Coulomb)");
+    diagnostics.error(element, "J3_type: expected 0, 1 (Gudehus) or 3 (Mohr-Coulomb)");
 }
 
 /// Declares tags of a model that fill members of its Constants.

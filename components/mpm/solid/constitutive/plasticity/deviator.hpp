@@ -66,7 +66,7 @@ struct MaxwellDeviator {
     const std::vector<double> moduli = numbersOf("mu", element, diagnostics);
     const std::vector<double> times = numbersOf("tau", element, diagnostics);
     if (moduli.size() != times.size())
-      return diagnostics.error(element, "<mu> and <tau> must be lists of the same length");
+      return diagnostics.error(element, "<mu> and <tau> are lists of different lengths");
     if (moduli.size() > greatestCount)
       return diagnostics.error(element, "at most " + std::to_string(greatestCount) + " elements are available");
     read.count = int(moduli.size());
@@ -86,7 +86,7 @@ struct MaxwellDeviator {
       return {};
     }
     for (const double number : *read.value)
-      if (number <= 0) diagnostics.error(*given, "all must be positive");
+      if (number <= 0) diagnostics.error(*given, "contains a number that is not positive");
     return *read.value;
   }
 };

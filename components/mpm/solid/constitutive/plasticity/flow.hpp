@@ -63,7 +63,7 @@ struct JohnsonCook {
                    input::positive())
             .check([](const JohnsonCook& read, const input::Element& element, input::Diagnostics& diagnostics) {
               if (read.meltTemperature <= read.roomTemperature)
-                diagnostics.error(element, "T_m must be greater than T_r");
+                diagnostics.error(element, "T_m is not greater than T_r");
             });
     return schema;
   }
@@ -139,7 +139,7 @@ struct ZerilliArmstrong {
     if (!element.child("c_0") && !element.child("sigma_g"))
       diagnostics.error(element, "missing tag <c_0> in <flow_model> (the constant part)");
     read.c0 = values[0] + values[1] + values[2] * values[3];
-    if (read.c0 < 0) diagnostics.error(element, "c_0 must be at least 0 Pa");
+    if (read.c0 < 0) diagnostics.error(element, "c_0 is below 0 Pa");
   }
   static double fading(double byTemperature, double byRate, const FlowState& state) {
     const double logarithm = std::log(std::max(state.plasticStrainRate, 1e-8));

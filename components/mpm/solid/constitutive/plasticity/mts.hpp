@@ -78,7 +78,7 @@ struct MechanicalThreshold {
     refuseTag(tags, "T_c", "there is only one phase");
     tags.check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
       if (read.pI > 0 && !(read.energyI > 0 && read.rateI > 0 && read.qI > 0))
-        diagnostics.error(element, "g_0i, edot_0i and q_i must be greater than 0 if p_i is");
+        diagnostics.error(element, "p_i is greater than 0, but g_0i, edot_0i and q_i are not");
     });
     return tags;
   }

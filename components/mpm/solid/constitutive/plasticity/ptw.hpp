@@ -43,7 +43,7 @@ struct PrestonTonksWallace {
             .ignored("alpha", "it is part of the <shear_modulus_model>")
             .ignored("alphap", "it is part of the <shear_modulus_model>")
             .check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
-              if (read.y0 >= read.s0) diagnostics.error(element, "y0 must be less than s0");
+              if (read.y0 >= read.s0) diagnostics.error(element, "y0 is not less than s0");
             });
     return schema;
   }
