@@ -13,7 +13,7 @@ namespace tushar::mpi {
 
 namespace {
 
-// MPI counts in int: messages go in words, so that one may hold 16 GB.
+// MPI counts in int. Messages are therefore sent in words of 8 bytes, so that a message may have up to 16 GB.
 constexpr std::size_t wordBytes = sizeof(std::uint64_t);
 
 /// Pads a message to whole words, and appends its length in bytes.

@@ -110,7 +110,8 @@ class Threads::Pool {
   tbb::affinity_partitioner
       partitioner_;  ///< gives each thread the same indices again, so that data remain in its cache
   std::vector<Busy> busy_;
-  /// TBB synchronises caller and workers; these two do so again, in a way that the thread sanitizer can detect.
+  /// TBB synchronises caller and workers. These two variables do so again, in a way that the thread sanitizer can
+  /// detect.
   std::atomic<bool> started_ = false;
   std::atomic<long> finished_ = 0;
 };

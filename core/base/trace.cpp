@@ -20,7 +20,7 @@ struct Event {
 };
 using Events = std::vector<Event>;
 
-/// The largest number of spans recorded per thread: as many as viewers can show. Later spans are dropped.
+/// The largest number of spans recorded for each thread: as many as viewers can show. Later spans are dropped.
 constexpr std::size_t mostEvents = 2000000;
 
 std::atomic<bool> on = false;

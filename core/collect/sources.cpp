@@ -16,7 +16,7 @@ using grid::Level;
 
 namespace {
 
-/// Appends entries.
+/// Appends `count` entries from `first` on, as a new stretch or at the end of the last one.
 void addStretch(std::vector<output::Stretch>& all, std::size_t first, std::size_t count) {
   if (!all.empty() && all.back().first + all.back().count == first)
     all.back().count += static_cast<std::uint32_t>(count);
@@ -98,7 +98,7 @@ class AtPlaces : public output::Source {
   void gather(std::size_t first, std::size_t count, std::byte* to) const {
     form_.gather(parts_.of, std::span(places_->places).subspan(first, count), to);
   }
-  /// The range of this rank's positions that lie within these entries: first and end.
+  /// The range [first, end) of this rank's positions that lie within these entries.
   std::pair<std::size_t, std::size_t> own(std::size_t first, std::size_t count) const {
     const auto begin = places_->ranked.begin(), end = places_->ranked.end();
     const auto from = std::lower_bound(begin, end, first);
@@ -110,8 +110,8 @@ class AtPlaces : public output::Source {
   EntryForm form_;
 };
 
-/// Runs in the order of their positions, without entries of earlier runs: nodes on a face belong to the patches on both
-/// sides.
+/// Returns runs in the order of their positions, without entries that an earlier run contains: nodes on a face between
+/// two patches belong to both.
 Runs withoutOverlaps(Runs runs) {
   std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.place < b.place; });
   std::size_t end = 0;

@@ -72,7 +72,7 @@ std::vector<std::uint64_t> shapeOf(const grid::Grid& grid, const Label& label) {
 
 std::size_t wordsOf(std::size_t bytes) { return (bytes + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t); }
 
-/// The part that writing and reading share: the variables, and their positions in the file.
+/// What writing and reading a state have in common: the variables, and their positions in the file.
 class StateWalk {
  public:
   StateWalk(data::Warehouse& warehouse, const StateNames& names)
@@ -218,7 +218,7 @@ class StateReader : StateWalk {
     return values;
   }
 
-  /// Access to the values of a variable, part by part.
+  /// Gives access to the values of a variable, part by part.
   output::Hdf5Parts partsOf(const std::string& path, const Label& label, std::size_t entries) const {
     output::Hdf5Parts parts(file_, path, &checks_);
     check(path, parts.type(), parts.count(), emptyValues(label.number),

@@ -14,7 +14,7 @@ struct Look {
   double sum;    ///< sum of the numbers: not finite if any of them is not finite, or if it overflows
 };
 
-/// Summarises numbers in independent lanes, for vector instructions, which are then merged pairwise.
+/// Summarises numbers in independent lanes, which suit vector instructions, and then merges the lanes pairwise.
 template <bool SeeksLeast>
 Look lookAt(const double* values, std::size_t count) {
   constexpr std::size_t width = 32;

@@ -21,8 +21,8 @@ std::size_t nextSkew() {
 
 std::size_t roundedUp(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
 
-/// Requests large pages, if the system provides them on request, so that fewer page-table entries are needed. Applies
-/// to a whole mapping, as memory that grows must be of one kind.
+/// Requests large pages, if the system provides them on request, so that fewer page-table entries are needed. Must be
+/// applied to a whole mapping, because memory that grows must consist of pages of one kind.
 void adviseLargePages(void* memory, std::size_t bytes) { madvise(memory, bytes, MADV_HUGEPAGE); }
 
 }  // namespace

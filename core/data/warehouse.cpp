@@ -143,8 +143,8 @@ void Warehouse::allocateParticles(Generation generation, int number, Generation 
   allocate(storage(generation, number), *label, where.slots, valuesWithCopies(where, number));
 }
 
-/// Number of values including space for ghost copies; for variables that are read outside their patches, as many as
-/// before.
+/// Number of values of a variable for which memory is needed, including ghost copies. A variable that is read outside
+/// its patches keeps space for the largest number of ghost copies so far.
 std::size_t Warehouse::valuesWithCopies(const Layout& layout, int number) const {
   return layout.slots->end + (table_->ghost(number) > 0 ? layout.mostCopies : 0);
 }

@@ -67,8 +67,8 @@ void checkTree(int dimension, const Index3& roots, int levels) {
 std::strong_ordering operator<=>(const BlockId& a, const BlockId& b) {
   const int finer = std::max(a.level, b.level);
   std::strong_ordering order = a.level <=> b.level;
-  // The highest bit in which the places differ along any axis decides; if several are equally high, that of the last
-  // axis.
+  // The highest bit in which the places differ along any axis decides; if several axes differ in this bit, the last
+  // one.
   int highest = 0;
   for (int d = 0; d < 3; ++d) {
     const std::int64_t first = std::int64_t{a.at[d]} << (finer - a.level);
@@ -123,7 +123,7 @@ int BlockTree::levelAt(const BlockId& block) const {
   std::optional<BlockId> place = inside(block);
   if (!place) return -1;
   while (place->level >= levels_) place = parentOf(*place);
-  // The last of the leaves that do not come after the block's lower corner holds that corner.
+  // The last leaf that does not come after the block's lower corner on the curve contains this corner.
   const auto after = std::upper_bound(keys_.begin(), keys_.end(), keyOf(*place) | keyLevelMask);
   return std::min(static_cast<int>(*(after - 1) & keyLevelMask), block.level + 1);
 }
@@ -163,7 +163,8 @@ BlockTree BlockTree::withRefined(std::vector<Keys> refined) const {
 }
 
 void BlockTree::addRefinedAround(const BlockId& block, Keys& coarser) const {
-  // The parents of all blocks around this one: its own, and the next one on the side on which the block lies in it.
+  // The parents of all blocks around this one: along each axis, its own parent, and the neighbour of that on the side
+  // where the block lies within its parent.
   const BlockId parent = parentOf(block);
   forEachCorner(dimension_, [&](const Index3& corner) {
     BlockId around = parent;
@@ -202,7 +203,7 @@ BlockTree BlockTree::fromKeys(int dimension, const Index3& roots, const Index3& 
     if (const std::optional<BlockId> parent = unrefined.inside(parentOf(unrefined.blockOf(key))))
       refined[level - 1].push_back(unrefined.keyOf(*parent));
   }
-  // The keys of a tree: leaves that are wrong or missing make them differ.
+  // Builds a tree anew: if leaves are wrong or missing, its keys differ from the given ones.
   BlockTree tree = unrefined.withRefined(std::move(refined));
   if (tree.keys_ != keys)
     throw std::invalid_argument(

@@ -4,8 +4,8 @@
 
 namespace tushar::grid {
 
-// By default the cuts are at rank · cells / ranks, and a patch belongs to the rank whose cuts enclose its middle: thus
-// of halves with 61 and 62 cells each of two ranks gets one. Patch 0 belongs to rank 0.
+// By default, the cells are cut at rank · cells / ranks, and a patch belongs to the rank whose cuts enclose the middle
+// of the patch. So if two patches have 61 and 62 cells, each of two ranks gets one. Patch 0 belongs to rank 0.
 
 int Partition::firstOf(int rank) const {
   if (!offsets_.empty()) return offsets_[rank];

@@ -182,7 +182,7 @@ bool isLabelledDefinition(const Element& element) {
   return !isEmpty(element) && labelOf(element) && findKind(element.name());
 }
 
-/// Collects the labelled shapes that end above `until`; returns whether `until` was reached.
+/// Collects the labelled shapes that end before `until` begins; returns whether `until` was reached.
 bool collectAbove(const Element& from, const Element& until, std::vector<Element>& found) {
   if (from == until) return true;
   const std::size_t place = found.size();

@@ -35,7 +35,7 @@ void writePattern(xml_node parent, const std::string& pattern) {
   named(data, "param", "pattern").text() = pattern.c_str();
 }
 
-/// Writes a choice of words; compared as numbers if `asNumbers`.
+/// Writes a choice of words, which are compared as numbers if `asNumbers` is true.
 void writeWords(xml_node parent, const std::vector<std::string>& words, bool asNumbers) {
   xml_node choice = words.size() == 1 ? parent : parent.append_child("choice");
   for (const std::string& word : words) {

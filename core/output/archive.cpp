@@ -121,8 +121,8 @@ void Archive::flush() {
   if (state_->vtkhdf_pace.isBehind()) state_->writeVtkHdfFiles();
 }
 
-/// Does not write the lists: a run that continues from here uses the list in the checkpoint, and adds the later outputs
-/// again.
+/// Does not write index.xml and the XDMF file: a run that continues from here uses the index in the checkpoint, and
+/// adds its outputs to it.
 ArchivePoint Archive::sync(int step, double time) {
   state_->globals.sync();
   syncToDisk(state_->folder);

@@ -25,8 +25,8 @@ namespace {
 
 std::error_code lastError() { return {errno ? errno : EIO, std::generic_category()}; }
 
-/// Transfers all `size` bytes; returns whether that succeeded. `call(done)` passes some of those after `done`, as read
-/// and write do.
+/// Transfers all `size` bytes; returns whether this succeeded. `call(done)` transfers some of the bytes after the first
+/// `done`, and returns their number, as read and write do.
 template <class Call>
 bool isWhole(std::size_t size, const Call& call) {
   for (std::size_t done = 0; done < size;) {

@@ -91,7 +91,7 @@ void choose(hid_t space, const VirtualPart& part) {
 
 /// The largest number of parts of one dataset. It is limited because HDF5 keeps several copies of each part in memory,
 /// about 2.6 kB (1.10, by a heap profile), until the file is closed. A dataset with more parts shows other datasets of
-/// this file, each of which shows this many.
+/// this file instead, each of which shows up to this many parts.
 constexpr std::size_t mostParts = 256;
 
 /// Returns the end of the parts that one dataset contains; parts that begin at the same entry are not separated.

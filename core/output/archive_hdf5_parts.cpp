@@ -58,8 +58,8 @@ void Hdf5Parts::read(std::vector<Part> parts) const {
   });
 }
 
-/// Reads ascending parts; numbers that a part shares with the part that has extended farthest so far are copied from
-/// the latter.
+/// Reads parts in ascending order. Numbers that a part shares with earlier parts are not read again, but copied from
+/// the earlier part that extends farthest.
 void Hdf5Parts::readOnce(const std::vector<Part>& parts) const {
   struct Copy {
     const std::byte* from;

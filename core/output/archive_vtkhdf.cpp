@@ -65,7 +65,8 @@ void addColumn(Hdf5File& file, const std::string& name, const Item& kind, const 
   file.virtualDataset(inRoot(name), kind.type, kind.shapeOf(before), parts);
 }
 
-/// Adds a vertex for each point. All times show the start of the same 0, 1, 2, …, as numbers of points and as offsets.
+/// Adds a vertex for each point. All times use the beginning of the same sequence 0, 1, 2, … as indices of points and
+/// as offsets.
 void addVertices(Hdf5File& file, const std::vector<std::uint64_t>& counts, std::uint64_t total) {
   const std::uint64_t most = *std::max_element(counts.begin(), counts.end());
   const std::string numbers = inRoot("Connectivity");
@@ -149,8 +150,7 @@ std::vector<ShownTime> together(const Times& outputs) {
   return times;
 }
 
-/// Adds the parts of a step; where one layer of nodes is drawn as two layers of corners, both show the values of that
-/// layer.
+/// Adds the parts of a step. If a single layer of nodes is drawn as two layers of corners, both layers show its values.
 void addAtStep(std::vector<VirtualPart>& parts, const std::string& output, const Item& item, const Shape& room,
                std::uint64_t step) {
   Shape extent{1};

@@ -87,7 +87,7 @@ void addBox(std::vector<LevelRows>& all, const ShownBox& box, std::uint64_t plac
 
 // --- the file
 
-/// A range of rows in an output, and the end of the range before it.
+/// A range of rows in an output, and the numbers of boxes and cells before it.
 struct Run {
   const ShownOutput* output;
   LevelRows rows;

@@ -147,8 +147,8 @@ std::string nameOf(const FieldBlock& field) {
   return group + field.array.label;
 }
 
-/// Adds a uniform grid for each box, with its part of each field. A reader would search long for names of its own if
-/// grids of several times had the same.
+/// Adds a uniform grid for each box, with its part of each field. The names differ from time to time, because a reader
+/// would search long for new names if several grids had the same name.
 void addBoxes(pugi::xml_node collection, const Context& context, const Snapshot& snapshot) {
   set(collection, "CollectionType", "Spatial");
   std::uint64_t first = 0;
@@ -254,7 +254,7 @@ void XdmfIndex::addFields(const Snapshot& snapshot, Centring centring) {
   });
 }
 
-/// Adds the particles at one time; without particles it is an empty collection, because readers refuse a grid of 0
+/// Adds the particles at one time. If there are none, adds an empty collection, because readers refuse a grid of 0
 /// points.
 void XdmfIndex::addParticles(const Snapshot& snapshot, const ParticleBlock& block) {
   const std::string name = groupName(block.material, block.materialIndex);

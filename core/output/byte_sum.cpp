@@ -42,8 +42,8 @@ std::uint64_t wordAt(const std::byte* from, std::size_t number) {
   return word;
 }
 
-/// The sum of w_k r^k over words, starting with k = 0: by Horner's rule for every fourth word, so that no sum waits for
-/// the others.
+/// The sum of w_k r^k over words, starting with k = 0. Uses Horner's rule for four interleaved sums of every fourth
+/// word, so that no sum waits for another.
 std::uint64_t sumOfWords(const std::byte* words, std::size_t count) {
   constexpr std::size_t lanes = 4;
   static const std::uint64_t stride = powerOf(base, lanes);

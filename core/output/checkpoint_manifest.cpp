@@ -28,7 +28,8 @@ constexpr const char* manifestName = "manifest";
 
 /// Size of the blocks for the hashes of older versions [bytes].
 constexpr std::uint64_t blockBytes = std::uint64_t{1} << 24;
-/// Smallest size of a part with a sum of its own [bytes]; shorter parts are read twice.
+/// Smallest size of a part with a sum of its own [bytes]. Shorter parts are read twice: for the check, and for their
+/// values.
 constexpr std::uint64_t leastOfPart = std::uint64_t{1} << 16;
 
 struct StateFree {
@@ -193,7 +194,7 @@ Inspection inspectList(const fs::path& folder, std::string& lines) {
 }
 
 /// The hash of a file, computed as in manifests of older versions; empty if the file cannot be read. The oldest
-/// manifests hash a large file as a whole, not by blocks; rank 0 alone does that.
+/// manifests contain the hash of a whole large file, not of its blocks; only rank 0 computes it.
 std::string hashNow(const fs::path& file, const Line& line, const mpi::Communicator& ranks) {
   const bool isByBlocks = line.hash.find('/') != std::string::npos;
   bool failed = false;

@@ -64,8 +64,8 @@ std::vector<Slab> slabsOf(const Writers& writers, const Storage& how, const std:
 
 }  // namespace
 
-/// Compresses datasets: each writer packs one chunk at a time, and rank 0 writes them to the file in order: at once if
-/// it is the only writer, otherwise when all chunks of a round are packed.
+/// Compresses datasets. Each writer packs one chunk at a time, and rank 0 writes the chunks to the file in order:
+/// immediately if it is the only writer, otherwise when all chunks of a round are packed.
 class FileInFlight::Chunks {
  public:
   /// The file must be open on rank 0.

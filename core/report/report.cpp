@@ -161,8 +161,8 @@ std::string memoryLine(const Report& report) {
 }
 
 /// The cost of updating a cell on several levels, relative to the cost on a uniform grid, by the number of dimensions:
-/// measured with `euler` in small blocks (ups/euler/README.md, "Several levels"), where it is 10 to 15, 1.8 to 3.1,
-/// and 1.9.
+/// measured with `euler` in small blocks (ups/euler/README.md, "Several levels"), where it is 10 to 15 in one
+/// dimension, 1.8 to 3.1 in two, and 1.9 in three.
 double costOnLevels(int dimension) { return std::array{10.0, 2.5, 1.9}.at(std::clamp(dimension, 1, 3) - 1); }
 
 /// The estimated cost of a uniform grid of the finest cells, and whether refinement has paid off.

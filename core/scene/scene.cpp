@@ -190,8 +190,8 @@ Element whereOfLevels(const Element& grid, const AmrSettings& amr) {
   return levels.size() > 1 ? levels[1] : *amr.tag;
 }
 
-/// Refuses several levels for a component that supports only one. The message does not list components that run on
-/// several, as their modules may not be built yet.
+/// Refuses several levels for a component that supports only one. The message does not list the components that support
+/// several levels, because their modules may not have been built yet.
 void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrSettings& amr,
                       Diagnostics& diagnostics) {
   if (!kind.takesLevels)
@@ -230,9 +230,9 @@ Trial tryOut(const MakeComponent& make) {
   return {};
 }
 
-/// Checks the labels even if other parts of the scene are invalid, since the labels of a component and its modules do
-/// not depend on the grid. Returns false if it cannot: some components and modules cannot be made on the small grid
-/// that it uses.
+/// Checks the labels even if other parts of the scene are invalid, because the labels of a component and its modules do
+/// not depend on the grid. Returns false if the check is impossible: some components and modules cannot be constructed
+/// on the small grid that it uses.
 bool checkLabelsWithoutGrid(const MakeComponent& make, const std::vector<ReadModule>& modules,
                             std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   const auto [level, component] = tryOut(make);
@@ -265,7 +265,8 @@ AmrSettings amrOf(const Element& root, const ComponentKind* kind, Diagnostics& d
   return amr;
 }
 
-/// `<Grid>` of a scene, as one component accepts it; for an unknown component, everything that any grid may contain.
+/// Reads `<Grid>` as the component of the scene accepts it; for an unknown component, accepts everything that any grid
+/// may contain.
 grid::Domain readGridFor(const ComponentKind* kind, const Element& section, const AmrSettings& amr,
                          const grid::Workers& workers, Diagnostics& diagnostics) {
   SideWords words{{}, true, true};

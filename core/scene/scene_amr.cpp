@@ -60,7 +60,8 @@ struct AmrSection {
 bool isLower(Indicator indicator) { return indicator == Indicator::below; }
 bool isValue(Indicator indicator) { return indicator == Indicator::above || indicator == Indicator::below; }
 
-/// The threshold for coarsening: half of the threshold for refining; for values, beyond it by half of their magnitude.
+/// The default threshold for coarsening: half of the threshold for refining or, for indicators that are the value
+/// itself, beyond this threshold by half of its magnitude.
 double coarsenOf(const VariableTag& tag, double refine) {
   if (tag.coarsen) return *tag.coarsen;
   return isLower(tag.indicator) ? refine + 0.5 * std::abs(refine) : refine - 0.5 * std::abs(refine);
@@ -263,7 +264,7 @@ std::vector<std::string> amrSectionsOf(const simulation::ComponentKind& kind) {
   return names;
 }
 
-/// For an unknown component: all tags that do not belong to `AMR` itself.
+/// The sections of `AMR` for an unknown component: all tags that do not belong to `AMR` itself.
 std::vector<std::string> unknownTagsOf(const Element& amr) {
   std::vector<std::string> names;
   const std::vector<std::string> own = amrSchema({}).tagNames();

@@ -44,7 +44,7 @@ void addSection(Schema<Unread>& root, const std::string& tag, const SchemaBase& 
   addTag(root, form, schema.sentence());
 }
 
-/// A name as given and in capitals; Uintah accepts both.
+/// The spellings of a name that Uintah accepts: as given, and in capitals.
 std::vector<std::string> spellings(const std::string& name) {
   std::string capitals = name;
   std::transform(name.begin(), name.end(), capitals.begin(), [](unsigned char c) { return std::toupper(c); });

@@ -55,7 +55,7 @@ std::optional<Vec3> pointOf(const std::optional<std::string>& text, const Elemen
 
 std::string called(const FaceWord& word) { return word.name == "side" ? "whole side" : "part with " + word.name; }
 
-/// Whether a tag has exactly the attributes that its word requires.
+/// Whether a tag has exactly the attributes that its word requires; reports errors otherwise.
 bool hasAttributesOf(const FaceWord& word, const Element& tag, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const auto& own = word.attributes;
@@ -76,7 +76,7 @@ bool hasAttributesOf(const FaceWord& word, const Element& tag, Diagnostics& diag
   return diagnostics.size() == before;
 }
 
-/// Whether two corners span an area.
+/// Whether two corners span an area; reports an error otherwise.
 bool spansArea(const Vec3& lower, const Vec3& upper, int across, const Element& tag, Diagnostics& diagnostics) {
   for (int axis = 0; axis < 3; ++axis)
     if (axis != across && upper[axis] < lower[axis]) {
@@ -129,7 +129,8 @@ std::optional<grid::SidePart> squarePart(const FaceSection& face, const Element&
   return grid::SidePart::rectangulus(axis, {*innerLower, *innerUpper}, {*outerLower, *outerUpper});
 }
 
-/// Whether the points that define a part lie in its side. Uintah requires this exactly, without a tolerance.
+/// Whether the points that define a part lie on its side; reports an error otherwise. As in Uintah, they must lie on it
+/// exactly, without a tolerance.
 bool liesInSide(const GivenPart& part, const grid::Domain& domain, Diagnostics& diagnostics) {
   const int axis = part.face / 2;
   const double at = part.face % 2 == 0 ? domain.lower[axis] : domain.upper[axis];

@@ -203,7 +203,7 @@ std::optional<Location> givenBefore(const ConditionSection& given, const Locatio
   return {};
 }
 
-/// A face that is being read, and where its conditions go.
+/// A face that is being read, and the list to which its conditions are added.
 struct ReadFace {
   const SideWords& words;
   const Element& sides;  ///< the BoundaryConditions section
@@ -219,7 +219,7 @@ void noteSeen(const ConditionSection& given, const Element& tag, const ReadFace&
         tag, fmt::format("{} already has a condition on this face, at {}; keep one", given.label, first->text()));
 }
 
-/// Adds the conditions that a component's own condition type stands for.
+/// Adds the conditions into which a component translates a condition of its own type.
 void readOwnCondition(const ConditionSection& given, const Element& tag, const ReadFace& face,
                       Diagnostics& diagnostics) {
   noteSeen(given, tag, face, diagnostics);

@@ -33,8 +33,8 @@ OwnModules& ownModules() {
   return modules;
 }
 
-/// The reason why a file cannot be a shared library; empty if it may be one, or if it cannot be read, which dlopen then
-/// reports.
+/// The reason why a file cannot be a shared library. Empty if it may be one, or if it cannot be read; in this case
+/// dlopen reports the error.
 std::string whyNoLibrary(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return "";
@@ -52,7 +52,8 @@ const ModuleCard& open(const fs::path& file) {
     throw std::runtime_error(fmt::format("{} is not a module of Tushar: {}", file.string(), why));
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   const std::string problem = handle ? "" : dlerror();
-  // A module for another version may call what is not there; its card is read all the same.
+  // A module for another version may call functions that do not exist here; lazy binding lets its card be read
+  // nevertheless.
   if (!handle) handle = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   const auto* card = handle ? static_cast<const ModuleCard*>(dlsym(handle, "tusharModule")) : nullptr;
   if (handle && !card)

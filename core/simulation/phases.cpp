@@ -57,8 +57,8 @@ Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
 /// Whether a variable contains fluxes, which exist only during a step.
 bool isOfRims(const std::string& name) { return name.starts_with("rim."); }
 
-/// The variables of a step that the next step needs, except those computed anew before each step; includes the ids of
-/// particles if there are any.
+/// The variables of a step that the next step needs, except those that are computed anew before each step. Includes the
+/// ids of particles if there are particles.
 std::vector<std::string> namesOfState(Names needed, const Names& decided, const Names& computed) {
   std::erase_if(needed, [&](const std::string& name) {
     return decided.contains(name) || name == data::recomputeTimeStep.name || isOfRims(name);
@@ -92,7 +92,7 @@ tasks::TaskList estimating(const tasks::TaskList& diagnostics, std::vector<Bound
   return list;
 }
 
-/// The time step, and other variables computed by the same tasks.
+/// The time step, and the other variables that the same tasks compute.
 Names decidedBefore(const std::vector<tasks::Task>& stableTimeStep) {
   return united(producedBy(stableTimeStep), {std::string(data::delT.name), std::string(tasks::partOfStep.name)});
 }

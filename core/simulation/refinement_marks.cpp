@@ -85,7 +85,8 @@ double jumpOf(const double* below, const double* middle, const double* above) {
   return 0.5 * std::sqrt(sum);
 }
 
-/// Like raiseMarks, for jumps of `N` components, in rows along the first axis: most criteria are of this kind.
+/// Like raiseMarks, for jumps of variables with `N` components, row by row along the first axis. Most criteria are of
+/// this kind.
 template <int N>
 void raiseMarksOfJumps(const grid::Patch& patch, const Criterion& criterion, const data::Variable& values,
                        const data::Variable& marks) {
@@ -116,8 +117,8 @@ void raiseMarksOfJumps(const grid::Patch& patch, const Criterion& criterion, con
   });
 }
 
-/// Raises the marks of a patch to those of one criterion. Stored values extend beyond the patch, except where the grid
-/// ends.
+/// Raises the marks of a patch to those of one criterion. The stored values include ghosts around the patch, except
+/// outside the grid.
 void raiseMarks(const grid::Patch& patch, const BoundCriterion& bound, const data::Variable& values,
                 const data::Variable& marks) {
   const grid::Level& level = patch.level();

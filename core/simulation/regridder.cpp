@@ -89,8 +89,8 @@ void MarkedBlocks::add(const grid::Level& level, const Index3& cell, int mark) {
     });
 }
 
-/// A row of cells marks blocks along the first axis; the marks then apply to all rows of blocks near this row of cells.
-/// So each block is marked once, for any number of cells near it.
+/// Each row of cells first marks blocks along the first axis. These marks then apply to all rows of blocks near this
+/// row of cells, so that a row of cells marks each block only once.
 void MarkedBlocks::add(const grid::Patch& patch, const int* marks, const Box& stored) {
   const grid::Level& level = patch.level();
   const Box& cells = patch.cells();
@@ -131,7 +131,8 @@ void MarkedBlocks::ask(const BlockId& image, int mark) {
     if (const BlockId parent = parentOf(block, dimension); kept_.empty() || kept_.back() != parent)
       kept_.push_back(parent);
   if (mark < 2 || block.level == grid_.levels() - 1) return;
-  // Of a block that is not there yet, the leaf that it lies in is refined: no cell becomes two levels finer at once.
+  // If the block does not exist yet, the leaf that contains it is refined instead, so that no cell becomes two levels
+  // finer in one regridding.
   for (const int there = grid_.tree().levelAt(block); block.level > there;) block = parentOf(block, dimension);
   wanted_.push_back(block);
 }

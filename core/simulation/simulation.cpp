@@ -21,7 +21,7 @@ std::string hostName() {
   return name;
 }
 
-/// Advice naming the settings, missing in the scene, that would keep particles in the finest cells.
+/// Advice to the user: names settings that are missing in the scene and would keep particles in the finest cells.
 std::string adviceNearCoarser(const RegridSettings& regrid) {
   if (!regrid.adaptive)
     return "<adaptive>true</adaptive> in <AMR>, so that the finest cells follow; or a larger <Level>";
@@ -96,8 +96,8 @@ void Simulation::openLog() {
   run_.ranks.onFirst([&] { log_.emplace(outputs_.folder(), record_); });
 }
 
-/// Saves the state at the end. `mpirun` gives an interrupted run two seconds, so the checkpoint, which a restart needs,
-/// comes first.
+/// Saves the state at the end. The checkpoint comes first, because a restart needs it, and `mpirun` gives an
+/// interrupted run only two seconds.
 void Simulation::saveEnd() {
   const bool isCut = run_.clock.isInterrupted() || run_.clock.isStopped();
   if (failure_) saveLastGood();
@@ -131,7 +131,7 @@ void Simulation::begin() {
 void Simulation::resume() {
   checkpoints_.resume();
   outputs_.passMilestones();
-  run_.setTimeOfAnalyses();  // what was due up to now, the run before has sampled
+  run_.setTimeOfAnalyses();  // the earlier run has taken the samples that were due up to now
 }
 
 /// Initialises the state on successively finer cells, as far as the state requires them: finer cells resolve more of

@@ -15,7 +15,7 @@ struct TimeSettings {
   double deltMax = std::numeric_limits<double>::max();   ///< largest time step [s]
   double deltInit = std::numeric_limits<double>::max();  ///< largest first time step [s]
   double initialDeltRange = 0;  ///< time until which deltInit limits the steps [s]; it always limits the first step
-  double maxDeltIncrease = std::numeric_limits<double>::max();  ///< a step is at most (1 + this) times the previous one;
+  double maxDeltIncrease = std::numeric_limits<double>::max();  ///< at most (1 + this) times the previous step;
                                                                 ///< no limit if not positive
   double timestepMultiplier = 1;
   int maxTimesteps = std::numeric_limits<int>::max();

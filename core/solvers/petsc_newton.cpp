@@ -36,7 +36,7 @@ PetscErrorCode evaluateResidual(SNES, Vec u, Vec r, void* context) {
   });
 }
 
-/// Evaluates the tangent, and sets up the preconditioner at once, so that its time can be measured.
+/// Evaluates the tangent, and then sets up the preconditioner immediately, so that the time for this can be measured.
 PetscErrorCode evaluateTangent(SNES snes, Vec, Mat, Mat, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
   return guarded(newton.thrown, [&] {
@@ -65,8 +65,8 @@ bool isNegligible(Newton& newton, Vec u, Vec r) {
 }
 
 /// Converged if |du|² <= displacement max |du|² and |du . r| <= energy |du . r| of the first iteration, or if only
-/// round-off is left of r after an iteration. The latter is not tested before the first iteration, because a small load
-/// may be as small as the round-off of a large stiffness, but must still act.
+/// round-off is left of r after an iteration. Round-off is not tested before the first iteration, because a load may be
+/// as small as the round-off of a large stiffness, but must still act.
 PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
                             SNESConvergedReason* reason, void* context) {
   Newton& newton = *static_cast<Newton*>(context);

@@ -24,8 +24,8 @@ PetscErrorCode keepMessage(MPI_Comm, int, const char*, const char*, PetscErrorCo
   return code;
 }
 
-/// Preserves the program's reaction to SIGTERM, which is to end the run with written output: PETSc installs its own
-/// handler at the start, and restores the system's default at the end.
+/// Preserves the program's reaction to SIGTERM, which is to write output and end the run. PETSc installs its own
+/// handler when it starts, and restores the system's default when it ends.
 class KeptTermination {
  public:
   KeptTermination() { sigaction(SIGTERM, nullptr, &before_); }
@@ -171,7 +171,7 @@ void configure(KSP krylov, const LinearSettings& settings) {
   PC preconditioner = nullptr;
   check(KSPGetPC(krylov, &preconditioner));
   check(PCSetType(preconditioner, settings.preconditioner.c_str()));
-  // Later tangents of a solve have the same entries: which unknowns GAMG joins follows from the first.
+  // Later tangents of a solve have the same entries, so the first determines which unknowns GAMG aggregates.
   check(PCGAMGSetReuseInterpolation(preconditioner, PETSC_TRUE));
   check(KSPSetFromOptions(krylov));
 }

@@ -109,8 +109,9 @@ class Search {
   std::size_t gridPlace(int patch, const Index3& at) const {
     return warehouse_.variable(Generation::fresh, written_.variable, patch).stored.offset(at);
   }
-  /// The patch to which a cell, or the node at its lower corner, belongs. If the cell behind a node is on another
-  /// level, returns the patch of one of the cells before the node, or a patch with index -1 if there is none.
+  /// The patch to which a cell, or the node at its lower corner, belongs. If the cell at the upper side of the node is
+  /// on another level, returns the patch of one of the cells at its lower sides, or a patch with index -1 if there is
+  /// none.
   Patch ownerOf(Index3 at, const Level& level) const {
     for (int d = 0; d < 3; ++d) at[d] = std::min(at[d], level.cells().upper[d] - 1);
     for (int corner = 0; isNode() && corner < 1 << level.dimension(); ++corner) {
@@ -122,7 +123,7 @@ class Search {
   }
   bool isNode() const { return label_.centring == Centring::node; }
   Box boxOf(const Level& level) const { return isNode() ? level.nodes() : level.cells(); }
-  /// The level on which the invalid value is.
+  /// The level of the first invalid value.
   const Level& level() const { return grid_.patch(found_.patch).level(); }
 
   /// Checks the values at one position; counts the invalid ones, and records the first.
@@ -155,7 +156,7 @@ class Search {
     });
   }
 
-  /// Broadcasts the text of the only rank that passes a text; all other ranks pass an empty one. Collective.
+  /// Broadcasts the text of the only rank that passes one; the other ranks pass empty texts. Collective.
   std::string said(const std::string& mine) const {
     if (warehouse_.ranks().isAlone()) return mine;
     for (const std::string& text : warehouse_.ranks().gather(mine))

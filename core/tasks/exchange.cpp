@@ -56,8 +56,8 @@ void Exchange::begin(bool hasStopped) {
   fillFromHere();
 }
 
-/// Finds the nodes near particles. Runs before the exchange determines ghost particles, because the nodes were computed
-/// without these.
+/// Finds the nodes near particles. Must run before the exchange determines ghost particles, because the nodes were
+/// computed without them.
 void Exchange::settleNear() {
   for (const BoundGhostFill& fill : fills_)
     if (isNear(fill)) near_.settle(fill.set, warehouse_->table()[fill.variable].material);
@@ -98,8 +98,8 @@ void Exchange::forEach(const Work& work) {
   threads_->forEach(static_cast<int>(patches.size()), workOn, trace::Kind::message);
 }
 
-/// Fills ghosts from this rank. All patches determine their ghost particles at once; copies then get their indices one
-/// after the other.
+/// Fills ghosts from this rank. All patches determine their ghost particles in parallel; then copies get their indices
+/// patch by patch.
 void Exchange::fillFromHere() {
   for (std::size_t k = 0; k < fills_.size(); ++k)
     if (resolves_[k]) linkLocalGhosts(fills_[k]);
@@ -107,7 +107,7 @@ void Exchange::fillFromHere() {
     if (resolves_[k]) placeGhostCopies(fills_[k], nullptr);
   for (const BoundGhostFill& fill : fills_)
     if (fill.particles) reserveCopies(fill);
-  const bool copies = warehouse_->grid().level().isPeriodic();  // else particles of this rank stand where they are
+  const bool copies = warehouse_->grid().level().isPeriodic();  // otherwise particles of this rank are read in place
   if (!copies && std::all_of(fills_.begin(), fills_.end(), [](const BoundGhostFill& fill) { return fill.particles; }))
     return;
   forEach([&](const BoundGhostFill& fill, const Patch& patch, std::size_t place) {
@@ -119,8 +119,8 @@ void Exchange::fillFromHere() {
   });
 }
 
-/// Records which sets have no ghost particles yet. A set has them on all patches of all ranks or on none, so sets
-/// resolved by a stopped graph are discarded.
+/// Records for which particle sets the ghosts have not been determined yet. They are determined on all patches of all
+/// ranks or on none, so ghosts determined by a graph that has stopped are discarded.
 void Exchange::noteUnresolved() {
   resolves_.assign(fills_.size(), false);
   std::set<std::pair<Generation, int>> settled;
@@ -176,7 +176,8 @@ void Exchange::copyNear(const BoundGhostFill& fill, const GhostCopy& copy) {
   });
 }
 
-/// The destination of a copy: the patch, or the faces of its rim, for the values behind them.
+/// The destination of a copy: the values of the patch or, for fluxes, the second values of its rim faces, which contain
+/// the means from the finer side.
 CellValues Exchange::valuesAt(const BoundGhostFill& fill, const GhostCopy& copy) {
   const Variable to = warehouse_->variable(fill.generation, fill.variable, copy.to);
   if (copy.rim < 0) return {to.values, to.stored};
@@ -203,8 +204,8 @@ void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, con
   });
 }
 
-/// Fills ghosts in coarser cells, once these cells are complete. If there are messages, all ghosts that the patch gets
-/// from other ranks.
+/// Interpolates ghosts in coarser cells once the values of these cells are complete. If `messages` is given, also fills
+/// all other ghosts that the patch gets from other ranks.
 void Exchange::fillFromCoarser(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages) {
   const GhostPlan& plan = planOf(fill);
   const data::Label& label = *warehouse_->table()[fill.variable].label;

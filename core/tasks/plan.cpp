@@ -19,8 +19,8 @@ std::vector<Generation> particleSetsBefore(const std::vector<Task>& tasks) {
 
 namespace {
 
-/// Required ghosts: their values are complete after task `ready` (-1: from the start), and task `reader` reads them
-/// first.
+/// Ghosts that a task requires. Their values are complete after task `ready` (-1: from the start); task `reader` is the
+/// first to read them.
 struct Need {
   GhostFill fill;
   int ready;

@@ -35,8 +35,9 @@ class Pieces {
   Pieces(const grid::Tiling& before, const grid::Tiling& after, int dimension, int levels)
       : before_(before), after_(after), dimension_(dimension), levels_(levels) {}
 
-  /// Calls `visit(piece)` for each piece of a new patch, in an order that does not depend on the rank. Looks for cells
-  /// of finer and finer levels until it has all: a search of the finest would visit as many blocks as fill the grid.
+  /// Calls `visit(piece)` for each piece of a new patch, in an order that does not depend on the rank. Searches the old
+  /// levels from coarse to fine until all cells are found, because a search on the finest level alone would visit too
+  /// many blocks.
   template <class Visit>
   void of(int to, const Visit& visit) const {
     const Tile tile = after_.tile(to);
@@ -91,7 +92,7 @@ Bytes meansOf(const data::Label& label, int dimension, const Piece& piece, const
 }
 
 /// Appends the values of the cells of a piece, x fastest. Values in a message need not be aligned, so they are computed
-/// elsewhere.
+/// in other memory and then copied.
 void pack(const data::Label& label, int dimension, const Piece& piece, const Variable& old, Bytes& to) {
   if (piece.coarser == 0)
     return grid::forEach<3>(piece.box.rowStarts(), [&](const Index3& first) {
@@ -239,7 +240,7 @@ class Luggage {
   std::vector<int> cells_, particles_;
 };
 
-/// The messages to other ranks: first the particle numbers of all pieces, then all values.
+/// The messages to other ranks: first the numbers of particles in all pieces, then all values.
 std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, const grid::Partition& owners,
                             const Luggage& luggage) {
   const Pieces pieces(grid.tiling(), next, grid.dimension(), grid.levels());
@@ -260,7 +261,8 @@ std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, co
   return parts;
 }
 
-/// A distribution with equal costs on all ranks; none if there are only cells, because these are distributed by number.
+/// The distribution with the most equal costs of ranks. Empty if there are no particles, because patches are then
+/// distributed by numbers of cells.
 grid::RankOffsets sharesOf(const grid::Grid& grid, const grid::BlockTiling& next, const mpi::Communicator& ranks,
                            const Luggage& luggage, const PatchCosts& costs) {
   if (ranks.isAlone() || !luggage.hasMaterials()) return {};
@@ -312,7 +314,7 @@ void regrid(grid::Grid& grid, grid::BlockTree tree, data::Warehouse& warehouse, 
   grid::RankOffsets shares = sharesOf(grid, *next, ranks, luggage, costs);
   const grid::Partition owners = shares.empty() ? grid::Partition(*next, ranks.size()) : grid::Partition(*next, shares);
   const grid::Partition ownersBefore(grid.tiling(), grid.rankOffsets());
-  std::map<int, Bytes> parts = packed(grid, *next, owners, luggage);  // by rank that they go to
+  std::map<int, Bytes> parts = packed(grid, *next, owners, luggage);  // by destination rank
   mpi::Outbox outbox(ranks);
   for (auto& [rank, bytes] : parts)
     if (rank != ranks.rank()) outbox.send(rank, mpi::Tag::patches, std::move(bytes));

@@ -47,7 +47,7 @@ class Relocation {
   /// to it, in generation `to`. Values that are already in that generation move within their memory. Collective.
   void apply(int material, const std::vector<Carried>& carried, data::Generation to);
 
-  /// Forgets the neighbours of this rank. Must be called when the distribution of patches has changed.
+  /// Discards all moves. Must be called when the distribution of patches has changed.
   void forgetLayout();
 
   /// Starts a step, or starts it again.

@@ -194,7 +194,7 @@ void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, Pa
     return;
   }
   const Index3 wide = widened(cell);
-  if (isNearCoarser(from, wide)) {  // no patch may have it
+  if (isNearCoarser(from, wide)) {  // it may be outside all patches of this level
     const Escape escape{level.cellNumber<D>(fromCell), id, from.id(), place};
     if (!moves.escape || escape < *moves.escape) moves.escape = escape;
     return;

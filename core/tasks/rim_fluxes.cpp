@@ -8,7 +8,7 @@ namespace tushar::tasks {
 
 namespace {
 
-/// The first of the finer cells behind a face of a coarse cell, in the order of the other axes.
+/// The finer cell behind a face of a coarse cell that has the lowest index along the axes of the face.
 Index3 firstBehind(Index3 cell, const GhostCopy& copy, int dimension) {
   cell[copy.axis] += copy.side == 0 ? -1 : 1;
   cell = cell - copy.shift;
@@ -24,8 +24,8 @@ const grid::RimPiece& pieceOf(const std::vector<grid::RimPiece>& pieces, const G
   });
 }
 
-/// The faces of a box of coarse cells across one axis: the fluxes behind the first face, and the distances in memory
-/// between neighbouring finer faces along each axis.
+/// The finer faces behind those faces of a box of coarse cells that lie across one axis: the fluxes behind the first
+/// coarse face, and the distances in memory between neighbouring finer faces along each axis.
 struct FinerFaces {
   const double* first;
   std::array<std::ptrdiff_t, 3> strides;

@@ -2,7 +2,7 @@
 
 #include "core/tasks/scheduler.hpp"
 
-// How the run of a graph ends: faults are noted, all ranks agree on the first, and a sentence says what broke.
+// The end of the run of a graph: errors are recorded, all ranks agree on the first one, and a sentence describes it.
 
 namespace tushar::tasks {
 

@@ -37,7 +37,7 @@ struct CompiledTask {
   /// One binding per material; a single one for a task that does not run over materials.
   std::vector<MaterialBinding> materials;
   std::vector<BoundGhostFill> fills;            ///< ghost exchanges before it runs
-  int sends = -1;                               ///< index of the task whose ghosts are sent before this one runs; -1: none
+  int sends = -1;                               ///< task whose ghosts are sent before this one runs; -1: none
   std::vector<int> reductions, readReductions;  ///< reductions that it computes, and reductions that it reads
   bool mayStartEarly = false;  ///< whether patches whose ghosts are complete may run while others still wait
   bool isLast = false;         ///< whether it is the last task of its graph

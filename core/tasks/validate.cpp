@@ -62,8 +62,8 @@ class Validator {
       complain(task, access, "is computed a second time; use modifies to change it");
   }
 
-  /// Whether an access reads ghosts of particles in place: patches of a rank read one another's particles directly;
-  /// only new particles wait until all are made.
+  /// Whether an access reads ghosts of particles in place: the patches of a rank read one another's particles directly,
+  /// except for new particles, which are installed only when all patches have made theirs.
   static bool isGhostsOfParticles(const Access& access) {
     return access.kind == AccessKind::requiresNew && access.ghost > 0 &&
            access.label->centring == data::Centring::particle;

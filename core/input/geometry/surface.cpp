@@ -17,8 +17,8 @@ struct Cut {
   double y, x;
 };
 
-/// The point at which an edge crosses the height z, computed from its lower end to its upper one, whichever is given
-/// first.
+/// The point at which an edge crosses the height z. It is always computed from the lower end to the upper one,
+/// whichever end is given first.
 Cut cutAt(double z, Vec3 a, Vec3 b) {
   if (b[2] < a[2]) std::swap(a, b);
   const double share = (z - a[2]) / (b[2] - a[2]);
