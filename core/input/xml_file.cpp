@@ -42,7 +42,7 @@ std::string latin1ToUtf8(std::string_view text) {
 /// The reason why the file at `path` cannot be opened; empty if it can.
 std::string accessProblem(const std::string& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return "this is a folder, but must be a file";
+  if (std::filesystem::is_directory(path, ignored)) return "this is a folder, not a file";
   if (!std::filesystem::exists(path, ignored)) return "there is no such file";
   return {};
 }

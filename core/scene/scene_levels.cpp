@@ -47,7 +47,7 @@ const Schema<GridBox>& boxSchema() {
 const Schema<LevelSection>& levelSchema() {
   static const Schema<LevelSection> schema =
       Schema<LevelSection>(
-          "Level", "A grid of cells of one size; each further Level has boxes in which the grid is at least as fine.")
+          "Level", "A grid of cells of one size; in boxes of a further Level, cells are at most as wide as its own.")
           .list("Box", &LevelSection::boxes, boxSchema(),
                 "the box that is divided into cells; further Levels may have any number of boxes, each enlarged to "
                 "whole blocks (see AMR/Regridder/min_patch_size)",

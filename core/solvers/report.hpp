@@ -14,7 +14,8 @@ inline constexpr data::ReductionLabel<data::Maximum> assemblyTime{"AssemblyTime"
                                                                   "time to fill the matrix of the last solve"};
 inline constexpr data::ReductionLabel<data::Maximum> preconditionerTime{
     "PreconditionerTime", "s", "time to build the preconditioner of the last solve"};
-inline constexpr data::ReductionLabel<data::Maximum> solveTime{"SolveTime", "s", "iterations of the last solve"};
+inline constexpr data::ReductionLabel<data::Maximum> solveTime{"SolveTime", "s",
+                                                               "time for the iterations of the last solve"};
 
 inline void addTimes(const Outcome& outcome, data::Maximum& assembly, data::Maximum& preconditioner,
                      data::Maximum& solve) {

@@ -138,7 +138,7 @@ std::vector<Carried> TaskGraph::carriedBy(std::size_t t, int material, data::Var
     const int number = known == labels.end() ? table.find(name, material) : table.number(*known->second, material);
     if (number < 0 || table[number].label->centring != Centring::particle) continue;
     const bool isNew =
-        produced.contains(name) && t + 1 < pruned_.kept.size();  // a relocation at the end moves values that are old by then
+        produced.contains(name) && t + 1 < pruned_.kept.size();  // at the end of a list, values are old by then
     carried.push_back({number, isNew ? Generation::fresh : Generation::old});
   }
   return carried;

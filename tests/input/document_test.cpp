@@ -74,7 +74,7 @@ TEST(Document, SaysThatAFolderIsNoFile) {
   const std::string folder = test::temporaryFolder() + "folder.ups";
   std::filesystem::create_directory(folder);
 
-  EXPECT_EQ(problemsOfFile(folder), Lines{folder + ": this is a folder, but must be a file"});
+  EXPECT_EQ(problemsOfFile(folder), Lines{folder + ": this is a folder, not a file"});
 }
 
 /// A triangle surface is named without the extensions of its two files, NAME.pts and NAME.tri.

@@ -114,7 +114,7 @@ void checkHalfSpace(const HalfSpace& space, const Element& element, Diagnostics&
     return diagnostics.error(element, absolute ? "type absolute needs <planePoint> and <normal>, and no <offset>"
                                                : "type relative needs <offset>, and no <planePoint> or <normal>");
   if ((absolute ? *space.normal : *space.offset).isZero(0))
-    diagnostics.error(element, absolute ? "normal: must not be 0" : "offset: must not be 0");
+    diagnostics.error(element, absolute ? "the normal is 0" : "the offset is 0");
 }
 
 void checkPolyhedron(const Polyhedron& shape, const Element& element, Diagnostics& diagnostics) {
