@@ -20,7 +20,7 @@ namespace tushar::mpmice {
 
 namespace {
 
-/// The body of advanceGas for a method and a number of gases that share cells.
+/// The function that advances the gas, for a method and a number of gases that share cells.
 template <int D>
 AdvanceGas<D> advanceBody(const euler::Method& method, std::size_t gases) {
   if (gases > 1) return chooseAdvanceGases<D>(method, gases);
@@ -121,7 +121,7 @@ void GasAround<D>::scheduleBurning(TaskList& tasks, const Materials& materials,
                  computes(c::burntShare));
 }
 
-/// Adds the tasks for the pressure at the end of the step, including that on walls.
+/// Adds the tasks for the pressure at the end of the step, including the pressure on walls.
 template <int D>
 void GasAround<D>::schedulePressure(TaskList& tasks, const Materials& materials) const {
   constexpr typename GasInCells<D>::Reach reach{.mass = 3, .room = 3};
@@ -190,7 +190,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                       modifies(p::x<D>), when(keepsStrain(materials), modifies(p::strainEnergy)));
 }
 
-/// Adds heat exchange by coefficients, and heat from outside.
+/// Adds the tasks for heat exchange by coefficients, and for heat from outside.
 template <int D>
 void GasAround<D>::scheduleHeat(TaskList& tasks, const Materials& materials) const {
   const std::size_t gases = settings_.gases.size();
@@ -208,7 +208,7 @@ void GasAround<D>::scheduleHeat(TaskList& tasks, const Materials& materials) con
                    requiresOld(delT), modifies(c::totalEnergy));
 }
 
-/// Adds the heat conducted through the walls of bodies, given the state at the start of the step.
+/// Adds the tasks for the heat that walls of bodies conduct, given the state at the start of the step.
 template <int D>
 void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& materials) const {
   constexpr typename GasInCells<D>::Reach reach{.state = 1, .mass = 2, .room = 2};
@@ -221,8 +221,8 @@ void GasAround<D>::scheduleConduction(TaskList& tasks, const Materials& material
                         requiresOld(delT), modifies(p::temperature));
 }
 
-/// Adds the totals since the start of the exchange with bodies and of the leak through them; each only if something
-/// needs it.
+/// Adds the tasks for sums since the start: of the exchange with bodies, and of the leak through them. Each sum is
+/// computed only if something needs it.
 template <int D>
 void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) const {
   tasks.perPatch("mpmice::addImpulse", addToSum<D, Vec<D>>, requiresNew(c::impulse<D>),
@@ -257,7 +257,8 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
   scheduleStepsOfDiffusion(tasks, 1);
 }
 
-/// Adds the time-step limit of a varying viscosity, together with the given fraction of the speed of sound.
+/// Adds the task that limits the time step by a varying viscosity, together with the given fraction of the speed of
+/// sound.
 template <int D>
 void GasAround<D>::scheduleStepsOfDiffusion(TaskList& tasks, double soundSpeedKnob) const {
   if (settings_.diffusion.acts() && settings_.diffusion.varies())

@@ -10,7 +10,8 @@ namespace tushar::mpmice {
 
 /// A gas in the space around bodies of particles, in D dimensions, by finite volumes with walls.
 ///
-/// The schedule of the solids calls its functions, which add its tasks among theirs. mpmice.cpp has the schedule.
+/// The schedule of the solids calls the functions of this class, which add the tasks of the gas among those of the
+/// solids. They are in mpmice.cpp.
 template <int D>
 class GasAround : public mpm::solid::Surroundings {
  public:
@@ -28,7 +29,7 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleErrorEstimate(TaskList& tasks) const;
   void scheduleRefine(TaskList& tasks) const;
   bool isImplicit() const { return settings_.implicit.has_value(); }
-  /// Whether each cell counts the time until a flame has crossed it.
+  /// Whether each cell measures the time for which a flame has been beside it.
   bool waitsForFlames() const { return hasCracks() && settings_.burning->model.ddt()->induction; }
 
  private:

@@ -10,7 +10,7 @@
 
 namespace tushar::mpmice {
 
-/// A body that is converted into a gas, and how.
+/// A body that is converted into a gas, and the law by which it burns.
 struct Burning {
   ice::BurnModel model;
   std::size_t body = 0;  ///< index of the body among the bodies
@@ -20,7 +20,7 @@ struct Burning {
 /// Diffusion coefficients of the gas around bodies.
 struct GasDiffusion {
   euler::VaryingDiffusion alone = {};  ///< diffusion of a single gas; for several gases, only the eddies
-  /// Diffusion of each of several gases: a cell has the mean weighted by volume fractions.
+  /// Diffusion of each of several gases; a cell has the mean, weighted by volume fractions.
   std::vector<euler::Diffusion> ofEach = {};
 
   /// Whether viscosity and conductivity differ from cell to cell.
@@ -51,8 +51,8 @@ struct Settings {
   std::optional<Burning> burning = {};            ///< the body that burns, if any
 };
 
-/// The offset of thresholds for free volumes from round fractions. Such fractions occur when bodies are aligned with
-/// cells; with the offset, round-off does not affect on which side of a threshold they are.
+/// The offset of thresholds for free volumes from round fractions. Bodies that are aligned with cells leave such
+/// fractions free; with the offset, round-off does not decide on which side of a threshold they are.
 inline constexpr double offRoundShares = 1e-9;
 /// The free volume below which a cell is treated as full.
 inline constexpr double leastFreeVolume = offRoundShares;
@@ -60,13 +60,13 @@ inline constexpr double leastFreeVolume = offRoundShares;
 inline constexpr double wholeFreeVolume = 1 - offRoundShares;
 /// The free volume below which the gas of a cell is merged with that of a neighbour.
 inline constexpr double smallFreeVolume = 0.5 - offRoundShares;
-/// The largest cfl; with it, an open face lets out at most the contents of a half-full cell.
+/// The largest cfl. With it, an open face lets out at most the content of a half-full cell.
 inline constexpr double greatestCfl = 0.5;
 /// The free volume below which a closed hole keeps its contents.
 inline constexpr double narrowFreeVolume = 0.2 - offRoundShares;
 
-/// The fraction of a cell that its gas fills, as a function of the free volume; it decreases continuously to 0 where
-/// the cell is considered full.
+/// The fraction of a cell that its gas fills, as a function of the free volume. It decreases continuously to 0 at the
+/// free volume at which the cell counts as full.
 inline double roomOf(double free) {
   return free < 2 * leastFreeVolume ? std::max(0.0, 2 * (free - leastFreeVolume)) : free;
 }

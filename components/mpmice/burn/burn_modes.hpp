@@ -19,7 +19,8 @@ struct StressedParticles {
   }
 };
 
-/// Computes the mean pressure [Pa] of the body that burns in each cell, and its widest cracks [m]; 0 without the body.
+/// Computes the mean pressure [Pa] of the burning body and the radius of its widest cracks [m] in each cell; both are 0
+/// in cells without the body.
 template <int D>
 void measureLoad(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                  int stateSize, const std::vector<StressedParticles>& bodies, CellView<double> pressure,
@@ -50,7 +51,7 @@ struct Load {
   }
 };
 
-/// How long cells had waited for a flame before the step; only with an induction time.
+/// Views of the times for which cells had waited for a flame before the step; empty without an induction time.
 struct Waited {
   std::optional<CellView<const double>> mode, time, induction;
 
@@ -77,8 +78,8 @@ struct NewBurnModes {
 };
 
 /// Determines in which mode each cell of an explosive burns, given the state at the start of the step, as Uintah's DDT1
-/// does. The pressure of a cell is the volume-weighted mean of gas and explosive; that of the product gas is taken from
-/// the surrounding cell with the largest free volume.
+/// does. The pressure of a cell is the mean pressure of gas and explosive, weighted by volume. The pressure of the
+/// product gas is that of the surrounding cell with the largest free volume.
 template <int D>
 class BurnModes {
  public:
@@ -97,7 +98,7 @@ class BurnModes {
     double pressure = 0;               ///< pressure at which the cell burns [Pa]
     double waited = 0, induction = 0;  ///< time that the cell has waited, and its induction time [s]
   };
-  /// Determines the mode of a cell. `before`: only with an induction time; `dt` [s].
+  /// Determines the mode of a cell. `before` has values only with an induction time; `dt` is the time step [s].
   Found find(const Index<D>& cell, const Waited& before, double dt) const {
     if (!(reactant_.mass[cell] > 0)) return {};
     const double own = pressureOf(cell);
@@ -132,7 +133,7 @@ class BurnModes {
   };
   /// The path of a flame into a cell.
   struct Flame {
-    double part = std::numeric_limits<double>::infinity();  ///< ratio of the time to the time along a surface
+    double part = std::numeric_limits<double>::infinity();  ///< time of the flame divided by its time along a surface
     BurnMode from = BurnMode::none;
   };
 
@@ -180,7 +181,8 @@ class BurnModes {
   }
   static bool burns(BurnMode mode) { return mode == BurnMode::surface || mode == BurnMode::cracks; }
 
-  /// With an induction time, a cell waits from the first step in which there is a flame beside it.
+  /// Determines the mode of a cell with an induction time: it waits from the first step in which there is a flame
+  /// beside it.
   Found wait(const Index<D>& cell, const Conditions& now, const Waited& before, double dt) const {
     const bool burned = burns(before.modeIn(cell));
     const Flame flame = burned ? Flame{1, before.modeIn(cell)} : flameInto(cell, now, before);
@@ -201,7 +203,7 @@ class BurnModes {
       found.mode = BurnMode::waiting;
     return found;
   }
-  /// The induction time [s].
+  /// The induction time [s] at a pressure [Pa]; `part` is the ratio of Flame.
   double inductionTime(double part, double pressure) const {
     double width = 0;
     for (int d = 0; d < D; ++d) width += level_.spacing(d) / D;
@@ -225,7 +227,7 @@ class BurnModes {
     });
     return best;
   }
-  /// Cosine of the angle between the direction from a neighbouring cell and the normal of the surface; 0 where there is
+  /// Cosine of the angle between the direction from the neighbour `from` and the normal of the surface; 0 if there is
   /// no normal.
   double cosineOf(const Index<D>& cell, const Index<D>& from) const {
     const Vec<D> way = level_.cellCentre<D>(cell) - level_.cellCentre<D>(from);
@@ -255,7 +257,7 @@ void findBurnModes(const Patch& patch, const Settings& settings, double dt, cons
   });
 }
 
-/// Initial modes: nothing burns before the first step.
+/// Sets the initial modes: nothing burns before the first step.
 template <int D>
 void startBurnModes(const Patch& patch, CellView<double> mode, CellView<double> waited, CellView<double> induction) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { mode[cell] = waited[cell] = induction[cell] = 0; });

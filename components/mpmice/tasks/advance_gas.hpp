@@ -4,7 +4,7 @@
 
 namespace tushar::mpmice {
 
-/// Views of the state after a step, before small cells are merged.
+/// Views of the state after a step, before small cells are merged with others.
 template <int D>
 struct UnsharedGas {
   euler::MixtureViews<D, double> held;  ///< for several gases, the volumes in place of the volume fractions
@@ -27,8 +27,8 @@ struct UnsharedGas {
   }
 };
 
-/// Computes rho, v, p of the gas in the cells of the box; cells without gas get an arbitrary gas at rest, whose fluxes
-/// vanish because their faces are closed.
+/// Computes rho, v, p of the gas in the cells of `w`. Cells without gas get an arbitrary gas at rest; it has no fluxes,
+/// because the faces of these cells are closed.
 template <int D, class G>
 void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
                 euler::Rows<D, euler::kGases<G>>& w) {
@@ -45,7 +45,7 @@ void recoverGas(const G& gas, const Level& level, const GasInCells<D>& cells, co
   });
 }
 
-/// Makes cells constant that have a body in or next to them, as well as their images outside the grid.
+/// Makes each cell constant that has a body in it or next to it, as well as its images outside the grid.
 template <int D, int K>
 void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& cells, const NearBodies<D>& near,
                      euler::Work<D, K>& work) {
@@ -81,8 +81,8 @@ void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<
   });
 }
 
-/// Stores the mass that flows upwards through the lower faces of a block's cells across an axis, relative to the bodies
-/// and divided by the cell volume.
+/// Stores the mass that flows upwards through the lower faces of a block's cells across an axis, relative to the
+/// bodies, per cell volume.
 template <int D, int K>
 void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, int axis, double ratio,
                   const euler::Rows<D, K>& flux, const CellView<Vec<D>>& flow) {
@@ -92,7 +92,7 @@ void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, co
   });
 }
 
-/// Computes the fluxes through the open parts of a block's faces across an axis.
+/// Adds the fluxes through the open parts of a block's faces across an axis.
 template <int D, class Flux, class Shape, int Axis, class G>
 void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level,
                const Box& block, double ratio, const euler::MixtureViews<D, const double>& old,
@@ -107,7 +107,7 @@ void sweepOpen(const G& gas, const WallExchange<D>& exchange, const NearBodies<D
   if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, work.flux, *flow);
 }
 
-/// Adds the forces of walls near a block, and their power.
+/// Adds to the gas of a block the forces of walls, and to `power` the power of the gas on these walls.
 template <int D>
 void addWalls(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, double perStep,
               const euler::MixtureViews<D, double>& fresh, const OfferedExchange<D>& offered, Sum& power) {
@@ -131,7 +131,7 @@ void refuseFarGas(const Patch& patch, const Settings& settings, const NearBodies
   });
 }
 
-/// Whether the gas of a cell has a valid state; refuseFarGas checks several gases.
+/// Whether the gas of a cell has a possible state. For several gases, refuseFarGas checks it.
 template <int D, class G>
 bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, double>& fresh) {
   if constexpr (euler::kGases < G >> 1)
@@ -141,8 +141,8 @@ bool canBeIn(const G& gas, const Index<D>& cell, const euler::StateViews<D, doub
 }
 
 /// Performs a step for a block with bodies in or around it: a step of `euler` through open faces, and the effect of
-/// walls.
-/// Returns whether the gas away from bodies is possible; beside them small cells have still to share.
+/// walls. Returns whether the gas away from bodies is possible; near bodies, the state may become possible only when
+/// small cells are merged.
 template <int D, class Flux, class Shape, class G>
 bool advanceAtBodies(const G& gas, double dt, const Box& block, const GasInCells<D>& cells,
                      const WallExchange<D>& exchange, const NearBodies<D>& near, euler::Work<D, euler::kGases<G>>& work,
@@ -191,7 +191,7 @@ bool advanceWith(const G& law, const Patch& patch, double dt, const GasInCells<D
   return fine;
 }
 
-/// Throws NumericalError if bodies are so close to coarser cells that these would have walls.
+/// Throws NumericalError if bodies are so close to cells of a coarser level that these would have walls.
 template <int D>
 void requireFinest(const Patch& patch, const NearBodies<D>& near) {
   const Level& level = patch.level();
@@ -205,9 +205,9 @@ void requireFinest(const Patch& patch, const NearBodies<D>& near) {
 }
 
 /// Performs one step of the gas. Away from bodies, it is bitwise a step of `euler`. At bodies, fluxes pass through the
-/// open fraction of faces, walls exert a pressure and do work with the mean of their velocities before and after the
-/// step, and gas follows moving walls. Adds the power of the gas on bodies [W]. K is the number of gases that share
-/// cells.
+/// open fractions of faces. Walls exert a pressure, which does work at the mean of their velocities before and after
+/// the step, and gas follows moving walls. Adds the power of the gas on bodies [W] to `power`. K is the number of gases
+/// that share cells.
 template <int D, class Flux, class Shape, int K>
 void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings, double dt,
                 const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
@@ -237,7 +237,7 @@ using AdvanceGas = void (*)(const Patch& patch, const std::vector<mpm::solid::Ma
                             const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh,
                             const OfferedExchange<D>& offered, Sum& power);
 
-/// Like advanceGas, for two or three gases.
+/// The function that advances two or three gases, which is like advanceGas.
 template <int D>
 AdvanceGas<D> chooseAdvanceGases(const euler::Method& method, std::size_t gases);
 

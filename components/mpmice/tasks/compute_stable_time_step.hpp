@@ -31,7 +31,7 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, const G
   if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
 }
 
-/// Computes the same time step for several gases.
+/// Like computeStableTimeStep, for several gases.
 template <int D>
 void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
   const Level& level = patch.level();
@@ -50,8 +50,8 @@ void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInC
   if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
 }
 
-/// Computes dt = cfl times the time in which the fastest wave of a body crosses a cell, because bodies move only once
-/// per step for the gas.
+/// Computes dt = cfl times the time in which the fastest wave of a body crosses a cell. This limit is needed because
+/// the gas sees bodies move only once per step.
 template <int D>
 void limitStepOfBodies(const Patch& patch, const mpm::solid::Material&, double cfl,
                        CellView<const double> stableTimeStep, Minimum& dt) {

@@ -6,13 +6,13 @@
 
 namespace tushar::mpmice {
 
-/// Views of the heat of the particles of a material.
+/// Views of the masses and temperatures of the particles of a material.
 struct WarmBodies {
   ParticleView<const double> mass;
   ParticleView<const mpm::solid::Matrix3> deformation;
   ParticleView<double> temperature;
 
-  /// `mass` reads the mass at the end of the step.
+  /// `mass` reads the masses at the end of the step.
   static WarmBodies from(auto& take, auto mass) {
     return {.mass = take(mass),
             .deformation = take(requiresNew(p::deformationMeasure)),
@@ -20,7 +20,7 @@ struct WarmBodies {
   }
 };
 
-/// Views of the variables of the gas that the heat exchange reads and changes after a step: its energy and, for several
+/// Views of the variables of the gas that the heat exchange reads and changes after a step: the energy and, for several
 /// gases, the volume fractions.
 template <int D>
 struct HeatedGas {
@@ -43,8 +43,8 @@ struct HeatedGas {
 /// Largest number of bodies and gases for which the heat exchange needs no heap memory in each cell.
 inline constexpr int kFewThings = 8;
 
-/// Exchanges heat between bodies and gases, between bodies, and between gases, in the cells that they share, with
-/// Uintah's exchange coefficients; heat is conserved. `Most`: the largest total number of bodies and gases.
+/// Exchanges heat between all bodies and gases that share a cell, with Uintah's exchange coefficients; heat is
+/// conserved. `Most` is the largest total number of bodies and gases.
 template <int D, int Most>
 class HeatExchange {
  public:
@@ -52,8 +52,8 @@ class HeatExchange {
                const HeatedGas<D>& gas, const std::vector<WarmBodies>& bodies)
       : patch_(patch), materials_(materials), settings_(settings), gas_(gas), bodies_(bodies) {}
 
-  /// Exchanges heat in a cell and adds heat from outside. Returns what the gas loses to bodies, per volume of the cell
-  /// [J/m³].
+  /// Exchanges heat in a cell, and adds heat from outside. Returns the heat that the gas loses to bodies, per cell
+  /// volume [J/m³].
   double apply(const Index<D>& cell, double time, double dt) const {
     const std::size_t bodies = bodies_.size(), gases = std::max<std::size_t>(1, settings_.gases.size());
     const auto first = static_cast<Eigen::Index>(bodies);
@@ -141,7 +141,7 @@ void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& m
   });
 }
 
-/// Exchanges heat between several gases that exchange none with bodies.
+/// Exchanges heat between several gases that exchange no heat with bodies.
 template <int D>
 void heatGases(const Patch& patch, const Settings& settings, double time, double dt, const HeatedGas<D>& gas) {
   const std::vector<WarmBodies> none;

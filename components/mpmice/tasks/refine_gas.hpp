@@ -5,8 +5,8 @@
 
 namespace tushar::mpmice {
 
-/// Distance from bodies, in cells, within which cells are on the finest level, so that no coarser cell has a wall: a
-/// step sees bodies two cells away, and faces one cell farther.
+/// Distance from bodies, in cells, within which all cells are on the finest level, so that no coarser cell has a wall.
+/// A step sees bodies two cells away, and faces one cell farther.
 inline constexpr int markedLayers = 3;
 
 /// Marks cells near bodies for refinement.
@@ -31,7 +31,7 @@ struct ChangedGases {
   }
 };
 
-/// Replaces invalid interpolated values of several gases in new cells.
+/// Replaces interpolated values of several gases in new cells where they are impossible.
 template <int D>
 void mendNewGases(const Patch& patch, const std::vector<euler::Settings>& gases, const std::vector<Box>& newCells,
                   const euler::ChangedState<D>& state, const ChangedGases& held) {

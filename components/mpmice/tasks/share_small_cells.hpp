@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// Number of layers of cells around a patch that determine with which neighbours the patch's own cells are merged, and
+/// Number of layers of cells around a patch that determine with which neighbours the cells of the patch are merged, and
 /// what they exchange.
 inline constexpr int shareReach = 3;
 
@@ -29,9 +29,9 @@ struct Unshared {
   }
 };
 
-/// How cells are merged: a cell with little free volume gives its content to the neighbour with the widest opening to
-/// it, possibly across a corner, and gets back a part in proportion to its volume. So small cells limit no time step,
-/// and cells may appear and vanish.
+/// The rule by which cells are merged. A cell with little free volume gives its content to the neighbour with the
+/// widest opening to it, possibly across a corner, and gets back a part in proportion to its volume. So small cells do
+/// not limit the time step, and cells may appear and vanish.
 template <int D>
 class SmallCells {
  public:
@@ -39,7 +39,8 @@ class SmallCells {
       : level_(level), thin_walls_(thinWalls), state_(state) {}
 
   /// The neighbour that receives the gas of a small cell: one with enough free volume, otherwise one that has more free
-  /// volume and does not give away its own gas. If there is none, the cell itself. Ties go to the lower one.
+  /// volume than the cell and does not give away its own gas. If there is none, it is the cell itself. Of two equal
+  /// ones, it is the lower one.
   Index<D> targetOf(const Index<D>& cell) const {
     const Index<D> chosen = choiceOf(cell);
     return isTarget(chosen) ? chosen : cell;
@@ -99,7 +100,7 @@ class SmallCells {
   const Unshared<D>& state_;
 };
 
-/// Views of the content of cells after a step, or at the start.
+/// Views of the new content of cells: after a step, or at the start of the run.
 template <int D>
 struct NewContent {
   euler::MixtureViews<D, double> held;
@@ -125,7 +126,7 @@ struct NewGas {
   }
 };
 
-/// The sum of the contents of cells, and of their free volumes.
+/// The sum of the contents of several cells, and of their free volumes.
 template <int D>
 struct Pool {
   double volume = 0, mass = 0, energy = 0;
@@ -151,7 +152,7 @@ struct Pool {
   }
 };
 
-/// Gives a cell its share of the content of a group of cells that share through the cell `centre`.
+/// Gives a cell its share of the content of the cells that are merged with the cell `centre`.
 template <int D>
 void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D>& cell, const Index<D>& centre,
              const euler::MixtureViews<D, double>& fresh) {
@@ -173,8 +174,8 @@ void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D
   for (std::size_t k = 0; k < fresh.masses.size(); ++k) fresh.masses[k][cell] = pool.masses[k] * part;
 }
 
-/// Checks the contents of a cell after a step. Throws NumericalError if they are impossible, so that the step is
-/// repeated with a smaller time step.
+/// Checks the content of a cell after a step. Throws NumericalError if it is impossible, so that the step is repeated
+/// with a smaller time step.
 template <int D>
 void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, const NewGas<D>& fresh) {
   const double free = fresh.free[cell], mass = fresh.held.density[cell];
@@ -186,8 +187,8 @@ void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, c
   refuseGas<D>(level, gas, cell, free, density, last);
 }
 
-/// The mass per cell volume below which a mass is treated as 0 [kg/m³]; otherwise the halving of the content of a hole
-/// would never end.
+/// The mass per cell volume below which a mass counts as 0 [kg/m³]. Without it, the content of a hole could be halved
+/// without end.
 inline constexpr double nothingLeft = 1e-100;
 
 /// Empties a cell in which almost nothing is left.
@@ -199,7 +200,7 @@ void emptyIfNothingLeft(const Index<D>& cell, const euler::MixtureViews<D, doubl
   for (const auto& mass : held.masses) mass[cell] = 0;
 }
 
-/// Computes the state after a step: small cells are merged with neighbours. Counts them.
+/// Computes the state after a step by merging small cells with neighbours, and counts the merged cells.
 template <int D>
 void shareSmallCells(const Patch& patch, const Settings& settings, const Unshared<D>& state, const NewGas<D>& fresh,
                      Sum& merged) {
@@ -219,7 +220,7 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     std::copy_n(euler::rowOf(state.held.totalEnergy, first, count), count,
                 euler::rowOf(fresh.held.totalEnergy, first, count));
   });
-  // Between levels, volumes are corrected by the flux of volume.
+  // At the rim of a level, the flux of volume has been corrected.
   if (level.domain().refinement.levels > 1 && !fresh.held.shares.empty())
     euler::closeShares<D>(patch, settings.gases, fresh.held.shares);
   const NearBodies<D> near(patch.cells(), shareReach, state.free, state.held.density);
