@@ -5,8 +5,8 @@
 namespace tushar {
 
 // Slopes of a cell, computed from the differences `a` and `b` to its two neighbours. All of these functions are
-// symmetric, f(a, b) = f(b, a), odd, f(-a, -b) = -f(a, b), zero at extrema, and TVD: |f| <= 2 min(|a|, |b|). Source: B.
-// van Leer, J. Comput. Phys. 23 (1977) 276 and 32 (1979) 101; Toro, section 14.4.
+// symmetric, f(a, b) = f(b, a), odd, f(-a, -b) = -f(a, b), zero at extrema, and TVD: |f| <= 2 min(|a|, |b|).
+// Source: B. van Leer, J. Comput. Phys. 23 (1977) 276 and 32 (1979) 101; Toro, section 14.4.
 
 /// Returns the difference of smaller magnitude; 0 at extrema.
 struct Minmod {

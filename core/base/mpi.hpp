@@ -109,7 +109,7 @@ class Outbox {
   explicit Outbox(const Communicator& ranks);
   Outbox(const Outbox&) = delete;
   Outbox& operator=(const Outbox&) = delete;
-  /// Leaves messages in memory that have not been sent completely, because MPI may still read them.
+  /// Keeps the memory of messages that have not been sent completely, because MPI may still read it.
   ~Outbox();
 
   /// Starts sending a message, and returns immediately.

@@ -42,10 +42,10 @@ struct GhostRun {
 /// The particles of one material on a patch, cell by cell.
 ///
 /// Particles have indices, which count positions in memory from the patch's first particle. The patch's own particles
-/// come first, sorted by (cell, id). Ghosts are particles of other patches in the cells around this patch. A ghost
-/// whose patch is on the same rank is not copied: it is read in the memory of its own patch, which lies before this
-/// patch's memory (negative indices) or behind it. Only ghosts from other ranks and periodic images are copies. Sums
-/// run over cells in lexicographic order and, within a cell, by id, so they do not depend on which patch owns a
+/// have indices from 0 on, sorted by (cell, id). Ghosts are particles of other patches in the cells around this patch.
+/// A ghost whose patch is on the same rank is not copied: it is read in the memory of its own patch, which lies before
+/// this patch's memory (negative indices) or behind it. Only ghosts from other ranks and periodic images are copies.
+/// Sums run over cells in lexicographic order and, within a cell, by id, so they do not depend on which patch owns a
 /// particle.
 class ParticleSet {
  public:

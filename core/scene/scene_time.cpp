@@ -128,8 +128,8 @@ const Schema<CheckpointSettings>& checkpointSchema() {
   using Settings = CheckpointSettings;
   static const Schema<Settings> schema =
       Schema<Settings>("checkpoint",
-                       "The whole state, from which sus --restart continues: at the start, at one of these "
-                       "intervals, and at the end.")
+                       "The whole state, from which sus --restart continues. It is saved at the start, at one of "
+                       "these intervals, and at the end.")
           .attributeValue("cycle", &Settings::cycle, 2, "1", "number of checkpoints to keep", input::atLeast(1))
           .optionalAttribute("interval", &Settings::interval, "s", "simulated time between checkpoints",
                              input::positive())

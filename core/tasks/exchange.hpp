@@ -21,15 +21,15 @@ GhostReach reachOf(const data::VariableTable& table, const BoundGhostFill& fill)
 /// neighbour needs for the task. The messages are sent as soon as the last of these values has been computed; other
 /// tasks run meanwhile. Just before the task, the patches of a rank fill their ghosts from one another. Patches that
 /// need nothing from other ranks may then run while messages are still on their way.
+///
+/// An exchange has three parts: send(), begin() and finish(). All ranks call them for the same fills in the same order,
+/// and complete one exchange before they begin the next. The first fill that needs ghost particles determines which
+/// particles are ghosts.
 class Exchange {
  public:
   Exchange(data::Warehouse& warehouse, Threads& threads)
       : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()), near_(warehouse, threads) {}
 
-  /// An exchange has three parts: send(), begin() and finish(). All ranks call them for the same fills in the same
-  /// order, and complete one exchange before they begin the next. The first fill that needs ghost particles determines
-  /// which particles are ghosts.
-  ///
   /// Restricts later exchanges to ghosts of the patches of `level`; values in coarser cells are interpolated in time to
   /// the fraction `part` of the coarser step. -1: patches of all levels get ghosts, from old values.
   void setLevel(int level, double part) {

@@ -112,7 +112,7 @@ const Schema<SmoothCylinder>& SmoothCylinder::schema() {
         .choice("discretization_scheme", &Self::scheme,
                 {{"pie_slices", Scheme::pieSlices}, {"constant_particle_volumes", Scheme::constantVolumes}},
                 Scheme::pieSlices,
-                "number of particles in a ring: num_angular, or such that each particle is about as long as the ring "
+                "how many particles a ring has: num_angular, or as many as make each particle about as long as the ring "
                 "is wide")
         .required("bottom", &Self::bottom, "m", "centre of one end")
         .required("top", &Self::top, "m", "centre of the other end")
