@@ -51,7 +51,7 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   return names;
 }
 
-/// The words in the order that CLI11 expects, the last one first; the word after --petsc is not changed.
+/// The words in the order that CLI11 expects, the last one first. The word after --petsc is not changed.
 std::vector<std::string> backwards(const std::vector<std::string>& given) {
   std::vector<std::string> words;
   for (const std::string& word : given)
@@ -60,7 +60,7 @@ std::vector<std::string> backwards(const std::vector<std::string>& given) {
   return words;
 }
 
-/// Reports the invalid words of the command line: unknown options, as the user wrote them, or a second scene.
+/// Reports invalid words of the command line: unknown options, in the form that the user wrote, or a second scene.
 void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, const std::string& scene) {
   const std::vector<std::string> unknown = app.remaining(), names = optionNames(app);
   bool options = false;
@@ -73,7 +73,7 @@ void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, c
   if (!options) complain(fmt::format("only one scene can be run: found '{}' after '{}'", unknown.front(), scene));
 }
 
-/// Declares the options for patches, threads and writers.
+/// Declares the options for patches, threads, and ranks that write.
 void declareWorkers(CLI::App& app, Arguments& arguments) {
   app.add_option_function<std::string>(
       "--layout", [&](const std::string& text) { setLayout(text, arguments.workers); },
@@ -150,7 +150,8 @@ std::string sentenceOf(const CLI::App* app, const CLI::Error& error) {
   return withNumber(text.substr(0, line)) + (line == std::string::npos ? "" : text.substr(line));
 }
 
-/// Handles `--check --json SCENE`: if there is no other scene, the word after --json is the scene.
+/// Handles `--check --json SCENE`: if no other word is the scene, the word after --json is the scene rather than a
+/// file.
 void settleJson(const CLI::App& app, Arguments& arguments) {
   arguments.asksForJson = app.count("--json") > 0;
   if (arguments.check && arguments.scene.empty()) std::swap(arguments.scene, arguments.run.jsonPath);

@@ -30,12 +30,12 @@ struct Arguments {
   bool isQuestion() const {
     return version || list || !(describe.empty() && schema.empty() && completion.empty() && paths.empty());
   }
-  /// Whether the only output is the list of problems of a checked scene, as JSON.
+  /// Whether sus prints nothing but the list of problems of a scene that it checks, as JSON.
   bool showsJson() const { return check && asksForJson && (run.jsonPath.empty() || run.jsonPath == "-"); }
 };
 
-/// Parses the words of the command line into `arguments`. Returns the exit code if the program ends here, because the
-/// words request help or are invalid; then the first rank has printed the message.
+/// Parses the words of the command line into `arguments`. Returns an exit code if the program ends here because the
+/// words request help or are invalid. In that case, the first rank has printed the message.
 std::optional<ExitCode> parse(const std::vector<std::string>& words, Arguments& arguments);
 
 /// Parses a duration such as `30s`, `10min` or `2h` and returns it in seconds; none for any other text.

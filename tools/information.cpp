@@ -72,7 +72,7 @@ void printSchema(const std::string& language, const simulation::Catalogue& known
                             "contain whatever any of them allows. ");
 }
 
-/// Prints the paths of all values in a scene, or in the scene of the folder of a run.
+/// Prints the paths of all values in a scene; `given` is the scene or the folder of a run.
 void printPaths(const std::string& given) {
   const bool isFolder = std::filesystem::is_directory(given);
   input::Diagnostics diagnostics;

@@ -1,6 +1,6 @@
-// Ends sus with a sentence, not by SIGILL, where the processor lacks instructions for which sus was compiled. The
-// dynamic loader calls what is in .preinit_array of a program before the initialisers of its libraries, that is, before
-// any instruction that may be missing. The functions here contain only instructions that every x86-64 has.
+// Ends sus with a sentence, rather than by SIGILL, if the processor lacks instructions for which sus was compiled. The
+// dynamic loader calls the functions in .preinit_array of a program before the initialisers of its libraries, and thus
+// before any instruction that may be missing. The functions here contain only instructions that every x86-64 has.
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <unistd.h>
 
@@ -8,8 +8,8 @@
 
 #define TUSHAR_ANY_PROCESSOR [[gnu::target("arch=x86-64")]]
 #define TUSHAR_TEXT(words) #words
-/// `name` if the compiler used these instructions (it then defines the macro as 1) and the processor lacks them;
-/// otherwise the value that follows.
+/// `name` if the compiler used these instructions and the processor lacks them; otherwise the value that follows. A
+/// compiler that uses them defines `macro` as 1.
 #define TUSHAR_IF_MISSING(macro, name) TUSHAR_TEXT(macro)[0] == '1' && !__builtin_cpu_supports(name) ? name:
 
 namespace {

@@ -16,7 +16,7 @@ struct RiemannProblem {
   std::optional<GasLaw> rightGas;  ///< law of the right gas, if it differs
   double diaphragm = 0.5;          ///< position of the diaphragm along `axis` [m]
   int axis = 0;                    ///< axis normal to the plane: 0, 1 or 2
-  /// Velocities along the other axes [m/s]: they move with each gas, so that they jump only at the contact.
+  /// Velocities along the other axes [m/s]. They move with each gas, so they jump only at the contact.
   Vec3 leftTransverse = Vec3::Zero();
   Vec3 rightTransverse = Vec3::Zero();
 };
@@ -28,18 +28,18 @@ struct RiemannProblem {
 /// 3rd ed., chapter 4.
 class ExactRiemann : public GasReference {
  public:
-  /// Throws the same std::invalid_argument as solveRiemann, and one for an impossible axis or diaphragm.
+  /// Throws the std::invalid_argument of solveRiemann, and one for an impossible axis or diaphragm.
   explicit ExactRiemann(const RiemannProblem& problem);
 
   GasState at(const Vec3& x, double t) const override;
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
   std::vector<double> breaks(int axis, double t) const override;
 
-  /// The solution; its pressures are p + p_inf, with the smaller p_inf of two gases.
+  /// The solution; its pressures are p + p_inf, with the smaller p_inf of the two gases.
   const RiemannSolution& solution() const { return solution_; }
 
  private:
-  /// The smaller p_inf [Pa].
+  /// The smaller p_inf of the two gases [Pa].
   double leastStiffness() const;
 
   RiemannProblem problem_;

@@ -68,8 +68,8 @@ GasLaw gasOf(const State& side, const RiemannSection& read) {
   return {side.gamma.value_or(read.gamma), side.pInfinity.value_or(read.pInfinity)};
 }
 
-/// Length along the tube after which a periodic grid repeats [m]; 0 if it never does. Throws std::invalid_argument
-/// where the axes do not agree.
+/// Length along the tube after which a periodic grid repeats [m]; 0 if it never does. Throws std::invalid_argument if
+/// this length differs from axis to axis.
 double periodAlong(const Vec3& normal, const grid::Level& level) {
   const grid::Domain& domain = level.domain();
   std::vector<double> lengths;

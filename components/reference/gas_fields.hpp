@@ -27,8 +27,8 @@ struct QuadraturePoint {
   double at = 0, weight = 0;
 };
 
-/// The Gauss-Legendre rule with N points; `half` lists one point of each pair and, last if N is odd, the middle:
-/// positions and weights on [-1, 1].
+/// The Gauss-Legendre rule with N points. `half` lists positions and weights on [-1, 1]: one point of each pair and,
+/// last if N is odd, the middle.
 template <std::size_t N>
 constexpr std::array<QuadraturePoint, N> gaussRule(const std::array<QuadraturePoint, (N + 1) / 2>& half) {
   std::array<QuadraturePoint, N> rule;

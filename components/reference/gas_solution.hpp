@@ -8,8 +8,8 @@
 
 namespace tushar::reference {
 
-/// The time at which errors are measured [s], counted from the start of the run, where exact solutions are at t = 0.
-/// Set before the tasks run.
+/// The time at which errors are measured [s]. It is counted from the start of the run, where exact solutions have t =
+/// 0, and is set before the tasks run.
 struct Clock {
   double time = 0;
 };
@@ -70,18 +70,18 @@ GasState cellMean(const GasReference& exact, const Level& level, const Index<D>&
 /// Where a component can measure errors.
 enum class MeasuredPlace { particle, cell, node };
 
-/// A component that solves for a gas, and can measure the errors of its state relative to an exact one.
+/// A component that solves for a gas and can measure the errors of the gas relative to an exact state.
 class GasSolution {
  public:
   virtual ~GasSolution() = default;
-  /// The laws of the gases; none if no such law describes the flow.
+  /// The laws of the gases; none if a GasLaw cannot describe them.
   virtual std::vector<GasLaw> gases() const = 0;
-  /// The places for which scheduleMeasureError adds tasks that compute error labels.
+  /// The places for which scheduleMeasureError adds tasks.
   virtual std::vector<MeasuredPlace> measuredPlaces() const {
     return {MeasuredPlace::particle, MeasuredPlace::cell, MeasuredPlace::node};
   }
-  /// Adds diagnostic tasks that compute the error labels of those places against `exact` at `clock`'s time; both must
-  /// outlive the task list.
+  /// Adds diagnostic tasks that compute the error labels of measuredPlaces relative to `exact` at the time of `clock`.
+  /// Both must outlive the task list.
   virtual void scheduleMeasureError(TaskList& tasks, const GasReference& exact, const Clock& clock) const = 0;
 };
 

@@ -20,12 +20,12 @@ struct GasTags {
   std::optional<Region> within;
 };
 
-/// The schema of `within`, which is a box.
+/// The schema of the tag `within`, a box in which errors are measured.
 const input::Schema<Region>& regionSchema();
 
 using input::memberOf;
 
-/// The schema of the module `name` with these tags; S is derived from GasTags.
+/// The schema of the module `name` with the tags of GasTags, from which S is derived.
 template <class S>
 input::Schema<S> gasSchema(const std::string& name, std::string_view sentence, double gamma = 1.4) {
   return input::Schema<S>("Module", sentence)
@@ -42,7 +42,7 @@ struct VortexTags : GasTags {
   Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
 };
 
-/// The schema of the module `name` with these tags; S is derived from VortexTags.
+/// The schema of the module `name` with the tags of VortexTags, from which S is derived.
 template <class S>
 input::Schema<S> vortexSchema(const std::string& name, std::string_view sentence) {
   return gasSchema<S>(name, sentence)
@@ -62,8 +62,8 @@ struct RadialTags : GasTags {
   Vec3 centre = Vec3::Zero();
 };
 
-/// The schema of the module `name` with these tags; S is derived from RadialTags, and `centre` describes what is at the
-/// centre.
+/// The schema of the module `name` with the tags of RadialTags, from which S is derived. `centre` is the description of
+/// the centre.
 template <class S>
 input::Schema<S> radialSchema(const std::string& name, std::string_view sentence, const std::string& centre,
                               double gamma = 1.4) {
@@ -77,11 +77,11 @@ input::Schema<S> radialSchema(const std::string& name, std::string_view sentence
       .ours();
 }
 
-/// The path of the vortex on a grid, which may be periodic. Throws std::invalid_argument if the plane in which it turns
-/// is not in the grid.
+/// The path of the vortex on a grid, which may be periodic. Throws std::invalid_argument if the grid does not use both
+/// axes of the plane in which the vortex turns.
 MovingFrame frameOf(const VortexTags& tags, const grid::Level& level);
 
-/// Sets the settings that are common to all vortices from the tags of S.
+/// Makes the problem of a vortex, with the settings that all vortices have in common, from the tags of S.
 template <class Problem, class S>
 Problem vortexProblem(const S& read, const grid::Level& level) {
   Problem problem;

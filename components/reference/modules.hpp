@@ -12,11 +12,11 @@ simulation::AnalysisKind simpleWaveKind();
 simulation::AnalysisKind isentropicVortexKind();
 /// `gresho`: compares a run with a steady vortex that consists of two rings.
 simulation::AnalysisKind greshoKind();
-/// `noh`: compares a run with cold gas that collides in a plane, a line or a point.
+/// `noh`: compares a run with cold gas that converges on a plane, a line or a point.
 simulation::AnalysisKind nohKind();
 /// `sedov`: compares a run with a self-similar blast wave.
 simulation::AnalysisKind sedovKind();
-/// `tabulated`: compares a run with the cells of another run.
+/// `tabulated`: compares a run with the cell means of another run.
 simulation::AnalysisKind tabulatedKind();
 
 }  // namespace tushar::reference

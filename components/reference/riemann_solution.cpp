@@ -15,8 +15,8 @@ namespace {
 constexpr double kRoundOff = 2 * std::numeric_limits<double>::epsilon();
 constexpr int kMostIterations = 500;
 
-/// One side of the problem, oriented so that its wave runs to the left: the right side is mirrored, u -> -u. Its own
-/// pressure includes the stiffness; pressures that are passed in do not.
+/// One side of the problem, oriented so that its wave runs to the left; the right side is mirrored, u -> -u. The
+/// pressure of the side includes the stiffness; pressures passed to its functions do not.
 struct Side {
   double density, velocity, pressure, gamma, stiffness;
 
@@ -38,7 +38,7 @@ struct Side {
   double a() const { return 2 / ((gamma + 1) * density); }
   double b() const { return (gamma - 1) / (gamma + 1) * pressure; }
 
-  /// Decrease of the velocity on the path to pressure p, Toro (4.6)-(4.7).
+  /// Decrease of the velocity between this side and a state of pressure `outside`, Toro (4.6)-(4.7).
   double velocityChange(double outside) const {
     const double p = outside + stiffness;
     if (p > pressure) return (p - pressure) * std::sqrt(a() / (p + b()));
@@ -46,14 +46,14 @@ struct Side {
     return 2 * soundSpeed() / (gamma - 1) * std::expm1(exponent() * std::log(p / pressure));
   }
 
-  /// The derivative d velocityChange / dp, Toro (4.37); p > 0.
+  /// The derivative of velocityChange with respect to the pressure, Toro (4.37), for p > 0.
   double slope(double outside) const {
     const double p = outside + stiffness;
     if (p > pressure) return std::sqrt(a() / (p + b())) * (1 - 0.5 * (p - pressure) / (p + b()));
     return std::pow(p / pressure, exponent() - 1) * soundSpeed() / (gamma * pressure);
   }
 
-  /// The density next to the contact, Toro (4.50) and (4.53).
+  /// The density between the wave and the contact, Toro (4.50) and (4.53).
   double starDensity(double outside) const {
     const double p = outside + stiffness;
     if (p <= pressure) return pressure > 0 ? density * std::pow(p / pressure, 1 / gamma) : density;
@@ -61,7 +61,7 @@ struct Side {
     return density * (p + ratio * pressure) / (ratio * p + pressure);
   }
 
-  /// The wave that leads to pressure p and velocity u, Toro (4.52), (4.54)-(4.55).
+  /// The wave to a state of pressure `outside` and velocity `u`, Toro (4.52), (4.54)-(4.55).
   RiemannWave wave(double outside, double u) const {
     const double p = outside + stiffness;
     if (p > pressure) {
@@ -138,12 +138,13 @@ class StarPressure {
 
  private:
   bool isOneIdealGas() const { return left_.gamma == right_.gamma && left_.stiffness == 0 && right_.stiffness == 0; }
-  /// The velocity mismatch, Toro (4.5): increasing and concave in p.
+  /// The difference of the velocities that both sides have at the pressure p, Toro (4.5); it is increasing and concave
+  /// in p.
   double mismatch(double p) const {
     return left_.velocityChange(p) + right_.velocityChange(p) - (right_.velocity + left_.velocity);
   }
 
-  /// The pressure between two rarefactions, Toro (4.46), which is exact.
+  /// The exact pressure between two rarefactions, Toro (4.46).
   double betweenRarefactions() const {
     const double z = left_.exponent();
     const double closing = 0.5 * (left_.gamma - 1) * (left_.velocity + right_.velocity);
@@ -153,7 +154,8 @@ class StarPressure {
     return left_.pressure * std::pow((cl + cr + closing) / scale, 1 / z);
   }
 
-  /// An upper bound on p*: the ram pressure of the lighter gas, raised until it stops the approach.
+  /// An upper bound on p*: the ram pressure of the lighter gas, increased until the two gases stop approaching each
+  /// other.
   double upperBound() const {
     const double most = std::max(left_.pressure, right_.pressure);
     const double closing = std::max(0.0, left_.velocity + right_.velocity);
@@ -176,7 +178,8 @@ class StarPressure {
     return p;
   }
 
-  /// Newton's step, or the middle of the bracket if that step leaves the bracket or does not halve the last one.
+  /// Newton's step, or the middle of the bracket if Newton's step leaves the bracket or is longer than half of the
+  /// previous step.
   double step(double p, double previousStep) {
     const double f = mismatch(p);
     if (f == 0) return p;

@@ -9,7 +9,7 @@ namespace tushar::reference {
 /// Energy released instantaneously in a plane, along a line or at a point of a uniform gas at rest.
 struct SedovProblem {
   double density = 1;          ///< density of the gas at rest [kg/m^3]
-  double pressure = 0;         ///< pressure of the gas [Pa]; it has no effect on the blast, so it must be negligible
+  double pressure = 0;         ///< pressure of the gas [Pa]; the solution neglects its effect on the blast
   double energy = 1;           ///< total energy: of a plane (both sides of it) [J/m²], of a line [J/m], of a point [J]
   double gamma = 1.4;          ///< ratio of specific heats
   Vec3 centre = Vec3::Zero();  ///< centre [m]
@@ -18,11 +18,11 @@ struct SedovProblem {
 
 /// The self-similar blast wave of Sedov, Taylor and von Neumann in d = 1, 2 or 3 dimensions.
 ///
-/// The shock is at R = (E t² / (alpha rho0))^(1/(d+2)). With lambda = r / R and the shock's speed R' the fields are
-/// v = R' lambda w, rho = rho0 G, p = rho0 R'² lambda² G C, where the energy integral gives
-/// C = (gamma-1)/2 w² (1-w) / (gamma w - 1); what remains are two equations for ln(gamma w - 1) and ln G over
-/// ln lambda, which are integrated inwards from the shock and tabulated. alpha follows from the energy: for gamma = 1.4
-/// it is 1.07749 (of both sides of a plane), .984074, .851072.
+/// The shock is at R = (E t² / (alpha rho0))^(1/(d+2)). With lambda = r / R and the speed R' of the shock, the fields
+/// are v = R' lambda w, rho = rho0 G, p = rho0 R'² lambda² G C. The energy integral gives C = (gamma-1)/2 w² (1-w) /
+/// (gamma w - 1). The remaining two equations, for ln(gamma w - 1) and ln G as functions of ln lambda, are integrated
+/// inwards from the shock and tabulated. alpha follows from the energy. For gamma = 1.4, it is 1.07749 in one dimension
+/// (counting both sides of the plane), .984074 in two, and .851072 in three.
 /// Source: L. I. Sedov, Similarity and Dimensional Methods in Mechanics (1959), chapter 4; L. D. Landau & E. M.
 /// Lifshitz, Fluid Mechanics, section 106; J. Kamm & F. Timmes, LA-UR-07-2849 (2007).
 class Sedov : public RadialReference {
@@ -33,8 +33,8 @@ class Sedov : public RadialReference {
 
   double shockRadius(double t) const override;
   RadialState atRadius(double r, double t) const override;
-  /// Like averages of other references, except that the internal energy is weighted with the mass, mean p / ((gamma-1)
-  /// mean rho): it grows so fast towards the centre that its plain mean is infinite there.
+  /// Like the averages of other references, except that the internal energy is weighted by mass: it is the mean of p /
+  /// (gamma-1) divided by that of rho. Its plain mean would be infinite at the centre, towards which it rises too fast.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
   double alpha() const { return alpha_; }

@@ -40,7 +40,7 @@ double samplePoint(const SimpleWaveProblem& problem, int k) {
   return problem.lower + (problem.upper - problem.lower) * k / kSamples;
 }
 
-/// Smallest value of `f` on [a, b], where it has one minimum (golden-section search).
+/// Smallest value of `f` on [a, b], by golden-section search; `f` has one minimum there.
 template <class F>
 double leastValue(const F& f, double a, double b) {
   const double golden = 0.5 * (std::sqrt(5.0) - 1);

@@ -16,26 +16,26 @@ struct GasTable {
   std::vector<GasState> means;  ///< cell means, x fastest, z slowest
 };
 
-/// The cells of a gas in an output of an archive (`t00042.h5`) that contains c.density, c.velocity and c.pressure, or
-/// in a file made by tools/coarsen. Internal energy is p / ((gamma-1) rho) of the means. Throws FileError where the
-/// file cannot be read or does not hold these.
+/// Reads the cell means of a gas from an output of an archive (`t00042.h5`) that contains c.density, c.velocity and
+/// c.pressure, or from a file made by tools/coarsen. The internal energy is p / ((gamma-1) rho), from these means.
+/// Throws FileError if the file cannot be read or does not contain them.
 GasTable readGasTable(const std::filesystem::path& file, double gamma);
 
-/// The cell means of another run, of higher resolution, as the reference of a scene that has no exact solution. Valid
-/// at the time of the table and within its box.
+/// The cell means of another run with higher resolution, as the reference for a scene that has no exact solution. They
+/// are valid at the time of the table and within its box.
 class Tabulated : public GasReference {
  public:
   /// Throws std::invalid_argument if the table has no cells, no extent, or a number of means that differs from the
   /// number of cells.
   explicit Tabulated(GasTable table);
 
-  /// Interpolates linearly between the centres of cells, which smears shocks over two of them. Throws std::domain_error
-  /// at another time.
+  /// Interpolates linearly between the centres of cells, which smears a shock over two cells. Throws std::domain_error
+  /// at any other time than that of the table.
   GasState at(const Vec3& x, double t) const override;
   bool holdsAt(double t) const override;
   bool covers(const Vec3& x, double t) const override;
-  /// Mean of the cells, each weighted by the part of it that is in the box: exact for boxes made of whole cells.
-  /// Throws std::invalid_argument where upper < lower or the box leaves the table.
+  /// Mean of the cells, weighted by the part of each that is in the box; exact for boxes made of whole cells. Throws
+  /// std::invalid_argument if upper < lower, or if the box is not within the table.
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
  private:

@@ -16,17 +16,17 @@ struct TubePlacement {
 
 /// The exact solution of a Riemann problem in a tube with an arbitrary direction.
 ///
-/// With s = normal . x, the fields are those of ExactRiemann at s along x. If there is a mirror, the tube is on the
-/// same side of it as the diaphragm; its image is beyond. With a period, there is a second mirror half a period away.
-/// Valid until a wave reaches a mirror.
+/// With s = normal . x, the fields at x are those of ExactRiemann at the position s. If there is a mirror, the tube is
+/// on the side of the diaphragm, and its image on the other side. With a period, there is a second mirror half a period
+/// away. Valid until a wave reaches a mirror.
 class TiltedTube : public GasReference {
  public:
-  /// `problem` is along x; its diaphragm is a distance from the origin along the tube. Throws std::invalid_argument as
-  /// ExactRiemann does, and if the normal is not a unit vector, the diaphragm is not between the mirrors, a period has
+  /// The diaphragm of `problem` is a distance from the origin along the tube. Throws the std::invalid_argument of
+  /// ExactRiemann, and one if the normal is not a unit vector, the diaphragm is not between the mirrors, a period has
   /// no mirror, or gas moves at a mirror.
   TiltedTube(const RiemannProblem& problem, const TubePlacement& placement);
 
-  /// Throws std::domain_error from the time on at which a wave reaches a mirror.
+  /// Throws std::domain_error at times after a wave has reached a mirror.
   GasState at(const Vec3& x, double t) const override;
   bool holdsAt(double t) const override { return t >= 0 && t < meetingTime_; }
   /// Uses piecewiseMean with one piece between any two waves; there is no quadrature along the axes across the tube.
@@ -35,7 +35,7 @@ class TiltedTube : public GasReference {
  private:
   void checkMirrors() const;
   void findMeetingTime();
-  /// Adds the planes at which a plane at `position` along the tube and its images cut the box.
+  /// Adds the planes in the box that are the plane at `position` along the tube, or one of its images.
   void addImages(double position, const Vec3& lower, const Vec3& upper, std::vector<Plane>& planes) const;
 
   ExactRiemann tube_;

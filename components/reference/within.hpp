@@ -11,7 +11,7 @@ struct Region {
   Vec3 lower, upper;
 };
 
-/// A reference restricted to a region: the fields are the same, but errors are measured only in the region.
+/// A reference restricted to a region. Its fields are unchanged, but errors are measured only in the region.
 class Within : public GasReference {
  public:
   Within(std::shared_ptr<const GasReference> gas, const Region& region) : gas_(std::move(gas)), region_(region) {}
