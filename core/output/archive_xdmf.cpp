@@ -147,8 +147,8 @@ std::string nameOf(const FieldBlock& field) {
   return group + field.array.label;
 }
 
-/// Adds a uniform grid for each box, with its part of each field. The names differ from time to time, because a reader
-/// would search long for new names if several grids had the same name.
+/// Adds a uniform grid for each box, with its part of each field. Grids of different times have different names,
+/// because a reader would search long for new names if several grids had the same one.
 void addBoxes(pugi::xml_node collection, const Context& context, const Snapshot& snapshot) {
   set(collection, "CollectionType", "Spatial");
   std::uint64_t first = 0;

@@ -35,8 +35,7 @@ std::vector<output::FilePart> writeCheckpoint(RunState& run, const CheckpointTar
 /// grid, and DamageError if values have changed since the checkpoint was written. All ranks call it.
 void readCheckpoint(RunState& run);
 
-/// The extent of the archive when the checkpoint was written from which a run has been restarted; call it after
-/// readCheckpoint().
+/// The extent that the archive had when the checkpoint of a restarted run was written. Call it after readCheckpoint().
 output::ArchivePoint archivePointOf(const RunState& run);
 
 }  // namespace tushar::simulation

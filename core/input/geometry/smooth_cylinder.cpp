@@ -112,8 +112,8 @@ const Schema<SmoothCylinder>& SmoothCylinder::schema() {
         .choice("discretization_scheme", &Self::scheme,
                 {{"pie_slices", Scheme::pieSlices}, {"constant_particle_volumes", Scheme::constantVolumes}},
                 Scheme::pieSlices,
-                "how many particles a ring has: num_angular, or as many as make each particle about as long as the ring "
-                "is wide")
+                "how many particles a ring has: num_angular, or as many as make each particle about as long as the "
+                "ring is wide")
         .required("bottom", &Self::bottom, "m", "centre of one end")
         .required("top", &Self::top, "m", "centre of the other end")
         .value("inner_radius", &Self::innerRadius, 0, "m", "radius of the hole", nonNegative())
