@@ -36,19 +36,19 @@ void checkWeight(const AverageSettings& read, const input::Element& module, inpu
 
 const input::Schema<AverageSettings>& averageSchema() {
   static const input::Schema<Weight> weight =
-      input::Schema<Weight>("weight", "The variable whose sum divides those of weighting=\"mass\".")
+      input::Schema<Weight>("weight", "The variable by whose sum those with weighting=\"mass\" are divided.")
           .location(&Weight::where, "label")
           .requiredAttribute("label", &Weight::label, "1", "a cell variable, such as c.density");
   static const input::Schema<AverageSettings> schema =
       samplingSchema<AverageSettings>(
           "planeAverage",
-          "Means over planes of cells, on several levels of the coarsest ones, one file per "
-          "variable and time.",
+          "Means over planes of cells (of the coarsest ones, if there are several levels), one "
+          "file per variable and time.",
           weightedSchema())
           .requiredChoice("planeOrientation", &AverageSettings::axis, {{"YZ", 0}, {"XZ", 1}, {"XY", 2}},
                           "the axes along which the planes lie")
           .section("weight", &AverageSettings::weight, weight,
-                   "the variable whose sum divides those of weighting=\"mass\"")
+                   "the variable by whose sum those with weighting=\"mass\" are divided")
           .check(checkWeight);
   return schema;
 }

@@ -251,7 +251,7 @@ const Schema<ExchangeModelSection>& exchangeModelSchema() {
   static const Schema<ExchangeModelSection> schema = [] {
     Schema<ExchangeModelSection> tags("Model", "How bodies and gases exchange momentum and heat.");
     tags.requiredChoiceAttribute("type", &ExchangeModelSection::type, {{"scalar", "scalar"}, {"slip", "slip"}},
-                                 "by <exchange_coefficients>; slip: the same, because <useSlipCoeffs> must be false")
+                                 "by <exchange_coefficients>; slip: the same, since <useSlipCoeffs> can only be false")
         .value("useSlipCoeffs", &ExchangeModelSection::slips, true, "1",
                "for slip: false; coefficients from the mean free path of a gas are not available");
     for (const char* tag :

@@ -119,7 +119,8 @@ const Schema<MassExchange>& massExchangeSchema() {
           .foreignAttribute("type", "Test")
           .required("fromMaterial", &MassExchange::from, "1", "the gas or the body that is converted")
           .required("toMaterial", &MassExchange::to, "1", "the gas into which it is converted")
-          .required("rate", &MassExchange::rate, "1/s", "fraction that is converted per time", input::nonNegative())
+          .required("rate", &MassExchange::rate, "1/s", "fraction that is converted per unit time",
+                    input::nonNegative())
           .value("startTime", &MassExchange::startTime, 0, "s", "time at which the conversion begins");
   return schema;
 }
@@ -197,7 +198,8 @@ double ScalarRegion::at(const Vec3& point) const {
 
 const Schema<ModelsSection>& modelsSchema() {
   static const Schema<ModelsSection> schema =
-      Schema<ModelsSection>("Models", "Quantities that are transported with the gas.")
+      Schema<ModelsSection>("Models",
+                            "Scalars that are transported with the gas, and conversions of one material into another.")
           .custom(
               "Model",
               [](ModelsSection& models, const Element& section, Diagnostics& diagnostics) {

@@ -51,7 +51,7 @@ const input::Schema<RiemannSection>& riemannSchema() {
                  "direction of the tube; its length does not matter")
           .ours()
           .value("diaphragm", &RiemannSection::diaphragm, 0.5, "m",
-                 "the gases meet where normal · x has this value at t = 0")
+                 "at t = 0, the gases meet where normal · x has this value")
           .ours()
           .optional(
               "mirror", &RiemannSection::mirror, "m",
