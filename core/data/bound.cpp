@@ -8,7 +8,7 @@ namespace tushar::data {
 
 namespace {
 
-/// A summary of many numbers, for checking them at once.
+/// A summary of many numbers, with which all of them are checked together.
 struct Look {
   double least;  ///< the smallest number that is not NaN, at most 1; computed only if it is needed
   double sum;    ///< sum of the numbers: not finite if any of them is not finite, or if it overflows

@@ -8,7 +8,7 @@
 
 namespace tushar::input {
 
-/// Collects all problems of a scene, so that the user sees them at once.
+/// Collects all problems of a scene, so that the user sees all of them together.
 class Diagnostics {
  public:
   /// Reports a problem at a location; `tagPath` may be empty.

@@ -5,7 +5,7 @@
 
 namespace tushar::report {
 
-/// Memory used by a rank after the last step, and its peak [bytes].
+/// Memory used by a rank at the end of the run, and its peak [bytes].
 struct MemoryUse {
   double peak = 0;       ///< peak resident memory
   double fields = 0;     ///< variables on nodes and cells

@@ -42,7 +42,7 @@ struct EnergyBudget {
 /// Changes of the distribution of patches over the ranks during a run.
 struct Rebalancing {
   int times = 0;
-  int step = 0;  ///< the last step after which patches changed ranks
+  int step = 0;  ///< the latest step after which patches changed ranks
   double before = 1,
          after = 1;  ///< the ratio of the largest cost of a rank to the mean, before and after the last change
 };
@@ -79,7 +79,7 @@ struct Report {
   std::string ended;
   std::string failure, advice;  ///< if the run failed: the unphysical value, and what to try
   double particleSteps = 0;
-  ResidentMemory memory;  ///< memory of the rank that uses most, after the last step
+  ResidentMemory memory;  ///< memory of the rank that uses most, at the end of the run
   MemoryOfRanks memoryOfRanks;
   double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< wall time [s]
   double wallOutputWait = 0;  ///< part of wallOutput spent waiting for an output that was still being written [s]

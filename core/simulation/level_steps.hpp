@@ -29,7 +29,7 @@ class LevelSteps {
   /// NumericalError is thrown, the old state is restored.
   std::optional<data::Minimum> advance(const tasks::StepInfo& whole);
 
-  /// Number of steps of each level in the last step of the coarsest; 0 for levels without cells.
+  /// Number of steps of each level in the latest step of the coarsest level; 0 for levels without cells.
   const std::vector<int>& steps() const { return steps_; }
 
  private:

@@ -31,7 +31,7 @@ class TimeControl {
   explicit TimeControl(const TimeSettings& settings) : settings_(settings), time_(settings.initTime) {}
 
   double time() const { return time_; }   ///< Current time [s].
-  double delT() const { return del_t_; }  ///< The length of the last step [s].
+  double delT() const { return del_t_; }  ///< The length of the latest step [s].
   int step() const { return step_; }
   /// Whether maxTime or max_Timesteps has been reached.
   bool done() const;

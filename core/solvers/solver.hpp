@@ -72,7 +72,7 @@ class NonlinearProblem {
   /// Computes r(u); the ghosts of r are added to the rows of other ranks. Returns false if the residual is undefined
   /// for this u, so that a smaller step must be tried.
   virtual bool residual(std::span<const double> u, std::span<double> r) = 0;
-  /// Computes dr/du at the u of the last call of residual().
+  /// Computes dr/du at the u of the latest call of residual().
   virtual void tangent(Matrix& matrix) = 0;
   /// Whether r(u) of the owned unknowns is only rounding error; same result on all ranks.
   virtual bool isNegligible(std::span<const double> /*u*/, std::span<const double> /*r*/) const { return false; }

@@ -88,7 +88,7 @@ class Exchange {
   void fillCopies(const BoundGhostFill& fill, const grid::Patch& patch, ReceivedMessages* messages);
   bool isHere(const GhostCopy& copy) const { return copy.rank == warehouse_->ranks().rank(); }
   void noteUnresolved();
-  /// Calls `work(fill, patch, index of the patch)` on several threads at once.
+  /// Calls `work(fill, patch, index of the patch)` on several threads in parallel.
   template <class Work>
   void forEach(const Work& work);
   const GhostPlan& planOf(const BoundGhostFill& fill) {

@@ -12,7 +12,7 @@ namespace tushar::tasks {
 class ParticleInstaller {
  public:
   using Work = std::function<void(const grid::Patch&, ParticleMaker&)>;
-  /// Calls a function for all patches, possibly for several at once.
+  /// Calls a function for all patches, possibly for several patches in parallel.
   using OnPatches = std::function<void(const Work&)>;
 
   ParticleInstaller(data::Warehouse& warehouse, int material, const std::vector<ParticleMaker>& makers);

@@ -21,7 +21,7 @@ struct StepInfo {
   double part = 0;         ///< elapsed fraction of the next coarser level's step, if `level` is given
 };
 
-/// The position of an error in words: task, patch (-1: all at once), material (-1: none), step, time.
+/// The position of an error in words: task, patch (-1: all patches together), material (-1: none), step, time.
 std::string placeOf(const CompiledTask& task, int patch, int material, const StepInfo& at);
 
 /// Runs compiled task graphs with the warehouse of this rank.
@@ -31,7 +31,7 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 /// All ranks run the same graph, each on its own patches. A rank waits for others only if it needs their values: for
 /// ghosts, in a relocation, and at the end of the graph, where reductions are merged and all ranks agree on the
 /// outcome. A rank on which a task fails runs no further task, and neither does a rank that would read its values. A
-/// task for all patches at once is run by all ranks that have patches, or by none.
+/// task that gets all patches of a rank together is run by all ranks that have patches, or by none.
 ///
 /// A graph whose tasks use only cells of their own level may be run on one level after the other, each with its own
 /// step: the results remain on all levels until forgetNew(), and commitLevel() copies those of one level to its old

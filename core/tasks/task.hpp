@@ -54,8 +54,8 @@ struct Task {
   std::vector<std::string> materials;  ///< names of the materials; empty for a task that does not run over materials
   std::vector<Access> accesses;
   TaskBody body;
-  bool acrossMaterials = false;  ///< whether the body gets all materials of a patch at once
-  bool perRank = false;          ///< whether the body gets all patches of the rank at once
+  bool acrossMaterials = false;  ///< whether the body gets all materials of a patch together
+  bool perRank = false;          ///< whether the body gets all patches of the rank together
 
   bool perMaterial() const { return !materials.empty(); }
   /// Whether an access refers to a separate variable for each material.

@@ -53,7 +53,7 @@ class TaskList {
         Sees::allMaterials);
   }
 
-  /// Adds a task that runs `body(patches, arguments...)` once on a rank, for work that needs all patches at once, such
+  /// Adds a task that runs `body(patches, arguments...)` once on a rank, for work that needs all patches together, such
   /// as a linear solve: an access to a label becomes a std::vector of views, one for each patch.
   template <class Body, class... Arguments>
   void perRank(std::string_view name, Body body, Arguments... arguments) {
