@@ -21,7 +21,7 @@ enum class Placement {
 
 /// The initial shape and state of a body of gas; the state may vary in space.
 struct GasObject {
-  Location where;  ///< in the scene
+  Location where;  ///< location of its tag in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
   Index3 particlesPerCell{{1, 1, 1}};  ///< number of particles per cell along x, y, z
   input::Expression density;           ///< density [kg/m³]

@@ -117,7 +117,7 @@ inline constexpr ReductionLabel<Sum> volume{"TotalVolumeDeformed", "m^3", "volum
 inline constexpr ReductionLabel<Sum> thermalEnergy{"ThermalEnergy", "J", "mass times specific heat times temperature"};
 inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
     "RigidReactionForce", "N",
-    "force by which the master of a contact of type rigid or specified resists the stresses of the others"};
+    "force by which the master of a contact of type rigid or specified resists the stresses of the other materials"};
 inline constexpr ReductionLabel<Sum> strainEnergy{
     "StrainEnergy", "J",
     "strain energy of elastic materials; for others, its increase in the latest step, as in Uintah"};

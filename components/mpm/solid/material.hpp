@@ -12,7 +12,7 @@ namespace tushar::mpm::solid {
 
 /// The initial shape and state of a body; the state may vary in space.
 struct Body {
-  Location where;  ///< in the scene
+  Location where;  ///< location of its tag in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
   Index3 particlesPerCell{{1, 1, 1}};  ///< number of particles per cell along x, y, z
   input::VectorExpression velocity;    ///< velocity [m/s]

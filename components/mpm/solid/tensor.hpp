@@ -6,8 +6,8 @@
 
 namespace tushar::mpm::solid {
 
-/// A second-order tensor in x, y, z, row by row, of numbers, or of Lanes for several tensors at once. Always three by
-/// three: a solid in one or two dimensions is in plane strain.
+/// A second-order tensor in x, y, z, row by row, of numbers or, for several tensors side by side, of Lanes. Always
+/// three by three: a solid in one or two dimensions is in plane strain.
 template <class Real>
 using TensorOf = Eigen::Matrix<Real, 3, 3, Eigen::DontAlign | Eigen::RowMajor>;
 using Matrix3 = TensorOf<double>;

@@ -48,8 +48,7 @@ CellState smoothViscosity(Lanes pressure, Lanes density, Lanes soundSpeed, const
                           const Viscosity& viscosity);
 
 /// Computes p = (gamma - 1) IE_c / V_c, q by shockViscosity (apic) or smoothViscosity (affineFlip), and the sensor of
-/// shocks.
-/// A cell at the rim of the grid counts as its own neighbour beyond the rim.
+/// shocks. A cell at the rim of the grid counts as its own neighbour beyond the rim.
 template <int D, class Scheme>
 void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscosity, CellView<const double> mass,
                      CellView<const double> internalEnergy, CellView<const Tensor<D>> gradient,

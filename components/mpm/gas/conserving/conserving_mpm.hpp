@@ -14,8 +14,9 @@ namespace tushar::mpm::gas::conserving {
 /// the grid over its whole box, as in GIMP, Bardenhagen & Kober, CMES 5 (2004) 477: w_i is the mean of the shape
 /// function of node i over the box, o_c the fraction of the box in cell c (footprint.hpp).
 ///
-/// From the grid's state at its start, a step computes the accelerations a_i of the nodes, and the work f_c that
-/// exactly these forces do on the gas in each cell (cells.hpp). Then particles get from the grid (transfer.hpp)
+/// From the state of the grid at the start, a step computes the forces and accelerations a_i of the nodes, and the work
+/// f_c that exactly these forces do on the gas in each cell (cells.hpp). Then particles get from the grid
+/// (transfer.hpp)
 ///   (E1) new velocity modes: moments of the nodal velocities over the box,
 ///   (E2) new K_A: the kinetic energy of the motion about the mean,
 ///   (E3) new e: e (1 + sum_c o_c f_c), and all the kinetic energy that (E1) and (E2) lose.

@@ -147,8 +147,8 @@ struct Footprint {
     return all;
   }
 
-  /// Index of the lowest cell that the box of the first lane overlaps, and of the node below this cell. Each further
-  /// lane begins one cell later.
+  /// Index of the lowest cell that the box of the first lane overlaps, and of the node below this cell. The indices of
+  /// each further lane are greater by one.
   Index<D> first() const {
     Index<D> first = start;
     for (std::size_t d = 0; d < D; ++d) first[static_cast<int>(d)] -= along[d].below;

@@ -17,7 +17,7 @@ struct CarefulSum {
 
 /// N sums over particles at the nodes (More = 1) or cells (More = 0) of a box of cells. Rounding errors are summed,
 /// too, and `finish()` adds them to the sums. So a sum does not depend on the order of the particles, which differs in
-/// a mirror image, unless it lies within about 1e-32 of the midpoint of two floating-point numbers.
+/// a mirror image, unless the sum lies within about 1e-32 of the midpoint of two floating-point numbers.
 template <int D, std::size_t N, int More>
 class GridSums : public GridFields<D, N> {
   using Fields = GridFields<D, N>;

@@ -47,7 +47,7 @@ inline constexpr CellLabel<double> shock{"c.shock", "1", "shock sensor, from 0 (
 template <int D>
 inline constexpr CellLabel<Tensor<D>> stress{
     "c.stress", "Pa", "pressure and viscosity on the faces, at the positions of the faces half a step later"};
-inline constexpr CellLabel<double> work{"c.work", "1", "relative change of the internal energy by compression"};
+inline constexpr CellLabel<double> work{"c.work", "1", "relative change of the internal energy due to compression"};
 inline constexpr CellLabel<double> movedMass{"c.movedMass", "kg", "mass in the cell before the remap"};
 inline constexpr CellLabel<double> movedEnergy{"c.movedEnergy", "J", "internal energy in the cell before the remap"};
 }  // namespace c

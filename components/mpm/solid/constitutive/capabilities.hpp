@@ -88,9 +88,9 @@ struct Vectorized {
   }
 };
 
-/// Computes dP/dF [Pa] of P = J sigma F^-T at the end of a step in which L dt = F F_old^-1 - I; dP_iJ/dF_kL is in row 3
-/// i + J and column 3 k + L. It must be the derivative of the stress that updateStress computes from the state at the
-/// start of the step. Implicit steps need it.
+/// Computes dP/dF [Pa] of P = J sigma F^-T at the end of a step in which L dt = F F_old^-1 - I. Row 3 i + J and column
+/// 3 k + L contain dP_iJ/dF_kL. It must be the derivative of the stress that updateStress computes from the state at
+/// the start of the step. Implicit steps need it.
 struct NominalTangent {
   struct Name {
     int nominalTangent;

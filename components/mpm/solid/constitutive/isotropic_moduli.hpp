@@ -11,7 +11,7 @@ namespace tushar::mpm::solid {
 /// A State without variables.
 struct NoState {};
 
-/// Base of models whose waves are those of linear elasticity at the density of the step, rho = rho_0 / det F.
+/// Base of models whose waves are those of linear elasticity at the current density, rho = rho_0 / det F.
 struct IsotropicModuli {
   double bulkModulus = 0;   ///< bulk modulus K [Pa]
   double shearModulus = 0;  ///< shear modulus G [Pa]

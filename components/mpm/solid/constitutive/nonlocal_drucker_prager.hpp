@@ -98,7 +98,7 @@ struct NonlocalDruckerPrager {
     return increment;
   }
   /// Returns a trial stress, with the root `size` of J2, to the apex of the surface that results from its plastic
-  /// strain:
+  /// strain.
   /// The result is the length of this strain, the square root of (size/(2^(1/2) G))² + (p - p_apex)²/(3 K²).
   double toApex(double start, double size, double toAxis, Matrix3& stress) const {
     const double mean = stress.trace() / 3, onAxis = mean - 3 * bulkModulus * dilation * toAxis / flowScale();

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int mostSteps = 51;
 constexpr double tolerance = 1e-7;
-/// A body with less mass at a node is ignored there, as in Uintah [kg].
+/// A body with less mass than this at a node is ignored there [kg], as in Uintah.
 constexpr double leastMass = 1e-16;
 
 template <int N>
@@ -76,7 +76,7 @@ Column<D + 1> step(const std::vector<SidedParticle<D>>& particles, double lambda
   return solved<D + 1>(matrix, right);
 }
 
-/// Index of the material to which the plane at a node belongs, or -1.
+/// Index of the material to which the plane at a node belongs; -1 if there is no plane.
 template <int D>
 int foremost(const SeparatingPlanes<D>& planes, const Index<D>& node) {
   for (std::size_t m = 0; m < planes.size(); ++m)

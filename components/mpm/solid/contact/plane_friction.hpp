@@ -18,8 +18,8 @@ struct SidedParticle {
 /// Normal of the plane phi . x + phi_0 = 0 that separates the particles around a node: it minimises
 ///   sum_p (c_p - tanh((phi . x_p + phi_0) / 2))^2 + lambda |phi|^2,   c_p = -1 on one side, 1 on the other,
 /// by at most 51 Gauss-Newton steps from 0; lambda = 1e-7 width^2, m^2 (section 3.3 of the source). If the normals of
-/// no two successive steps agree to 1e-7 (in the cosine of the angle between them), it is the normal of the steps that
-/// agree best.
+/// no two successive steps agree to 1e-7 (in the cosine of the angle between them), the result is the normal of the
+/// steps that agree best.
 template <int D>
 Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double width);
 

@@ -189,8 +189,8 @@ const Schema<Erosion>& erosionSchema() {
   return schema;
 }
 
-/// Checks a damage model against the constitutive model, and copies the elastic constants of the latter into the
-/// former.
+/// Checks that a damage model fits the constitutive model, and copies the elastic constants of the constitutive model
+/// into the damage model.
 void connect(Material& material, const Element& parent, const Element& tag, Diagnostics& diagnostics) {
   const bool isJohnsonCook = std::holds_alternative<JohnsonCookDamage>(material.damage);
   const bool needsRate = isJohnsonCook || std::holds_alternative<HancockMackenzieDamage>(material.damage);

@@ -194,9 +194,9 @@ constexpr std::array implicitOnly{"with_gauss_solver",
                                   "delT_increase_factor",
                                   "temperature_solve"};
 
-/// Refuses a small `cpdi_lcrit`: Uintah shrinks domains with a corner farther from the centre than that many cells,
-/// except for axisymmetric ones. Here none reaches farther than a cell along an axis, so that its corners are at most
-/// 3^(1/2) cells away.
+/// Refuses a small `cpdi_lcrit`. Uintah shrinks domains with a corner farther from the centre than this number of
+/// cells, except in axisymmetric scenes. In Tushar, no domain extends farther than a cell from its centre along an
+/// axis, so that its corners are at most 3^(1/2) cells away.
 void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("cpdi_lcrit");
   if (!given || read.interpolator != Interpolator::cpdi) return;

@@ -11,8 +11,8 @@ namespace tushar::mpm::solid {
 /// Shape functions of solids with explicit time steps, each in a separate module: `mpm_solid_gimp`, …
 enum class Interpolator { linear, gimp, cpdi, quadratic, cubic };
 
-/// The tasks for shape functions in one to three dimensions, or in radius and axis; null for combinations that do not
-/// exist.
+/// The tasks for shape functions in one to three dimensions, or in axisymmetric scenes; null for combinations that do
+/// not exist.
 struct TasksOfShapes {
   const ExplicitTasks<1>* line = nullptr;
   const ExplicitTasks<2>* plane = nullptr;

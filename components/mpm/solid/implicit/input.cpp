@@ -47,13 +47,14 @@ struct Section {
 void declareSteps(Schema<Section>& schema) {
   schema
       .value("convergence_criteria_disp", &Section::displacement, 1e-10, "1",
-             "Newton's iteration ends when the square of the last change of displacement, relative to that of the "
-             "largest change, is below this",
+             "Newton's iteration ends when the square of the latest change of displacement, relative to the "
+             "square of the largest change, is below this",
              input::positive())
-      .value("convergence_criteria_energy", &Section::energy, 4e-10, "1",
-             "Newton's iteration ends only when the product of the last change and the residual before it, relative to "
-             "the first such product, is also below this",
-             input::positive())
+      .value(
+          "convergence_criteria_energy", &Section::energy, 4e-10, "1",
+          "Newton's iteration ends only when the product of the latest change and the residual before it, relative to "
+          "the first such product, is also below this",
+          input::positive())
       .value("iters_before_timestep_restart", &Section::maxIterations, 25, "1",
              "largest number of Newton iterations; if more are needed, the step is repeated with half the time step",
              input::atLeast(1))

@@ -18,8 +18,8 @@ struct InStep {
   static constexpr bool hasAcceleration = true;
   static auto read(const auto& label) { return requiresOld(label); }
 };
-/// Accesses for the solve that starts a run, which reads the state computed by earlier tasks of the same phase, without
-/// accelerations.
+/// Accesses for the solve that starts a run. It reads the state that earlier tasks of the same phase compute; there are
+/// no accelerations yet.
 struct AtStart {
   static constexpr bool hasAcceleration = false;
   static auto read(const auto& label) { return requiresNew(label); }

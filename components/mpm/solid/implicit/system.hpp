@@ -80,7 +80,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
     double rigidity = 0;          ///< sum of the forces that particles would exert at a strain of 1 [N]
     /// Velocity [m/s], acceleration [m/s^2], force [N].
     Vec<D> velocity = Vec<D>::Zero(), acceleration = Vec<D>::Zero(), force = Vec<D>::Zero();
-    double support = 0;  ///< stiffness [N/m] of a weak spring to the position to which the velocity takes the node
+    double support = 0;  ///< stiffness [N/m] of a weak spring that pulls the node to where its velocity takes it
   };
   static constexpr int sums_ = 3 + 3 * D;
 

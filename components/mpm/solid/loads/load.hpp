@@ -45,17 +45,17 @@ struct SurfaceLoad {
   Surface surface;
   LoadCurve curve;       ///< load as a function of time [Pa, N m, or W/m^2]
   int material = -1;     ///< index of the material; -1: all
-  Location where;        ///< in the scene
+  Location where;        ///< location of its tag in the scene
   double particles = 0;  ///< sum of the weights of the particles at the surface, computed by countParticles
   bool outwardNormal =
-      /// For pressure on faces of particles: whether it acts on the face towards normalAt or on the opposite face.
+      /// For pressure on faces of particles: whether it acts on the face towards normalAt, not on the opposite face.
       true;
 
   /// Whether the load acts on a particle of a body: it does if the particle lies along the surface of the load and at
   /// the surface of the body.
   bool acts(const grid::Level& level, const Body& body, const Vec3& point) const;
   /// Force of a pressure on a particle [N]; for a torque T, its share T / (n r) along r x axis, as in Uintah: a
-  /// positive one turns a right-handed screw from the top of the cylinder to its bottom.
+  /// positive torque turns a right-handed screw from the top of the cylinder to its bottom.
   Vec3 force(const Vec3& point, double time) const;
   /// Force, torque or heat flow per particle [N, N m or W].
   double share(const Vec3& point, double time) const;

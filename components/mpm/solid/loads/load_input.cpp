@@ -36,7 +36,7 @@ struct PhysicalBC {
   LoadsSection mpm;
 };
 
-/// The schema of the box of a load, which may be flat, unlike that of a body.
+/// The schema of the box on which a load acts; unlike the box of a body, it may be flat.
 const Schema<input::Box>& boxSchema() {
   static const Schema<input::Box> schema = Schema<input::Box>("box", "A flat or thin box.")
                                                .foreignAttribute("label", "name")

@@ -93,7 +93,7 @@ struct NewParticles {
   }
 
  private:
-  /// Moves the last particle to its position in the manufactured solution at time 0.
+  /// Moves the particle that was added last to its position in the manufactured solution at time 0.
   void deform(const Level& level, const Start& start, const Material& material, const Vec3& point) const {
     const Manufactured& solution = *start.solution;
     const Elastic elastic = elasticOf(material);
@@ -107,7 +107,8 @@ struct NewParticles {
   }
 };
 
-/// Adds the particles of a body that start in a cell at the positions of its seeds; `inCell` counts those of the cell.
+/// Adds the particles of a body that start in a cell at the positions of its seeds; `inCell` counts the particles of
+/// the cell.
 template <int D>
 void addSeeds(const Level& level, const Start& start, const Material& material, const Body& body, const Index<D>& cell,
               ParticleId& inCell, ParticleMaker& maker, const NewParticles<D>& particles) {

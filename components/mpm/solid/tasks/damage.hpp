@@ -78,7 +78,7 @@ struct DamageGrowth {
   }
 };
 
-/// Whether the plastic flow of a particle has become unstable in the step; its stress is the one before damage.
+/// Whether the plastic flow of a particle has become unstable in the step, judged by the stress before damage.
 inline bool isUnstable(const Material& material, int p, int stateSize, double dt, const DamageGrowth& d) {
   if (!material.erosion.acts() || !d.state || !material.model->checksStability()) return false;
   const Matrix3& f = d.deformation[p];

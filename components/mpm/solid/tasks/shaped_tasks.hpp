@@ -43,8 +43,8 @@ void scheduleTemperatureUpdate(TaskList& tasks, const ShapedTasks<D>& shaped, co
 }
 
 /// Adds motion, forces, stresses and accelerations on the nodes. Separate tasks compute them, because a scene may need
-/// the forces in every step, and the other quantities only for outputs.
-/// `volume` and `stress` read those of particles, with the ghost cells that shape functions reach.
+/// the forces in every step, and the other quantities only for outputs. `volume` and `stress` read these variables of
+/// particles, with the ghost cells that shape functions reach.
 template <int D, class Volume, class Stress>
 void scheduleShowOnGrid(TaskList& tasks, const ShapedTasks<D>& shaped, const std::vector<Material>& materials,
                         const Vec3& commonSize, KeptSizes keepsSizes, Volume volume, Stress stress) {

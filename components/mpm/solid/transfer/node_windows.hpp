@@ -5,13 +5,13 @@
 
 namespace tushar::mpm::solid {
 
-/// The rows of nodes on and around the patch to which particles of a set contribute, including ghosts.
+/// The rows of nodes, on and around the patch, to which the particles of a view contribute, including ghost particles.
 template <int D>
 const data::TouchedRows& touchedRows(const ParticleView<const Vec<D>>& particles, int ghostNodes) {
   return particles.set().touched(ghostNodes, D);
 }
 
-/// Access to records relative to a node, which may be outside the stored ones.
+/// Access to records relative to the node `first`, whose own record need not be stored.
 template <class Record, int D>
 NodeWindow<Record, D> windowFrom(const NodeView<Record>& records, const Index<D>& first) {
   const Box& stored = records.stored();

@@ -14,7 +14,7 @@ struct Redistribution {
     splitMerge,  ///< halve large particles, merge close ones
     reseed,      ///< replace the particles by new ones at the centres of equal parts of the cell
   };
-  Location where;  ///< in the scene
+  Location where;  ///< location of its tag in the scene
   Mode mode = Mode::splitMerge;
   int minParticles = 2;     ///< smallest number of particles per cell
   int maxParticles = 16;    ///< largest number of particles per cell

@@ -37,8 +37,7 @@ inline double currentPorosity(const Constants& c, double plasticStrain) {
 }
 
 /// Bulk modulus of the saturated material [Pa], from that of the dry material, K_d: Gassmann, Vierteljahrsschr.
-/// Naturforsch.
-/// Ges. Zürich 96 (1951) 1, but with phi / K_m subtracted once more, as in Uintah's Arenisca.
+/// Naturforsch. Ges. Zürich 96 (1951) 1, but with phi / K_m subtracted once more, as in Uintah's Arenisca.
 inline double saturatedBulk(const Constants& c, double plasticStrain) {
   const double grains = c.matrixBulk(), dry = c.b0 - lossOfBulk(c, plasticStrain);
   const double phi = currentPorosity(c, plasticStrain), alpha = 1 - dry / grains;

@@ -17,8 +17,8 @@ struct Point {
 };
 
 /// One substep, with the moduli at its start: elastic, or with a return to a yield surface that moves with the
-/// volumetric plastic strain. The amount of the motion is found by bisection on a fraction of the plastic strain for
-/// the fixed surface, until the strain that moves the surface equals the strain of the return to it. Homel, Guilkey &
+/// volumetric plastic strain. Bisection finds the strain that moves the surface, as a fraction of the plastic strain of
+/// a return to the fixed surface: it equals the plastic strain of the return to the moved surface. Homel, Guilkey &
 /// Brannon, Comput. Mech. 56 (2015) 565.
 class Substep {
  public:

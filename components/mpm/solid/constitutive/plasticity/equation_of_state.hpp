@@ -48,8 +48,7 @@ struct HyperelasticVolume {
 
 /// The pressure p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta)² + Gamma_0 rho_0 c_v (T - T_0), eta = 1 -
 /// J, of a material whose shock velocity is U = C_0 + S_alpha u; Wilkins, Computer Simulation of Dynamic Phenomena
-/// (1999), chapter 3. Uintah has
-/// no such model today.
+/// (1999), chapter 3. Uintah has no such model today.
 struct MieGruneisen {
   static constexpr std::string_view name = "mie_gruneisen_temperature";
 

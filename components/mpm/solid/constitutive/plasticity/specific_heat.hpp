@@ -81,7 +81,7 @@ struct SteelHeat {
             .value("n_HighT", &Self::n1, 0.35, "1", "n above the transition");
     return schema;
   }
-  /// At T_c itself, the specific heat has the value one kelvin below, as in Uintah.
+  /// The specific heat; at T_c itself, it has its value one kelvin below T_c, as in Uintah.
   double specificHeat(const HeatState& s, double) const {
     const double away = s.temperature == transition ? -1 : s.temperature - transition;
     const double t = away / transition;

@@ -257,10 +257,10 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
       if ((*node)[lane::mass] > 0)
         setLanes<D>(*node, lane::velocity, lanes<D>(*node, lane::velocity) / (*node)[lane::mass]);
   });
-  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, rows, record);  // sides do not act on others
+  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, rows, record);  // sides act only on these
 }
 
-/// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i,
+/// Computes m_i = sum_p S_i m_p, v_i = sum_p S_i m_p v_p / m_i,
 /// f_i = sum_p S_i f_p - V_p (sigma_p - q_p I) grad S_i; where axisymmetric, the hoop stress pulls inwards with S_i /
 /// r. The values are complete on those of the patch's own nodes that particles touch; on other nodes they are 0 if
 /// `clearsAll`, otherwise undefined.

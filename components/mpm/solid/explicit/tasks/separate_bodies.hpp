@@ -26,8 +26,8 @@ struct PlaneSources {
             .normal = take(computes(g::separatingNormal<D>)),
             .prominence = take(computes(g::prominence))};
   }
-  /// Column i: the vector [m] from the centre of particle p to the centre of the face that was initially above it
-  /// along axis i.
+  /// Half the edges of particle p, one per column: column i is the vector [m] from the centre of the particle to the
+  /// centre of the face that was initially above it along axis i.
   template <class Shape>
   Eigen::Matrix<double, D, D> halfEdges(const Level& level, const Vec3& commonSize, int p) const {
     Eigen::Matrix<double, D, D> half = Eigen::Matrix<double, D, D>::Zero();

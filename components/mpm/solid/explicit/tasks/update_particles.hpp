@@ -105,8 +105,8 @@ template <int D>
   if (u.velocityGradient) (*u.velocityGradient)[p] = velocityGradient;
 }
 
-/// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric), F_p = (I + L_p dt) F_p, in substeps
-/// or, if the scene requests it, by terms of the series of exp(L_p dt).
+/// Computes L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric), F_p = (I + L_p dt) F_p, in
+/// substeps or, if the scene requests it, by terms of the series of exp(L_p dt).
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt,
                                                   const Gathered<D>& sums, const Erosion& erosion,
