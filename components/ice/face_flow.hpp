@@ -92,7 +92,7 @@ class GasBefore {
   void fillWithPressure(const CellView<const double>& pressure, euler::Rows<D, K>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double) { return pressure[cell]; });
   }
-  /// Like fillWithPressure, given the change of the old pressure.
+  /// Fills `rows` like fillWithPressure, given the change of the old pressure.
   void fillWithChange(const CellView<const double>& change, euler::Rows<D, K>& rows) const {
     fillWith(rows, [&](const Index<D>& cell, double old) { return old + change[cell]; });
   }

@@ -36,9 +36,9 @@ struct Counterflow {
   double strainRate = 0;  ///< strain rate a [1/s]
 };
 
-/// The tag `<manufacturedSolution>`: mms_1 is a row of vortices of amplitude A in a wind of 1 m/s along x and y, with
-/// the pressure p_0 - A²/4 (cos 2x + cos 2y), p_0 = 101325 Pa; mms_3 is the initial state of the Taylor-Green vortex
-/// with an angle (M. E. Brachet & al., J. Fluid Mech. 130 (1983) 411).
+/// The tag `<manufacturedSolution>`. mms_1 is a row of vortices of amplitude A in a wind of 1 m/s along x and y; its
+/// pressure is p_0 - A²/4 (cos 2x + cos 2y), with p_0 = 101325 Pa. mms_3 is the initial state of the Taylor-Green
+/// vortex with an angle (M. E. Brachet & al., J. Fluid Mech. 130 (1983) 411).
 struct Manufactured {
   std::string type;
   double amplitude = 1;  ///< amplitude A [m/s]

@@ -43,7 +43,7 @@ struct ErrorNorms {
             .energy = take(computes(labels->energy))};
   }
 
-  /// `weight` is the weight of a cell, Level::weight().
+  /// Adds the errors of a cell, node or particle to the norms; `weight` is the weight of a cell, Level::weight().
   void add(const GasState& found, const GasState& exact, double weight = 1) const {
     density.add(found.density - exact.density, exact.density, weight);
     velocity.add((found.velocity - exact.velocity).norm(), exact.velocity.norm(), weight);

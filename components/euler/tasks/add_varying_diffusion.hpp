@@ -22,7 +22,7 @@ auto diffusingCells(const Level& level, const Gas& gas, const VaryingDiffusion& 
   };
 }
 
-/// Like addDiffusion, for varying viscosity and conduction.
+/// Adds the changes due to viscosity and heat conduction in a step, like addDiffusion, for varying coefficients.
 template <int D>
 void addVaryingDiffusion(const Patch& patch, const Gas& gas, const VaryingDiffusion& how, const OldState<D>& old,
                          double time, double dt, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy,

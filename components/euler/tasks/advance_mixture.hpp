@@ -90,9 +90,9 @@ struct ChangedGas {
     return {.mass = take(modifies(c::gasMass)), .share = take(modifies(c::gasShare))};
   }
 };
-/// Like mendNewCells, for several gases. Since the values of new cells are interpolated separately, this sets the
-/// density to the sum of the masses, and scales the volume fractions so that they add up to 1. If the result is not a
-/// possible state, all children of the parent cell get their mean.
+/// Replaces impossible new cells of several gases, like mendNewCells. Since the values of new cells are interpolated
+/// separately, it first sets the density to the sum of the masses, and scales the volume fractions so that they add up
+/// to 1. If the result is not a possible state, all children of the parent cell get their mean.
 template <int D>
 void mendNewMixture(const Patch& patch, const std::vector<Settings>& gases, const std::vector<Box>& newCells,
                     const ChangedState<D>& state, const std::vector<ChangedGas>& held);

@@ -36,7 +36,7 @@ void advanceCells(const G& gas, const Level& level, const GhostRules<D>& rules, 
   }
 }
 
-/// The Advance<D> for one method and the law of a gas.
+/// Performs one step on a patch, for one method and the law of a gas; chooseAdvance returns it.
 template <int D, class Flux, class Shape, class Law>
 void advance(const Patch& patch, const Gas& gas, const OldState<D>& old, double time, double dt,
              const NewState<D>& fresh, const RimFluxes<D>& rims) {

@@ -26,7 +26,8 @@ bool canBe(const StiffenedGas& gas, const double* density, const double* momentu
   }
   return broken == 0;
 }
-/// The same check for a gas with its own law: its heat has to be positive.
+/// Whether the states of a row of cells are possible for a gas with its own law: its density is positive and finite,
+/// and the law allows its energy.
 template <int D, class Law>
 bool canBe(const Law& law, const double* density, const double* momentum, const double* totalEnergy, int count) {
   for (int i = 0; i < count; ++i) {

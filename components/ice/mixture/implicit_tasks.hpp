@@ -62,7 +62,8 @@ struct LawfulState : euler::OldState<D> {
 };
 inline constexpr euler::Mixture<2> lawsOfShares{.softness = {1, 0}, .stiffness = {0, 1}};
 
-/// Like solvePressure, for several gases; `gas` is the first one, whose method and boundary conditions apply to all.
+/// Solves for the pressure of several gases, like solvePressure. `gas` is the first gas; its method and its boundary
+/// conditions apply to all.
 template <int D>
 void solveMixedPressure(const RankPatches& patches, const mpi::Communicator& ranks, const euler::Settings& gas,
                         const IceSettings& settings, double time, double dt, const std::vector<LawfulState<D>>& before,
@@ -90,7 +91,8 @@ void withLaws(const Gases& gases, Use&& use) {
   use(euler::mixtureOf<3>(gases));
 }
 
-/// Like advanceImplicitly, for several gases: u_f carries the masses and the volume fractions.
+/// Performs one step of several gases on a patch, like advanceImplicitly; u_f carries the masses and the volume
+/// fractions.
 template <int D>
 void advanceMixtureImplicitly(const Patch& patch, const Gases& gases, const IceSettings& settings,
                               const euler::OldState<D>& before, const std::vector<euler::OldGas>& oldGases, double time,
@@ -112,7 +114,7 @@ void advanceMixtureImplicitly(const Patch& patch, const Gases& gases, const IceS
   refuseCrossing(most, dt);
 }
 
-/// Like limitImplicitStep, for several gases; a separate task limits the step by diffusion.
+/// Limits the time step of several gases, like limitImplicitStep; a separate task limits it by diffusion.
 template <int D>
 void limitImplicitMixture(const Patch& patch, const Gases& gases, double cfl, const IceSettings& settings,
                           const euler::OldState<D>& before, const std::vector<euler::OldGas>& held, double time,

@@ -41,7 +41,7 @@ class ImplicitStep {
   double computeFluxes(const Box& faces, int axis) {
     return computeFluxes(faces, axis, [](const Index<D>&) { return 1.0; });
   }
-  /// Like the function above, with flow only through the open fraction `open(face)` of each face.
+  /// Computes fluxes like the function above, with flow only through the open fraction `open(face)` of each face.
   template <class Open>
   double computeFluxes(const Box& faces, int axis, Open&& open) {
     double most = 0;
@@ -73,7 +73,7 @@ class ImplicitStep {
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh) {
     addGravity(block, axis, fresh, [](const Index<D>&) { return true; });
   }
-  /// Like the function above, but only in the cells for which `takes(cell)` is true.
+  /// Adds gravity like the function above, but only in the cells for which `takes(cell)` is true.
   template <class Takes>
   void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh, Takes&& takes) {
     const double g = flow_.gravity()[axis];

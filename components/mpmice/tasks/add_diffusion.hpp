@@ -121,7 +121,7 @@ void findTemperatures(const euler::Gas& gas, const Level& level, const GasInCell
   });
 }
 
-/// Stores the diffusive fluxes [Pa and W/m²] through the rim of the level, for the state before small cells are merged.
+/// The places for the diffusive fluxes [Pa and W/m²] through the rim of the level, before small cells are merged.
 template <int D>
 struct RimsOfDiffusion : euler::DiffusionRims<D> {
   static RimsOfDiffusion from(auto& take) {
@@ -169,8 +169,8 @@ auto diffusingGas(const Level& level, const Settings& settings, const GasInCells
   };
 }
 
-/// Like addDiffusion, for varying viscosity and conductivity, or for several gases. The flux through a face uses the
-/// means of the coefficients of the cells on both sides.
+/// Adds the changes due to viscosity and conduction in a step, like addDiffusion, for varying coefficients or several
+/// gases. The flux through a face uses the means of the coefficients of the cells on both sides.
 template <int D>
 void addVaryingDiffusion(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, double dt,
                          CellView<Vec<D>> momentum, CellView<double> totalEnergy, const RimsOfDiffusion<D>& rims) {

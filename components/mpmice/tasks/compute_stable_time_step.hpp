@@ -31,7 +31,7 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, const G
   if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
 }
 
-/// Like computeStableTimeStep, for several gases.
+/// Computes the stable time step of several gases, like computeStableTimeStep.
 template <int D>
 void limitStepOfGases(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
   const Level& level = patch.level();
